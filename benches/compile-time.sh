@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# What rustc takes for generated bindings, per entry: benches/compile-time.sh DESCRIPTION [RUNS]
+#
+# Prints, for handles alone and for handles with accessors, the median of RUNS runs of `rustc --emit=metadata`, less
+# what rustc takes for an empty crate.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+input=$1
+runs=${2:-7}
+target=${CARGO_TARGET_DIR:-target}
+cargo build --quiet --release -p lexibus-codegen --features cli
+cargo check --quiet --release -p lexibus
+runtime=$(ls -t "$target"/release/deps/liblexibus-*.rmeta | head -n 1)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+median_ms() { # SOURCE
+    for _ in $(seq "$runs"); do
+        local start=$(date +%s%N)
+        rustc --edition 2021 --crate-type lib --emit=metadata -o "$work/out.rmeta" --extern lexibus="$runtime" "$1"
+        echo $((($(date +%s%N) - start) / 1000))
+    done | sort -n | sed -n "$(((runs + 1) / 2))p"
+}
+
+entries=$("$target/release/lexibus" info --format json "$input" | sed 's/.*"entries":\([0-9]*\).*/\1/')
+echo '#![no_std] extern crate lexibus;' > "$work/empty.rs"
+empty=$(median_ms "$work/empty.rs")
+for kind in handles accessors; do
+    options=()
+    [ "$kind" = handles ] && options=(--no-accessors --no-pdos)
+    "$target/release/lexibus" generate "$input" -A warnings ${options[@]+"${options[@]}"} --out "$work/bindings.rs"
+    printf '#![no_std]\npub mod device { include!("%s"); }\n' "$work/bindings.rs" > "$work/crate.rs"
+    all=$(median_ms "$work/crate.rs")
+    awk -v kind="$kind" -v all="$all" -v empty="$empty" -v entries="$entries" \
+        'BEGIN { printf "%-10s %6d entries %8.1f ms  %.3f ms an entry\n", kind, entries, (all - empty) / 1000, (all - empty) / 1000 / entries }'
+done

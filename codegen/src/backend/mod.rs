@@ -1,0 +1,4 @@
+//! Back ends: one folder an output. None of them looks at a source format.
+
+pub mod json;
+pub mod rust;

@@ -1,0 +1,65 @@
+//! Literals: text from a description can't break out of them.
+
+use std::fmt::Write;
+
+/// A string literal. Signs that could mislead a reader, or steer a terminal, are escaped.
+pub(super) fn string(text: &str) -> String {
+    let mut literal = String::with_capacity(text.len() + 2);
+    literal.push('"');
+    for letter in text.chars() {
+        match letter {
+            '"' => literal.push_str("\\\""),
+            '\\' => literal.push_str("\\\\"),
+            '\n' => literal.push_str("\\n"),
+            '\r' => literal.push_str("\\r"),
+            '\t' => literal.push_str("\\t"),
+            ' '..='~' => literal.push(letter),
+            _ if is_harmless(letter) => literal.push(letter),
+            _ => {
+                let _ = write!(literal, "\\u{{{:x}}}", u32::from(letter));
+            }
+        }
+    }
+    literal.push('"');
+    literal
+}
+
+/// A byte string literal.
+pub(super) fn bytes(bytes: &[u8]) -> String {
+    let mut literal = String::with_capacity(bytes.len() * 4 + 3);
+    literal.push_str("b\"");
+    for byte in bytes {
+        let _ = write!(literal, "\\x{byte:02x}");
+    }
+    literal.push('"');
+    literal
+}
+
+/// Letters and digits of any script, and the signs of units.
+pub(super) fn is_harmless(letter: char) -> bool {
+    letter.is_ascii_graphic() || letter == ' ' || letter.is_alphanumeric() || matches!(letter, '°' | 'µ' | '±' | '·' | '€')
+}
+
+/// A REAL32 or REAL64 literal; `None` for a number that the type doesn't have.
+pub(super) fn real(value: f64, bits: u32) -> Option<String> {
+    if bits == 32 {
+        let value = value as f32;
+        return value.is_finite().then(|| format!("{value:?}"));
+    }
+    value.is_finite().then(|| format!("{value:?}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_breaks_out() {
+        assert_eq!(string("a\"\\\n\u{202e}\u{7f}ü"), r#""a\"\\\n\u{202e}\u{7f}ü""#);
+        assert_eq!(bytes(b"\0\"\xff"), r#"b"\x00\x22\xff""#);
+        assert_eq!(real(0.1, 32).as_deref(), Some("0.1"));
+        assert_eq!(real(3.402823e38, 32).as_deref(), Some("3.402823e38"));
+        assert_eq!(real(1e300, 32), None);
+        assert_eq!(real(5.0, 64).as_deref(), Some("5.0"));
+    }
+}

@@ -1,0 +1,457 @@
+//! The plain data that the template writes down.
+
+use super::docs;
+use super::literal;
+use super::options::{Presence, RustOptions};
+use super::pdo::{self, PdoModel};
+use super::value_type::ValueType;
+use super::INTERFACE_VERSION;
+use crate::ir::{Access, Device, FileInfo, Group, Item, ObjectCode, Value};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// A device, ready to be written.
+pub(super) struct Model<'a> {
+    pub options: &'a RustOptions,
+    pub compiler_version: &'static str,
+    pub interface_version: u32,
+    pub file_name: String,
+    pub sha256: &'a str,
+    pub device_name: String,
+    pub title: String,
+    pub identity: IdentityModel,
+    pub node_id: Option<u8>,
+    pub accessor_derives: Vec<String>,
+    /// Lints that a name of the dictionary would trip over.
+    pub method_allow: Option<String>,
+    pub objects: Vec<ObjectModel>,
+    pub aliases: Vec<Alias>,
+    pub pdos: Vec<PdoModel>,
+    pub table: Option<Vec<EntryModel>>,
+    pub table_feature: Option<String>,
+}
+
+pub(super) struct IdentityModel {
+    pub vendor_id: String,
+    pub product_code: String,
+    pub revision_number: String,
+    pub vendor_name: String,
+    pub product_name: String,
+    pub order_code: String,
+}
+
+/// An object: one value, or a module of several.
+pub(super) struct ObjectModel {
+    pub name: String,
+    pub docs: Vec<String>,
+    pub heading: String,
+    pub items: Vec<ItemModel>,
+    pub is_module: bool,
+    pub method_allow: Option<String>,
+}
+
+/// An entry.
+pub(super) struct ItemModel {
+    pub constant: String,
+    pub method: String,
+    pub docs: Vec<String>,
+    pub heading: String,
+    pub access: &'static str,
+    pub value: &'static str,
+    pub location: String,
+    pub name: String,
+    pub range: String,
+    pub initial: String,
+    pub unit: String,
+    pub flags: &'static str,
+    /// Whether a literal may resemble a mathematical constant.
+    pub real: bool,
+}
+
+/// A short name of the handles with one access.
+pub(super) struct Alias {
+    pub name: &'static str,
+    pub marker: &'static str,
+    pub text: &'static str,
+}
+
+/// A row of the static table.
+pub(super) struct EntryModel {
+    pub index: u16,
+    pub sub_index: u8,
+    pub name: String,
+    pub data_type: &'static str,
+    pub access: &'static str,
+    pub flags: &'static str,
+    pub initial: String,
+    pub low: String,
+    pub high: String,
+    pub unit: String,
+}
+
+/// Names that modules and methods of objects must not have: the device's own, and those that would hide a primitive
+/// type or the runtime.
+const RESERVED: [&str; 26] = [
+    "new", "client", "into_client", "objects", "pdo", "rt", "bool", "char", "str", "u8", "u16", "u32", "u64", "u128",
+    "usize", "i8", "i16", "i32", "i64", "i128", "isize", "f32", "f64", "self", "super", "crate",
+];
+
+/// Constants of an object have nothing to clash with.
+const RESERVED_IN_OBJECT: [&str; 4] = ["self", "super", "crate", "rt"];
+
+impl<'a> Model<'a> {
+    pub(super) fn new(device: &'a Device, file: &'a FileInfo, options: &'a RustOptions) -> Self {
+        let objects = objects(device);
+        let aliases = ALIASES.iter().filter(|alias| uses(&objects, alias.name)).copied().collect();
+        let title = title(device);
+        Model {
+            options,
+            compiler_version: env!("CARGO_PKG_VERSION"),
+            interface_version: INTERFACE_VERSION,
+            file_name: file_name(file),
+            sha256: &file.sha256,
+            device_name: device_name(device, file, options.device_name.as_deref()),
+            title: docs::escape(&title),
+            identity: IdentityModel::new(device),
+            node_id: device.commissioning.as_ref().and_then(|own| own.node_id),
+            accessor_derives: options.derives(false),
+            method_allow: method_allow(objects.iter().map(|object| object.name.as_str())),
+            pdos: if options.pdos { pdo::models(device, options) } else { Vec::new() },
+            table: (options.table != Presence::Never).then(|| table(device)),
+            table_feature: match &options.table {
+                Presence::Feature(feature) => Some(literal::string(feature)),
+                _ => None,
+            },
+            objects,
+            aliases,
+        }
+    }
+
+    pub(super) fn size_hint(&self) -> usize {
+        let items: usize = self.objects.iter().map(|object| object.items.len()).sum();
+        4096 + items * 900 + self.pdos.len() * 4096 + self.table.as_ref().map_or(0, |table| table.len() * 400)
+    }
+}
+
+/// The file's own name, without the folders that lead to it on this machine.
+fn file_name(file: &FileInfo) -> String {
+    let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
+    name.chars().map(|letter| if literal::is_harmless(letter) { letter } else { ' ' }).collect()
+}
+
+fn title(device: &Device) -> String {
+    let identity = &device.identity;
+    match (identity.vendor_name.is_empty(), device.name.is_empty()) {
+        (false, false) => format!("{} {}", identity.vendor_name, device.name),
+        (true, false) => device.name.to_string(),
+        (false, true) => format!("a device of {}", identity.vendor_name),
+        (true, true) => "the device".to_owned(),
+    }
+}
+
+/// The name of the device's type: the caller's, the product's, or the file's.
+pub(super) fn device_name(device: &Device, file: &FileInfo, chosen: Option<&str>) -> String {
+    name_of(device, file, chosen, Case::Pascal)
+}
+
+/// The name of the device's module.
+pub(super) fn module_name(device: &Device, file: &FileInfo) -> String {
+    name_of(device, file, None, Case::Snake)
+}
+
+fn name_of(device: &Device, file: &FileInfo, chosen: Option<&str>, case: Case) -> String {
+    let stem = file_name(file);
+    let stem = stem.rsplit_once('.').map_or(stem.as_str(), |(stem, _)| stem);
+    let names = [chosen.unwrap_or(""), &device.name, stem, "device"];
+    let wish = |name| Wish { name, fallback: String::new(), suffix: "device".into() };
+    let candidates = names.iter().map(|name| names_unique::unique(&[wish(*name)], &["Self"], case).remove(0));
+    let name = candidates.into_iter().find(|name| !name.is_empty() && name != "_device").unwrap_or_default();
+    names_unique::escaped(&name)
+}
+
+/// A file's stem as the name of a module.
+pub(super) fn stem_name(stem: &str) -> Option<String> {
+    let wish = Wish { name: stem, fallback: String::new(), suffix: "device".into() };
+    let name = names_unique::unique(&[wish], &RESERVED_IN_OBJECT, Case::Snake).remove(0);
+    (!name.is_empty()).then_some(name)
+}
+
+impl IdentityModel {
+    fn new(device: &Device) -> Self {
+        let identity = &device.identity;
+        let number = |value: Option<u32>| match value {
+            Some(value) => format!("Some({value:#010X})").replace("0X", "0x"),
+            None => "None".to_owned(),
+        };
+        IdentityModel {
+            vendor_id: number(identity.vendor_id),
+            product_code: number(identity.product_code),
+            revision_number: number(identity.revision_number),
+            vendor_name: literal::string(&identity.vendor_name),
+            product_name: literal::string(&identity.product_name),
+            order_code: literal::string(&identity.order_code),
+        }
+    }
+}
+
+impl Clone for Alias {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl Copy for Alias {}
+
+const ALIASES: [Alias; 4] = [
+    Alias { name: "ReadOnly", marker: "rt::Ro", text: "that can be read" },
+    Alias { name: "WriteOnly", marker: "rt::Wo", text: "that can be written" },
+    Alias { name: "ReadWrite", marker: "rt::Rw", text: "that can be read and written" },
+    Alias { name: "Constant", marker: "rt::Const", text: "that can be read and never changes" },
+];
+
+fn alias(access: Access) -> &'static str {
+    match access {
+        Access::ReadOnly => "ReadOnly",
+        Access::WriteOnly => "WriteOnly",
+        Access::Constant => "Constant",
+        Access::ReadWrite | Access::ReadWriteInput | Access::ReadWriteOutput => "ReadWrite",
+    }
+}
+
+fn uses(objects: &[ObjectModel], alias: &str) -> bool {
+    objects.iter().flat_map(|object| &object.items).any(|item| item.access == alias)
+}
+
+/// Objects that have values to read or write; the definitions of types have none.
+pub(super) fn addressable(device: &Device) -> impl Iterator<Item = &Group> {
+    device.groups.iter().filter(|group| {
+        let is_type = matches!(group.object_code(), Some(ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null));
+        group.index().is_some() && !is_type && !group.items.is_empty()
+    })
+}
+
+fn objects(device: &Device) -> Vec<ObjectModel> {
+    let groups: Vec<&Group> = addressable(device).collect();
+    let wishes: Vec<Wish<'_>> = groups
+        .iter()
+        .map(|group| {
+            let index = group.index().unwrap_or(0);
+            Wish { name: &group.name, fallback: format!("object {index:04X}"), suffix: format!("{index:04X}") }
+        })
+        .collect();
+    let names = names_unique::unique(&wishes, &RESERVED, Case::Snake);
+    groups.iter().zip(names).map(|(group, name)| object(group, name)).collect()
+}
+
+fn is_module(group: &Group) -> bool {
+    group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
+}
+
+fn object(group: &Group, name: String) -> ObjectModel {
+    let index = group.index().unwrap_or(0);
+    let address = format!("0x{index:04X}");
+    let title = if group.name.trim().is_empty() { address.clone() } else { docs::escape(&group.name) };
+    let is_module = is_module(group);
+    let items = if is_module {
+        sub_items(group)
+    } else {
+        let only = group.items.iter().map(|only| item(only, &name, &group.name));
+        only.collect()
+    };
+    let code = group.object_code().map_or("", ObjectCode::name);
+    ObjectModel {
+        docs: vec![docs::sentence(&title), String::new(), format!("{code} {address}.")],
+        heading: heading(&group.name, &address),
+        method_allow: method_allow(items.iter().map(|item| item.method.as_str())),
+        name: names_unique::escaped(&name),
+        items,
+        is_module,
+    }
+}
+
+fn sub_items(group: &Group) -> Vec<ItemModel> {
+    let wishes: Vec<Wish<'_>> = group
+        .items
+        .iter()
+        .map(|item| {
+            let sub = item.object().map_or(0, |(_, sub)| sub);
+            Wish { name: &item.name, fallback: format!("sub {sub}"), suffix: sub.to_string() }
+        })
+        .collect();
+    let names = names_unique::unique(&wishes, &RESERVED_IN_OBJECT, Case::Snake);
+    group.items.iter().zip(names).map(|(sub, name)| item(sub, &name, &sub.name)).collect()
+}
+
+fn heading(name: &str, address: &str) -> String {
+    match name.trim() {
+        "" => format!("{address}."),
+        name => format!("{}: {address}.", docs::escape(name).trim_end_matches('.')),
+    }
+}
+
+fn item(item: &Item, name: &str, original: &str) -> ItemModel {
+    let (index, sub) = item.object().unwrap_or((0, 0));
+    let ty = ValueType::of(item.ty);
+    let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
+    ItemModel {
+        constant: name.to_ascii_uppercase(),
+        method: names_unique::escaped(name),
+        docs: docs::item(item, original),
+        heading: heading(original, &format!("0x{index:04X}:{sub:02X}")),
+        access: alias(item.access),
+        value: ty.path(),
+        location: format!("rt::OnCanOpen::canopen(0x{index:04X}, 0x{sub:02X})"),
+        name: literal::string(original),
+        range: ty.range(&item.limits),
+        initial: ty.initial(item.default.as_ref()),
+        unit: literal::string(unit),
+        flags: flags(item),
+        real: ty.is_real() && (item.default.is_some() || !item.limits.is_empty()),
+    }
+}
+
+fn flags(item: &Item) -> &'static str {
+    match (item.mappable.rpdo, item.mappable.tpdo) {
+        (true, true) => "rt::Flags::PDO",
+        (true, false) => "rt::Flags::RPDO",
+        (false, true) => "rt::Flags::TPDO",
+        (false, false) => "rt::Flags::NONE",
+    }
+}
+
+/// The attribute that methods of these names need: clippy reads a meaning into some prefixes.
+fn method_allow<'n>(names: impl Iterator<Item = &'n str>) -> Option<String> {
+    const PREFIXES: [&str; 5] = ["from_", "into_", "to_", "is_", "as_"];
+    const TRAITS: [&str; 3] = ["next", "deref_mut", "borrow_mut"];
+    let (mut conventions, mut traits) = (false, false);
+    for name in names {
+        conventions |= PREFIXES.iter().any(|prefix| name.starts_with(prefix));
+        traits |= TRAITS.contains(&name);
+    }
+    match (conventions, traits) {
+        (false, false) => None,
+        (true, false) => Some("#[allow(clippy::wrong_self_convention)]".into()),
+        (false, true) => Some("#[allow(clippy::should_implement_trait)]".into()),
+        (true, true) => Some("#[allow(clippy::should_implement_trait, clippy::wrong_self_convention)]".into()),
+    }
+}
+
+/// The table of all entries, by index and sub-index.
+fn table(device: &Device) -> Vec<EntryModel> {
+    let mut rows = Vec::new();
+    for group in addressable(device) {
+        let by_object = !is_module(group);
+        for item in &group.items {
+            let name = if by_object { &group.name } else { &item.name };
+            rows.push(entry(item, name));
+        }
+    }
+    rows.sort_by_key(|row: &EntryModel| (row.index, row.sub_index));
+    rows
+}
+
+fn entry(item: &Item, name: &str) -> EntryModel {
+    let (index, sub_index) = item.object().unwrap_or((0, 0));
+    let ty = ValueType::of(item.ty);
+    let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
+    EntryModel {
+        index,
+        sub_index,
+        name: literal::string(name),
+        data_type: data_type(item.ty),
+        access: match item.access {
+            Access::ReadOnly => "ReadOnly",
+            Access::WriteOnly => "WriteOnly",
+            Access::Constant => "Constant",
+            _ => "ReadWrite",
+        },
+        flags: flags(item),
+        initial: raw_initial(item, ty),
+        low: bound(item.limits.low.as_ref(), item),
+        high: bound(item.limits.high.as_ref(), item),
+        unit: literal::string(unit),
+    }
+}
+
+fn data_type(ty: crate::ir::Type) -> &'static str {
+    use crate::ir::Type;
+    match ty {
+        Type::Boolean => "Boolean",
+        Type::Integer(8) => "Integer8",
+        Type::Integer(16) => "Integer16",
+        Type::Integer(24) => "Integer24",
+        Type::Integer(32) => "Integer32",
+        Type::Integer(40) => "Integer40",
+        Type::Integer(48) => "Integer48",
+        Type::Integer(56) => "Integer56",
+        Type::Integer(64) => "Integer64",
+        Type::Unsigned(8) => "Unsigned8",
+        Type::Unsigned(16) => "Unsigned16",
+        Type::Unsigned(24) => "Unsigned24",
+        Type::Unsigned(32) => "Unsigned32",
+        Type::Unsigned(40) => "Unsigned40",
+        Type::Unsigned(48) => "Unsigned48",
+        Type::Unsigned(56) => "Unsigned56",
+        Type::Unsigned(64) => "Unsigned64",
+        Type::Real32 => "Real32",
+        Type::Real64 => "Real64",
+        Type::VisibleString(_) => "VisibleString",
+        Type::OctetString(_) => "OctetString",
+        Type::UnicodeString(_) => "UnicodeString",
+        Type::TimeOfDay => "TimeOfDay",
+        Type::TimeDifference => "TimeDifference",
+        Type::Domain => "Domain",
+        _ => "Opaque",
+    }
+}
+
+/// The default as the bytes that an SDO upload gives.
+fn raw_initial(item: &Item, ty: ValueType) -> String {
+    let bytes = match item.default.as_ref() {
+        Some(Value::NodeId(offset)) if u64::try_from(*offset).is_ok() => {
+            return format!("rt::table::RawInitial::NodeId({offset:#x})");
+        }
+        Some(value) if ty.literal(value).is_some() => raw_bytes(value, item.ty),
+        _ => None,
+    };
+    match bytes {
+        Some(bytes) => format!("rt::table::RawInitial::Bytes(«{}»)", literal::bytes(&bytes)),
+        None => "rt::table::RawInitial::Unknown".to_owned(),
+    }
+}
+
+fn raw_bytes(value: &Value, ty: crate::ir::Type) -> Option<Vec<u8>> {
+    let length = ty.bits().map(|bits| bits.div_ceil(8) as usize);
+    let number = |value: i128| length.map(|length| value.to_le_bytes()[..length.min(16)].to_vec());
+    match (value, ty) {
+        (_, crate::ir::Type::Real32) => Some((value.as_real()? as f32).to_le_bytes().to_vec()),
+        (_, crate::ir::Type::Real64) => Some(value.as_real()?.to_le_bytes().to_vec()),
+        (Value::Bool(value), _) => Some(vec![u8::from(*value)]),
+        (Value::Int(value), _) => number(*value),
+        (Value::Text(text), crate::ir::Type::UnicodeString(_)) => {
+            Some(text.encode_utf16().flat_map(u16::to_le_bytes).collect())
+        }
+        (Value::Text(text), _) => Some(text.as_bytes().to_vec()),
+        (Value::Bytes(bytes), _) => Some(bytes.clone()),
+        (Value::Time { milliseconds, days }, _) => {
+            number(i128::from(*milliseconds) | i128::from(*days) << 32)
+        }
+        _ => None,
+    }
+}
+
+fn bound(value: Option<&Value>, item: &Item) -> String {
+    let real = matches!(item.ty, crate::ir::Type::Real32 | crate::ir::Type::Real64);
+    let Some(value) = value else { return "rt::table::Bound::Unlimited".to_owned() };
+    match value {
+        _ if real => match value.as_real().and_then(|value| literal::real(value, 64)) {
+            Some(literal) => format!("rt::table::Bound::Real({literal})"),
+            None => "rt::table::Bound::Unlimited".to_owned(),
+        },
+        Value::Int(value) => match (i64::try_from(*value), u64::try_from(*value)) {
+            (_, Ok(unsigned)) if !item.ty.is_signed() => format!("rt::table::Bound::Unsigned({unsigned})"),
+            (Ok(signed), _) => format!("rt::table::Bound::Signed({signed})"),
+            _ => "rt::table::Bound::Unlimited".to_owned(),
+        },
+        _ => "rt::table::Bound::Unlimited".to_owned(),
+    }
+}

@@ -1,0 +1,304 @@
+//! PDO structs: fields, packing by whole-word shifts, and the sequence that configures the device.
+
+use super::docs;
+use super::model::addressable;
+use super::options::RustOptions;
+use crate::ir::{Device, Direction, Group, Pdo, PdoEntry, PdoEntryKind, Type, Value};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// The longest name of a field: the lines that pack it have to stay below the margin.
+const MAX_FIELD_NAME: usize = 30;
+
+/// Bits of a word.
+const WORD: u32 = 64;
+
+/// A PDO, ready to be written.
+pub(super) struct PdoModel {
+    pub name: String,
+    pub docs: Vec<String>,
+    pub derives: Vec<String>,
+    pub mapping_index: u16,
+    pub bits: u32,
+    pub length: usize,
+    /// Whether packing and unpacking are `const fn` in the oldest Rust that the runtime supports.
+    pub constant: &'static str,
+    pub fields: Vec<FieldModel>,
+    pub mapping: Vec<String>,
+    pub word: bool,
+    /// All bits that a field covers.
+    pub covered: String,
+    pub cob_id: Option<String>,
+    pub configuration: Vec<String>,
+}
+
+/// A field.
+pub(super) struct FieldModel {
+    pub name: String,
+    pub docs: Vec<String>,
+    pub ty: String,
+    /// Its bits as an `u64`.
+    pub encode: String,
+    /// The field from its bits, `§` standing for the word that has them lowest.
+    pub decode: String,
+    pub offset: u32,
+    pub bits: u32,
+    /// A field of more than a word: copied as bytes.
+    pub long: bool,
+}
+
+/// Models of all PDOs that have something to carry.
+pub(super) fn models(device: &Device, options: &RustOptions) -> Vec<PdoModel> {
+    device.process_data.pdos.iter().filter_map(|pdo| model(device, pdo, options)).collect()
+}
+
+fn model(device: &Device, pdo: &Pdo, options: &RustOptions) -> Option<PdoModel> {
+    let mapped: Vec<&PdoEntry> = pdo.entries.iter().filter(|entry| is_field(entry)).collect();
+    let has_odd_bytes = mapped.iter().any(|entry| entry.bits > WORD && entry.bits % 8 != 0);
+    if mapped.is_empty() || has_odd_bytes {
+        return None;
+    }
+    let fields = fields(device, &mapped);
+    let (prefix, title) = match pdo.direction {
+        Direction::Receive => ("RxPdo", "RPDO"),
+        Direction::Transmit => ("TxPdo", "TPDO"),
+    };
+    let name = if pdo.name.is_empty() { String::new() } else { format!(": {}", docs::escape(&pdo.name)) };
+    let is_constant = !mapped.iter().any(|entry| matches!(field_type(entry), FieldType::Real(_)));
+    let word = pdo.bits() <= WORD;
+    Some(PdoModel {
+        name: format!("{prefix}{}", pdo.number),
+        docs: vec![
+            docs::sentence(&format!("{title} {}{name}", pdo.number)),
+            String::new(),
+            format!("Mapping 0x{:04X}, {} bits.", pdo.mapping_index, pdo.bits()),
+        ],
+        derives: options.derives(true),
+        mapping_index: pdo.mapping_index,
+        bits: pdo.bits(),
+        length: pdo.bytes(),
+        constant: if is_constant && word { "const " } else { "" },
+        covered: covered(&mapped),
+        fields,
+        mapping: pdo.entries.iter().map(mapping_entry).collect(),
+        word,
+        cob_id: cob_id(pdo),
+        configuration: configuration(device, pdo),
+    })
+}
+
+fn is_field(entry: &PdoEntry) -> bool {
+    entry.kind != PdoEntryKind::Padding && entry.bits > 0
+}
+
+fn covered(mapped: &[&PdoEntry]) -> String {
+    let mut covered: u64 = 0;
+    for entry in mapped.iter().filter(|entry| entry.bit_offset + entry.bits <= WORD) {
+        covered |= (u64::MAX >> (WORD - entry.bits)) << entry.bit_offset;
+    }
+    format!("{covered:#X}").replace("0X", "0x")
+}
+
+fn mapping_entry(entry: &PdoEntry) -> String {
+    format!("rt::MappedEntry::new(0x{:04X}, 0x{:02X}, {})", entry.index, entry.sub_index, entry.bits)
+}
+
+fn fields(device: &Device, mapped: &[&PdoEntry]) -> Vec<FieldModel> {
+    let texts: Vec<String> = mapped.iter().map(|entry| field_text(device, entry)).collect();
+    let wishes: Vec<Wish<'_>> = mapped
+        .iter()
+        .zip(&texts)
+        .enumerate()
+        .map(|(position, (entry, text))| {
+            let twice = mapped[..position].iter().any(|other| address(other) == address(entry));
+            let place = if twice { format!("_{}", entry.bit_offset) } else { String::new() };
+            Wish {
+                name: text,
+                fallback: format!("object {:04X} {:02X}", entry.index, entry.sub_index),
+                suffix: format!("{:04X}_{}{place}", entry.index, entry.sub_index),
+            }
+        })
+        .collect();
+    let names = names_unique::unique_up_to(&wishes, &["self", "super", "crate"], Case::Snake, MAX_FIELD_NAME);
+    mapped.iter().zip(names).zip(&texts).map(|((entry, name), text)| field(entry, &name, text)).collect()
+}
+
+fn address(entry: &PdoEntry) -> (u16, u8) {
+    (entry.index, entry.sub_index)
+}
+
+/// The name of the mapped entry: that of its object, and for one of several of an object also its own.
+fn field_text(device: &Device, entry: &PdoEntry) -> String {
+    let Some(group) = device.object(entry.index) else { return entry.name.to_string() };
+    if group.object_code().is_some_and(|code| code.has_subs()) || group.items.len() != 1 {
+        let own = entry.name.as_str();
+        // Compact objects repeat the object's name in that of each entry.
+        if own.starts_with(group.name.as_str()) { own.to_owned() } else { format!("{} {own}", group.name) }
+    } else {
+        group.name.to_string()
+    }
+}
+
+/// How the bits of an entry are written in Rust.
+enum FieldType {
+    Bool,
+    /// An integer of Rust's own.
+    Native(&'static str),
+    /// An integer of another width.
+    Odd(bool, u32),
+    Real(u32),
+    Time(&'static str),
+    Bytes(u32),
+}
+
+fn field_type(entry: &PdoEntry) -> FieldType {
+    let bits = entry.bits;
+    let is_whole = entry.ty.bits() == Some(bits);
+    match entry.ty {
+        Type::Boolean if bits == 1 => FieldType::Bool,
+        Type::Real32 | Type::Real64 if is_whole => FieldType::Real(bits),
+        Type::TimeOfDay if is_whole => FieldType::Time("rt::TimeOfDay"),
+        Type::TimeDifference if is_whole => FieldType::Time("rt::TimeDifference"),
+        Type::Integer(_) if bits <= WORD => integer(true, bits),
+        Type::VisibleString(_) | Type::OctetString(_) | Type::UnicodeString(_) | Type::Domain if bits % 8 == 0 => {
+            FieldType::Bytes(bits / 8)
+        }
+        _ if bits > WORD => FieldType::Bytes(bits / 8),
+        _ => integer(false, bits),
+    }
+}
+
+fn integer(signed: bool, bits: u32) -> FieldType {
+    match (signed, bits) {
+        (true, 8) => FieldType::Native("i8"),
+        (true, 16) => FieldType::Native("i16"),
+        (true, 32) => FieldType::Native("i32"),
+        (true, 64) => FieldType::Native("i64"),
+        (false, 8) => FieldType::Native("u8"),
+        (false, 16) => FieldType::Native("u16"),
+        (false, 32) => FieldType::Native("u32"),
+        (false, 64) => FieldType::Native("u64"),
+        _ => FieldType::Odd(signed, bits),
+    }
+}
+
+fn field(entry: &PdoEntry, name: &str, text: &str) -> FieldModel {
+    let name = names_unique::escaped(name);
+    let own = format!("self.{name}");
+    let (ty, encode, decode) = match field_type(entry) {
+        FieldType::Bool => ("bool".to_owned(), format!("{own} as u64"), "§ & 1 == 1".to_owned()),
+        FieldType::Native("u64") => ("u64".to_owned(), own, "§".to_owned()),
+        FieldType::Native("i64") => ("i64".to_owned(), format!("{own} as u64"), "§ as i64".to_owned()),
+        // A signed number is cut to its width before it is widened, or its sign would spread over the word.
+        FieldType::Native(signed) if signed.starts_with('i') => {
+            (signed.to_owned(), format!("{own} as u{} as u64", entry.bits), format!("§ as {signed}"))
+        }
+        FieldType::Native(unsigned) => (unsigned.to_owned(), format!("{own} as u64"), format!("§ as {unsigned}")),
+        FieldType::Odd(signed, bits) => {
+            let name = if signed { "rt::Int" } else { "rt::Uint" };
+            (format!("{name}<{bits}>"), format!("{own}.raw()"), format!("{name}::from_raw(§)"))
+        }
+        FieldType::Real(32) => ("f32".to_owned(), format!("{own}.to_bits() as u64"), "f32::from_bits(§ as u32)".to_owned()),
+        FieldType::Real(_) => ("f64".to_owned(), format!("{own}.to_bits()"), "f64::from_bits(§)".to_owned()),
+        FieldType::Time(path) => (path.to_owned(), format!("{own}.raw()"), format!("{path}::from_raw(§)")),
+        FieldType::Bytes(length) => (
+            format!("[u8; {length}]"),
+            format!("rt::pdo::from_bytes(&{own})"),
+            "rt::pdo::to_bytes(§)".to_owned(),
+        ),
+    };
+    let facts = format!("0x{:04X}:{:02X}, {} bits from bit {}.", entry.index, entry.sub_index, entry.bits, entry.bit_offset);
+    let title = docs::escape(text);
+    FieldModel {
+        docs: if title.is_empty() { vec![facts] } else { vec![format!("{}: {facts}", title.trim_end_matches(['.', ':']))] },
+        name,
+        ty,
+        encode,
+        decode,
+        offset: entry.bit_offset,
+        bits: entry.bits,
+        long: entry.bits > WORD,
+    }
+}
+
+impl FieldModel {
+    /// The field from `word`, which has all bits of the PDO.
+    pub(super) fn from_word(&self) -> String {
+        let shifted = if self.offset == 0 { "word".to_owned() } else { format!("word >> {}", self.offset) };
+        let in_parentheses = self.decode.contains("(§)") || self.decode == "§";
+        let bits = if self.offset == 0 || in_parentheses { shifted } else { format!("({shifted})") };
+        let decoded = self.decode.replace('§', &bits);
+        // Precedence of `&` and `==` is plain only with brackets.
+        match decoded.strip_suffix(" & 1 == 1") {
+            Some(bit) => format!("({bit}) & 1 == 1").replace("((", "(").replace("))", ")"),
+            None => decoded,
+        }
+    }
+
+    /// The field from `data`, for PDOs of more than a word.
+    pub(super) fn from_data(&self) -> String {
+        if self.long {
+            return format!("rt::bits::get_bytes(data, {})", self.offset);
+        }
+        let bits = format!("rt::bits::get(data, {}, {})", self.offset, self.bits);
+        self.decode.replace('§', &bits)
+    }
+
+    /// The statement that puts the field into `data`, for PDOs of more than a word.
+    pub(super) fn into_data(&self) -> String {
+        if self.long {
+            return format!("data = rt::bits::put_bytes(data, {}, &self.{});", self.offset, self.name);
+        }
+        format!("data = rt::bits::put(data, {}, {}, bits);", self.offset, self.bits)
+    }
+}
+
+fn cob_id(pdo: &Pdo) -> Option<String> {
+    let value = pdo.communication.as_ref()?.cob_id.as_ref()?;
+    let number = |value: &i128| u32::try_from(*value).ok();
+    match value {
+        Value::NodeId(offset) => Some(format!("rt::CobId::from_node({:#x})", number(offset)?)),
+        Value::Int(value) => Some(format!("rt::CobId::fixed({:#x})", number(value)?)),
+        _ => None,
+    }
+}
+
+/// The writes that set the PDO up as described: disable, clear, map, count, type, enable (CiA 301 7.5.2.36). What the
+/// device doesn't let anyone write is left out.
+fn configuration(device: &Device, pdo: &Pdo) -> Vec<String> {
+    let Some(communication) = &pdo.communication else { return Vec::new() };
+    let cob_id_writable = communication.writable.contains(&1);
+    if cob_id(pdo).is_none() || !cob_id_writable {
+        return Vec::new();
+    }
+    let mut writes = vec![write("u32", communication.index, 1, "cob_id | 0x8000_0000")];
+    writes.extend(mapping_writes(device, pdo));
+    if let Some(transmission) = communication.transmission_type.filter(|_| communication.writable.contains(&2)) {
+        writes.push(write("u8", communication.index, 2, &transmission.to_string()));
+    }
+    writes.push(write("u32", communication.index, 1, "cob_id"));
+    writes
+}
+
+fn mapping_writes(device: &Device, pdo: &Pdo) -> Vec<String> {
+    let writable = |group: &Group, sub| group.sub(sub).is_some_and(|item| item.access.writable());
+    let Some(mapping) = addressable(device).find(|group| group.index() == Some(pdo.mapping_index)) else {
+        return Vec::new();
+    };
+    let count = pdo.entries.len();
+    let all = u8::try_from(count).is_ok_and(|count| (0..=count).all(|sub| writable(mapping, sub)));
+    if !all {
+        return Vec::new();
+    }
+    let mut writes = vec![write("u8", pdo.mapping_index, 0, "0")];
+    for (entry, sub) in pdo.entries.iter().zip(1..=u8::MAX) {
+        let word = u32::from(entry.index) << 16 | u32::from(entry.sub_index) << 8 | (entry.bits & 0xFF);
+        writes.push(write("u32", pdo.mapping_index, sub, &format!("0x{:04X}_{:04X}", word >> 16, word & 0xFFFF)));
+    }
+    writes.push(write("u8", pdo.mapping_index, 0, &count.to_string()));
+    writes
+}
+
+fn write(ty: &str, index: u16, sub: u8, value: &str) -> String {
+    format!("rt::SdoWrite::new_{ty}(0x{index:04X}, 0x{sub:02X}, {value})")
+}
+

@@ -1,0 +1,185 @@
+//! How the IR's types and values are written in Rust.
+
+use super::literal;
+use crate::ir::{Limits, Type, Value};
+
+/// The type of an item's value, in terms of the runtime.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ValueType {
+    /// A type of Rust's own: `u16`, `i64`, `bool`, `f32`.
+    Native { name: &'static str, range: Option<(i128, i128)>, real: u32 },
+    /// `Uint<N>` or `Int<N>`.
+    Odd { name: &'static str, range: (i128, i128) },
+    /// Text in a literal.
+    Text(&'static str),
+    /// Bytes in a literal.
+    Bytes(&'static str),
+    /// A time.
+    Time(&'static str),
+}
+
+impl ValueType {
+    pub(super) fn of(ty: Type) -> Self {
+        let integer = |name| ValueType::Native { name, range: ty.integer_range(), real: 0 };
+        let odd = |name| ValueType::Odd { name, range: ty.integer_range().unwrap_or((0, 0)) };
+        match ty {
+            Type::Boolean => ValueType::Native { name: "bool", range: None, real: 0 },
+            Type::Integer(8) => integer("i8"),
+            Type::Integer(16) => integer("i16"),
+            Type::Integer(32) => integer("i32"),
+            Type::Integer(64) => integer("i64"),
+            Type::Unsigned(8) => integer("u8"),
+            Type::Unsigned(16) => integer("u16"),
+            Type::Unsigned(32) => integer("u32"),
+            Type::Unsigned(64) => integer("u64"),
+            Type::Integer(24) => odd("rt::Int<24>"),
+            Type::Integer(40) => odd("rt::Int<40>"),
+            Type::Integer(48) => odd("rt::Int<48>"),
+            Type::Integer(56) => odd("rt::Int<56>"),
+            Type::Unsigned(24) => odd("rt::Uint<24>"),
+            Type::Unsigned(40) => odd("rt::Uint<40>"),
+            Type::Unsigned(48) => odd("rt::Uint<48>"),
+            Type::Unsigned(56) => odd("rt::Uint<56>"),
+            Type::Real32 => ValueType::Native { name: "f32", range: None, real: 32 },
+            Type::Real64 => ValueType::Native { name: "f64", range: None, real: 64 },
+            Type::VisibleString(_) => ValueType::Text("rt::VisibleString"),
+            Type::UnicodeString(_) => ValueType::Text("rt::UnicodeString"),
+            Type::OctetString(_) => ValueType::Bytes("rt::OctetString"),
+            Type::Domain => ValueType::Bytes("rt::Domain"),
+            Type::TimeOfDay => ValueType::Time("rt::TimeOfDay"),
+            Type::TimeDifference => ValueType::Time("rt::TimeDifference"),
+            _ => ValueType::Bytes("rt::Opaque"),
+        }
+    }
+
+    /// Its path.
+    pub(super) fn path(self) -> &'static str {
+        match self {
+            ValueType::Native { name, .. } | ValueType::Odd { name, .. } => name,
+            ValueType::Text(path) | ValueType::Bytes(path) | ValueType::Time(path) => path,
+        }
+    }
+
+    /// Whether literals of the type may resemble a mathematical constant, which clippy would point out.
+    pub(super) fn is_real(self) -> bool {
+        matches!(self, ValueType::Native { real: 32 | 64, .. })
+    }
+
+    fn integers(self) -> Option<(i128, i128)> {
+        match self {
+            ValueType::Native { range, .. } => range,
+            ValueType::Odd { range, .. } => Some(range),
+            _ => None,
+        }
+    }
+
+    /// A literal of the type; `None` for a value that the type doesn't have.
+    pub(super) fn literal(self, value: &Value) -> Option<String> {
+        match (self, value) {
+            (ValueType::Native { name: "bool", .. }, Value::Bool(value)) => Some(value.to_string()),
+            (ValueType::Native { real: real @ (32 | 64), .. }, _) => literal::real(value.as_real()?, real),
+            (ValueType::Text(_), Value::Text(text)) => Some(literal::string(text)),
+            (ValueType::Bytes(_), Value::Bytes(bytes)) => Some(literal::bytes(bytes)),
+            (ValueType::Time(path), Value::Time { milliseconds, days }) => {
+                Some(format!("{path}::new({milliseconds}, {days})"))
+            }
+            (_, Value::Int(value)) => {
+                let (low, high) = self.integers()?;
+                (low..=high).contains(value).then(|| value.to_string())
+            }
+            _ => None,
+        }
+    }
+
+    /// An `Initial` of the type.
+    pub(super) fn initial(self, value: Option<&Value>) -> String {
+        if let (Some(Value::NodeId(offset)), Some((low, high))) = (value, self.integers()) {
+            if (low..=high).contains(offset) {
+                return format!("rt::Initial::NodeId({offset:#x})");
+            }
+        }
+        match value.and_then(|value| self.literal(value)) {
+            Some(literal) if matches!(self, ValueType::Bytes(_)) => format!("rt::Initial::bytes(«{literal}»)"),
+            Some(literal) => format!("rt::Initial::Value(«{literal}»)"),
+            None => "rt::Initial::Unknown".to_owned(),
+        }
+    }
+
+    /// A `Range` of the type: limits beyond the type are clamped to it, impossible ones are not checked.
+    pub(super) fn range(self, limits: &Limits) -> String {
+        const FULL: &str = "rt::Range::Full";
+        if limits.is_empty() {
+            return FULL.to_owned();
+        }
+        let (low, high) = match self.integers() {
+            Some(range) => match self.integer_limits(limits, range) {
+                Some(limits) => limits,
+                None => return FULL.to_owned(),
+            },
+            None if self.is_real() => match self.real_limits(limits) {
+                Some(limits) => limits,
+                None => return FULL.to_owned(),
+            },
+            None => return FULL.to_owned(),
+        };
+        match (low, high) {
+            (None, None) => FULL.to_owned(),
+            (Some(low), None) => format!("rt::Range::From({low})"),
+            (None, Some(high)) => format!("rt::Range::To({high})"),
+            (Some(low), Some(high)) => format!("rt::Range::Between({low}, {high})"),
+        }
+    }
+
+    fn integer_limits(self, limits: &Limits, range: (i128, i128)) -> Option<(Option<String>, Option<String>)> {
+        let bound = |value: &Option<Value>| match value {
+            Some(Value::Real(value)) => Some(*value as i128),
+            Some(value) => value.as_int(),
+            None => None,
+        };
+        let (low, high) = (bound(&limits.low), bound(&limits.high));
+        let (low, high) = (low.unwrap_or(range.0).max(range.0), high.unwrap_or(range.1).min(range.1));
+        if low > high {
+            return None;
+        }
+        let write = |value: i128, limit: i128| (value != limit).then(|| value.to_string());
+        Some((write(low, range.0), write(high, range.1)))
+    }
+
+    fn real_limits(self, limits: &Limits) -> Option<(Option<String>, Option<String>)> {
+        let bound = |value: &Option<Value>| value.as_ref().and_then(Value::as_real);
+        let (low, high) = (bound(&limits.low), bound(&limits.high));
+        if low.zip(high).is_some_and(|(low, high)| low > high) {
+            return None;
+        }
+        let write = |value: Option<f64>| value.and_then(|value| self.literal(&Value::Real(value)));
+        Some((write(low), write(high)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn limits(low: i128, high: i128) -> Limits {
+        Limits { low: Some(Value::Int(low)), high: Some(Value::Int(high)) }
+    }
+
+    #[test]
+    fn limits_are_clamped_and_impossible_ones_are_not_checked() {
+        let u16 = ValueType::of(Type::Unsigned(16));
+        assert_eq!(u16.range(&limits(0, 65536)), "rt::Range::Full");
+        assert_eq!(u16.range(&limits(5, 65536)), "rt::Range::From(5)");
+        assert_eq!(u16.range(&limits(5, 4)), "rt::Range::Full");
+        assert_eq!(ValueType::of(Type::Integer(24)).range(&limits(-8_388_608, 5)), "rt::Range::To(5)");
+        assert_eq!(ValueType::of(Type::Real32).range(&limits(0, 5)), "rt::Range::Between(0.0, 5.0)");
+    }
+
+    #[test]
+    fn initial_values() {
+        let u32 = ValueType::of(Type::Unsigned(32));
+        assert_eq!(u32.initial(Some(&Value::NodeId(0x180))), "rt::Initial::NodeId(0x180)");
+        assert_eq!(u32.initial(Some(&Value::Int(-1))), "rt::Initial::Unknown");
+        assert_eq!(u32.initial(Some(&Value::Int(7))), "rt::Initial::Value(«7»)");
+        assert_eq!(ValueType::of(Type::Boolean).initial(Some(&Value::Int(2))), "rt::Initial::Unknown");
+    }
+}

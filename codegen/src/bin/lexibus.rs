@@ -1,0 +1,7 @@
+//! The `lexibus` command line.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    lexibus_codegen::cli::main()
+}

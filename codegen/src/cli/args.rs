@@ -1,0 +1,212 @@
+//! The arguments of the command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+
+use super::Failure;
+use crate::backend::rust::{Presence, RustOptions};
+use crate::compile::Options;
+use crate::diagnostics::{Level, Levels};
+
+/// The object-dictionary compiler: device descriptions in, typed Rust out.
+#[derive(Debug, Parser)]
+#[command(name = "lexibus", version, arg_required_else_help = true)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Generate Rust bindings.
+    Generate(Generate),
+    /// Read and check device descriptions.
+    Check(Check),
+    /// Sum up device descriptions.
+    Info(Info),
+    /// Print the intermediate representation as JSON.
+    Dump(Dump),
+    /// Explain a diagnostic code; without one, list all of them.
+    Explain {
+        /// Identifier or name of the code, such as EDS020 or octal-number.
+        code: Option<String>,
+    },
+    /// Print a completion script for a shell.
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+}
+
+/// Files to read, and how.
+#[derive(Debug, Args)]
+pub(super) struct Inputs {
+    /// Device descriptions, and folders of them (searched for .eds, .dcf, .xdd, .xdc and .xpd).
+    #[arg(required = true, value_name = "FILE")]
+    pub paths: Vec<PathBuf>,
+    /// Turn every repair of the input into an error.
+    #[arg(long)]
+    pub strict: bool,
+    /// Don't report this code (an identifier, a name, or `warnings`).
+    #[arg(short = 'A', long = "allow", value_name = "CODE")]
+    pub allow: Vec<String>,
+    /// Report this code as a warning.
+    #[arg(short = 'W', long = "warn", value_name = "CODE")]
+    pub warn: Vec<String>,
+    /// Report this code as an error.
+    #[arg(short = 'D', long = "deny", value_name = "CODE")]
+    pub deny: Vec<String>,
+    /// Another name that formulas use for $NODEID.
+    #[arg(long, value_name = "NAME")]
+    pub node_id_alias: Vec<String>,
+    /// How findings are printed.
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = MessageFormat::Text)]
+    pub message_format: MessageFormat,
+    /// When to use colours.
+    #[arg(long, value_enum, value_name = "WHEN", default_value_t = Colour::Auto)]
+    pub color: Colour,
+    /// Number of files to read at once; by default, one a processor.
+    #[arg(short, long, value_name = "N")]
+    pub jobs: Option<usize>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum MessageFormat {
+    /// For people: the place, the line, a label.
+    Text,
+    /// One JSON object a line.
+    Json,
+    /// One SARIF 2.1.0 document.
+    Sarif,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Colour {
+    /// On a terminal.
+    Auto,
+    /// Always.
+    Always,
+    /// Never.
+    Never,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Check {
+    #[command(flatten)]
+    pub inputs: Inputs,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Info {
+    #[command(flatten)]
+    pub inputs: Inputs,
+    /// How the summary is printed.
+    #[arg(long, value_enum, default_value_t = InfoFormat::Text)]
+    pub format: InfoFormat,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum InfoFormat {
+    /// For people.
+    Text,
+    /// One JSON object a line.
+    Json,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Dump {
+    #[command(flatten)]
+    pub inputs: Inputs,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Generate {
+    #[command(flatten)]
+    pub inputs: Inputs,
+    /// The file to write (for one input), or the folder to write to; standard output where neither is given.
+    #[arg(short, long, value_name = "PATH")]
+    pub out: Option<PathBuf>,
+    /// Write nothing; fail where the output is missing or isn't what would be written.
+    #[arg(long, requires = "out")]
+    pub check: bool,
+    /// Name of the device's type.
+    #[arg(long, value_name = "NAME")]
+    pub device_name: Option<String>,
+    /// Path of the runtime crate.
+    #[arg(long, value_name = "PATH", default_value = "::lexibus")]
+    pub runtime: String,
+    /// Handles only: no device type with accessor methods.
+    #[arg(long)]
+    pub no_accessors: bool,
+    /// No PDO structs.
+    #[arg(long)]
+    pub no_pdos: bool,
+    /// The static table of all entries: always, never, or feature=NAME.
+    #[arg(long, value_name = "WHEN", default_value = "never", value_parser = presence)]
+    pub table: Presence,
+    /// Debug on generated types: always, never, or feature=NAME.
+    #[arg(long, value_name = "WHEN", default_value = "always", value_parser = presence)]
+    pub debug: Presence,
+    /// PartialEq on generated types: always, never, or feature=NAME.
+    #[arg(long, value_name = "WHEN", default_value = "always", value_parser = presence)]
+    pub partial_eq: Presence,
+    /// defmt::Format on generated types: always, never, or feature=NAME.
+    #[arg(long, value_name = "WHEN", default_value = "never", value_parser = presence)]
+    pub defmt: Presence,
+    /// serde's traits on generated types: always, never, or feature=NAME.
+    #[arg(long, value_name = "WHEN", default_value = "never", value_parser = presence)]
+    pub serde: Presence,
+}
+
+fn presence(text: &str) -> Result<Presence, String> {
+    match (text, text.strip_prefix("feature=")) {
+        ("always", _) => Ok(Presence::Always),
+        ("never", _) => Ok(Presence::Never),
+        (_, Some(feature)) if !feature.is_empty() => Ok(Presence::Feature(feature.to_owned())),
+        _ => Err("expected always, never or feature=NAME".to_owned()),
+    }
+}
+
+impl Inputs {
+    pub(super) fn options(&self) -> Result<Options, Failure> {
+        let mut levels = if self.strict { Levels::strict() } else { Levels::lenient() };
+        let settings = [(&self.allow, Level::Allow), (&self.warn, Level::Warn), (&self.deny, Level::Deny)];
+        for (codes, level) in settings {
+            for code in codes {
+                levels.set(code, level).map_err(|error| Failure::Usage(error.to_string()))?;
+            }
+        }
+        Ok(Options { levels, node_id_aliases: self.node_id_alias.clone(), ..Options::default() })
+    }
+}
+
+impl Generate {
+    pub(super) fn rust_options(&self) -> RustOptions {
+        RustOptions {
+            device_name: self.device_name.clone(),
+            runtime: self.runtime.clone(),
+            accessors: !self.no_accessors,
+            pdos: !self.no_pdos,
+            table: self.table.clone(),
+            debug: self.debug.clone(),
+            partial_eq: self.partial_eq.clone(),
+            defmt: self.defmt.clone(),
+            serde: self.serde.clone(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn arguments_are_consistent() {
+        Arguments::command().debug_assert();
+        assert_eq!(presence("feature=table"), Ok(Presence::Feature("table".into())));
+        assert!(presence("feature=").is_err() && presence("maybe").is_err());
+    }
+}

@@ -1,0 +1,100 @@
+//! `lexibus generate`: bindings to files, to standard output, or compared with what is checked in.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::args::Generate;
+use super::inputs;
+use super::report::Reporter;
+use super::Failure;
+use crate::backend::rust;
+use crate::builder::write_if_changed;
+use crate::compile::Compilation;
+
+pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
+    let options = generate.inputs.options()?;
+    let rust_options = generate.rust_options();
+    let mut reporter = Reporter::new(&generate.inputs, false);
+    let mut target = Target::new(generate)?;
+    inputs::each(&generate.inputs, &options, |input, compilation| {
+        reporter.report(&compilation)?;
+        if let Some(text) = compilation.rust(&rust_options) {
+            target.put(input, &compilation, &text, &mut reporter)?;
+        }
+        Ok(())
+    })?;
+    reporter.finish()
+}
+
+/// Where the output goes.
+struct Target<'g> {
+    generate: &'g Generate,
+    is_folder: bool,
+    /// Names given so far, with the input that got each.
+    names: BTreeMap<PathBuf, PathBuf>,
+}
+
+impl<'g> Target<'g> {
+    fn new(generate: &'g Generate) -> Result<Self, Failure> {
+        let many = generate.inputs.paths.len() > 1 || generate.inputs.paths.iter().any(|path| path.is_dir());
+        let is_folder = generate.out.as_ref().is_some_and(|out| many || out.is_dir());
+        if many && generate.out.as_ref().is_some_and(|out| out.is_file()) {
+            return Err(Failure::Usage("several inputs need a folder to write to, and --out is a file".into()));
+        }
+        if many && generate.out.is_none() {
+            return Err(Failure::Usage("several inputs need a folder to write to: name one with --out".into()));
+        }
+        if let Some(out) = generate.out.as_ref().filter(|_| is_folder && !generate.check) {
+            std::fs::create_dir_all(out)
+                .map_err(|error| Failure::Usage(format!("can't make the folder {}: {error}", out.display())))?;
+        }
+        Ok(Target { generate, is_folder, names: BTreeMap::new() })
+    }
+
+    fn put(
+        &mut self,
+        input: &Path,
+        compilation: &Compilation,
+        text: &str,
+        reporter: &mut Reporter,
+    ) -> Result<(), Failure> {
+        let Some(out) = &self.generate.out else {
+            std::io::stdout().lock().write_all(text.as_bytes())?;
+            return Ok(());
+        };
+        let path = if self.is_folder { self.file_in(out, input, compilation) } else { out.clone() };
+        if self.generate.check {
+            check(&path, text, reporter);
+        } else if let Err(error) = write_if_changed(&path, text) {
+            reporter.error(&format!("can't write {}: {error}", path.display()));
+        }
+        Ok(())
+    }
+
+    /// `<stem>.rs` of the input in Rust's case; two inputs of one name are told apart by a number.
+    fn file_in(&mut self, folder: &Path, input: &Path, compilation: &Compilation) -> PathBuf {
+        let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let name = rust::file_name(&stem).or_else(|| {
+            let catalog = compilation.catalog.as_ref()?;
+            Some(rust::module_name(catalog.devices.first()?, catalog.files.first()?))
+        });
+        let name = name.unwrap_or_else(|| "device".to_owned());
+        let mut path = folder.join(format!("{name}.rs"));
+        let mut number = 2;
+        while self.names.contains_key(&path) {
+            path = folder.join(format!("{name}_{number}.rs"));
+            number += 1;
+        }
+        self.names.insert(path.clone(), input.to_owned());
+        path
+    }
+}
+
+fn check(path: &Path, text: &str, reporter: &mut Reporter) {
+    match std::fs::read(path) {
+        Ok(bytes) if bytes == text.as_bytes() => {}
+        Ok(_) => reporter.error(&format!("{} is stale: generate it again without --check", path.display())),
+        Err(error) => reporter.error(&format!("{} can't be compared: {error}", path.display())),
+    }
+}

@@ -1,0 +1,133 @@
+//! Reading many files at once.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::args::Inputs;
+use super::Failure;
+use crate::compile::{self, Compilation, Options};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::source::{FileId, Source, Span};
+
+/// Endings of the files that a folder is searched for.
+const ENDINGS: [&str; 5] = ["eds", "dcf", "xdd", "xdc", "xpd"];
+
+/// Folders deeper than this are not searched, so that a link to its own parent ends.
+const MAX_FOLDER_DEPTH: usize = 32;
+
+/// Compiles every input, several at a time, and hands the results to `use_it` in the order of the command line.
+pub(super) fn each(
+    inputs: &Inputs,
+    options: &Options,
+    mut use_it: impl FnMut(&Path, Compilation) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let files = files(&inputs.paths)?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(inputs.jobs.unwrap_or(0))
+        .build()
+        .map_err(|error| Failure::Usage(format!("can't start that many jobs: {error}")))?;
+    let progress = progress(files.len());
+    let (sender, receiver) = mpsc::channel();
+    std::thread::scope(|scope| {
+        let (files, pool) = (&files, &pool);
+        scope.spawn(move || {
+            pool.scope(|scope| {
+                for (position, path) in files.iter().enumerate() {
+                    let sender = sender.clone();
+                    // A receiver that has gone has seen an error already.
+                    scope.spawn(move |_| drop(sender.send((position, compile_file(path, options)))));
+                }
+            });
+        });
+        in_order(files, receiver, &progress, &mut use_it)
+    })?;
+    progress.finish_and_clear();
+    Ok(())
+}
+
+/// Passes results on in the order of `files`, however they come in.
+fn in_order(
+    files: &[PathBuf],
+    receiver: mpsc::Receiver<(usize, Compilation)>,
+    progress: &ProgressBar,
+    use_it: &mut impl FnMut(&Path, Compilation) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let mut waiting: Vec<Option<Compilation>> = files.iter().map(|_| None).collect();
+    let mut next = 0;
+    for (position, compilation) in receiver {
+        waiting[position] = Some(compilation);
+        while let Some(compilation) = waiting.get_mut(next).and_then(Option::take) {
+            progress.suspend(|| use_it(&files[next], compilation))?;
+            progress.inc(1);
+            next += 1;
+        }
+    }
+    Ok(())
+}
+
+/// Reads and checks one file; one that can't be read is an error among the others.
+fn compile_file(path: &Path, options: &Options) -> Compilation {
+    match Source::read(path) {
+        Ok(source) => compile::check(source, options),
+        Err(error) => {
+            let mut diagnostics = Diagnostics::new(options.levels.clone());
+            let message = format!("can't read the file: {error}");
+            diagnostics.push(Diagnostic::new(&codes::UNREADABLE_FILE, Span::new(FileId(0), 0, 0), message));
+            let source = Source::new(path.to_string_lossy(), Vec::new());
+            Compilation { sources: vec![source], catalog: None, diagnostics, format: None }
+        }
+    }
+}
+
+/// A bar on a terminal, nothing in a pipe and nothing for a single file.
+fn progress(files: usize) -> ProgressBar {
+    if files < 2 || !std::io::stderr().is_terminal() || !std::io::stdout().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(files as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:32} {pos}/{len} files") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// The files that `paths` name: a folder stands for the device descriptions below it, sorted by name.
+fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut files = Vec::new();
+    for path in paths {
+        if path.is_dir() {
+            let before = files.len();
+            search(path, 0, &mut files);
+            if files.len() == before {
+                return Err(Failure::Usage(format!("there is no device description in {}", path.display())));
+            }
+        } else {
+            files.push(path.clone());
+        }
+    }
+    Ok(files)
+}
+
+fn search(folder: &Path, depth: usize, files: &mut Vec<PathBuf>) {
+    if depth > MAX_FOLDER_DEPTH {
+        return;
+    }
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    let mut paths: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.sort();
+    for path in paths {
+        if path.is_dir() {
+            search(&path, depth + 1, files);
+        } else if is_description(&path) {
+            files.push(path);
+        }
+    }
+}
+
+fn is_description(path: &Path) -> bool {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    extension.is_some_and(|extension| ENDINGS.iter().any(|ending| ending.eq_ignore_ascii_case(extension)))
+}

@@ -1,0 +1,128 @@
+//! The command line: `lexibus generate`, `check`, `info`, `dump`, `explain`, `completions`.
+//!
+//! Exit codes: 0 where everything went well, 1 for errors in the input or stale output, 2 for a wrong call.
+
+mod args;
+mod generate;
+mod inputs;
+mod report;
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+
+use crate::backend::json;
+use crate::compile::{self, Options};
+use crate::diagnostics::{codes, render};
+use args::{Arguments, Command, InfoFormat, Inputs};
+use report::Reporter;
+
+/// The input, or the output that was to be checked, has errors.
+const FAILED: u8 = 1;
+/// The call makes no sense.
+const USAGE: u8 = 2;
+
+/// Runs the command line of this process.
+pub fn main() -> ExitCode {
+    match run(Arguments::parse()) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(FAILED),
+        // Whoever reads our output has gone: there is nobody to tell.
+        Err(Failure::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(Failure::Output(error)) => {
+            eprintln!("error: can't write the output: {error}");
+            ExitCode::from(FAILED)
+        }
+        Err(Failure::Usage(message)) => {
+            eprintln!("error: {message}\n\nFor more information, try '--help'.");
+            ExitCode::from(USAGE)
+        }
+    }
+}
+
+/// Why a command ended early.
+enum Failure {
+    /// The call makes no sense.
+    Usage(String),
+    /// The output can't be written.
+    Output(std::io::Error),
+}
+
+impl From<std::io::Error> for Failure {
+    fn from(error: std::io::Error) -> Self {
+        Failure::Output(error)
+    }
+}
+
+/// Whether everything went well.
+fn run(arguments: Arguments) -> Result<bool, Failure> {
+    match arguments.command {
+        Command::Generate(generate) => generate::run(&generate),
+        Command::Check(check) => check_files(&check.inputs),
+        Command::Info(info) => info_files(&info.inputs, info.format),
+        Command::Dump(dump) => dump_files(&dump.inputs),
+        Command::Explain { code } => explain(code.as_deref()),
+        Command::Completions { shell } => {
+            clap_complete::generate(shell, &mut Arguments::command(), "lexibus", &mut std::io::stdout());
+            Ok(true)
+        }
+    }
+}
+
+fn check_files(inputs: &Inputs) -> Result<bool, Failure> {
+    let options = inputs.options()?;
+    let mut reporter = Reporter::new(inputs, true);
+    inputs::each(inputs, &options, |_, compilation| {
+        reporter.report(&compilation)?;
+        Ok(())
+    })?;
+    reporter.finish()
+}
+
+fn info_files(inputs: &Inputs, format: InfoFormat) -> Result<bool, Failure> {
+    let options = inputs.options()?;
+    let mut ok = true;
+    let mut out = std::io::stdout().lock();
+    inputs::each(inputs, &options, |_, compilation| {
+        let info = json::info(&compilation);
+        ok &= info.errors.is_empty();
+        match format {
+            InfoFormat::Json => writeln!(out, "{}", serde_json::to_string(&info).map_err(std::io::Error::other)?)?,
+            InfoFormat::Text => write!(out, "{}", report::info_text(&info))?,
+        }
+        Ok(())
+    })?;
+    out.flush()?;
+    Ok(ok)
+}
+
+fn dump_files(inputs: &Inputs) -> Result<bool, Failure> {
+    let options: Options = inputs.options()?;
+    let mut reporter = Reporter::new(inputs, false);
+    let mut out = std::io::stdout().lock();
+    inputs::each(inputs, &options, |_, compilation: compile::Compilation| {
+        reporter.report(&compilation)?;
+        if let Some(catalog) = &compilation.catalog {
+            writeln!(out, "{}", json::dump(catalog))?;
+        }
+        Ok(())
+    })?;
+    out.flush()?;
+    reporter.finish()
+}
+
+fn explain(code: Option<&str>) -> Result<bool, Failure> {
+    let text = match code {
+        None => render::catalogue(),
+        Some(name) => match codes::find(name) {
+            Some(code) => render::explain(code),
+            None => {
+                let hint = codes::similar(name).map_or(String::new(), |similar| format!("; did you mean `{similar}`?"));
+                return Err(Failure::Usage(format!("there is no diagnostic code `{name}`{hint}")));
+            }
+        },
+    };
+    std::io::stdout().lock().write_all(text.as_bytes())?;
+    Ok(true)
+}

@@ -1,0 +1,164 @@
+//! Printing findings and summaries.
+
+use std::fmt::Write as _;
+use std::io::{IsTerminal, Write};
+
+use super::args::{Colour, Inputs, MessageFormat};
+use super::Failure;
+use crate::backend::json::{Info, PdoInfo};
+use crate::compile::Compilation;
+use crate::diagnostics::{render, Diagnostic, Severity};
+use crate::source::{FileId, Source, Span};
+
+/// Collects the findings of all inputs and prints them as the user chose.
+pub(super) struct Reporter {
+    format: MessageFormat,
+    colour: bool,
+    /// Whether the findings are the result of the command, and so go to standard output.
+    is_result: bool,
+    errors: usize,
+    warnings: usize,
+    files: usize,
+    /// For SARIF, which is one document.
+    kept: Vec<Diagnostic>,
+    sources: Vec<Source>,
+}
+
+impl Reporter {
+    pub(super) fn new(inputs: &Inputs, is_result: bool) -> Self {
+        let to_terminal = if is_result && inputs.message_format != MessageFormat::Text {
+            std::io::stdout().is_terminal()
+        } else {
+            std::io::stderr().is_terminal()
+        };
+        let colour = match inputs.color {
+            Colour::Auto => to_terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+            Colour::Always => true,
+            Colour::Never => false,
+        };
+        Reporter {
+            format: inputs.message_format,
+            colour,
+            is_result,
+            errors: 0,
+            warnings: 0,
+            files: 0,
+            kept: Vec::new(),
+            sources: Vec::new(),
+        }
+    }
+
+    /// Takes the findings of one input.
+    pub(super) fn report(&mut self, compilation: &Compilation) -> Result<(), Failure> {
+        self.files += 1;
+        self.errors += compilation.diagnostics.count(Severity::Error);
+        self.warnings += compilation.diagnostics.count(Severity::Warning);
+        let diagnostics = compilation.diagnostics.list();
+        match self.format {
+            MessageFormat::Text => {
+                let mut out = std::io::stderr().lock();
+                for diagnostic in diagnostics {
+                    let text = render::terminal::render(diagnostic, &compilation.sources, self.colour);
+                    writeln!(out, "{text}\n")?;
+                }
+            }
+            MessageFormat::Json => {
+                let lines = diagnostics.iter().map(|diagnostic| render::json::line(diagnostic, &compilation.sources));
+                let text = lines.fold(String::new(), |text, line| text + &line + "\n");
+                self.print(&text)?;
+            }
+            MessageFormat::Sarif => self.keep(compilation),
+        }
+        Ok(())
+    }
+
+    /// An error that isn't about the text of an input.
+    pub(super) fn error(&mut self, message: &str) {
+        self.errors += 1;
+        eprintln!("error: {message}");
+    }
+
+    /// Whether there was no error; prints what is printed once.
+    pub(super) fn finish(self) -> Result<bool, Failure> {
+        match self.format {
+            MessageFormat::Text if self.is_result || self.errors + self.warnings > 0 => {
+                let files = if self.files == 1 { "1 file" } else { &format!("{} files", self.files) };
+                eprintln!("{files}: {}", render::summary(self.errors, self.warnings));
+            }
+            MessageFormat::Sarif => {
+                let text = render::sarif::document(&self.kept, &self.sources, env!("CARGO_PKG_VERSION"));
+                self.print(&(text + "\n"))?;
+            }
+            _ => {}
+        }
+        Ok(self.errors == 0)
+    }
+
+    /// Machine-readable findings are the result of `check`; beside other results they go to standard error.
+    fn print(&self, text: &str) -> Result<(), Failure> {
+        if self.is_result {
+            std::io::stdout().lock().write_all(text.as_bytes())?;
+        } else {
+            std::io::stderr().lock().write_all(text.as_bytes())?;
+        }
+        Ok(())
+    }
+
+    /// Keeps findings with their sources, renumbered.
+    fn keep(&mut self, compilation: &Compilation) {
+        let shift = self.sources.len() as u32;
+        let moved = |span: Span| Span::new(FileId(span.file.0 + shift), span.start, span.end);
+        for source in &compilation.sources {
+            self.sources.push(Source::new(source.name(), source.bytes().into_owned()));
+        }
+        for diagnostic in compilation.diagnostics.list() {
+            let mut diagnostic = diagnostic.clone();
+            diagnostic.span = moved(diagnostic.span);
+            for note in &mut diagnostic.notes {
+                note.span = note.span.map(moved);
+            }
+            self.kept.push(diagnostic);
+        }
+    }
+}
+
+/// A summary for people.
+pub(super) fn info_text(info: &Info) -> String {
+    let mut text = String::new();
+    let _ = writeln!(text, "{} ({}, {})", info.file, info.format.unwrap_or("unknown format"), info.encoding);
+    let number = |value: Option<u32>| value.map_or("unknown".to_owned(), |value| format!("{value:#010x}"));
+    for device in &info.devices {
+        let name = if device.name.is_empty() { "(no name)" } else { &device.name };
+        let _ = writeln!(text, "  {}", printable(name));
+        let _ = writeln!(
+            text,
+            "    vendor {}, product {}, revision {}",
+            number(device.vendor_id),
+            number(device.product_code),
+            number(device.revision)
+        );
+        let _ = writeln!(text, "    {} objects, {} entries", device.objects, device.entries);
+        for (direction, pdos) in [("RPDO", &device.rx_pdos), ("TPDO", &device.tx_pdos)] {
+            let all: Vec<String> = pdos.iter().map(pdo_text).collect();
+            if !all.is_empty() {
+                let _ = writeln!(text, "    {direction}: {}", all.join(", "));
+            }
+        }
+    }
+    for (severity, counts) in [("errors", &info.errors), ("warnings", &info.warnings)] {
+        let all: Vec<String> = counts.iter().map(|(code, count)| format!("{code} × {count}")).collect();
+        if !all.is_empty() {
+            let _ = writeln!(text, "  {severity}: {}", all.join(", "));
+        }
+    }
+    text
+}
+
+fn pdo_text(pdo: &PdoInfo) -> String {
+    format!("0x{:04X} ({} entries, {} bits)", pdo.index, pdo.entries, pdo.bits)
+}
+
+/// Control characters of a description don't reach the terminal.
+fn printable(text: &str) -> String {
+    text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
+}

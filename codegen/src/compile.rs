@@ -1,0 +1,103 @@
+//! The pipeline: source → syntax → IR → passes → output. The three doors (build script, macro, command line) all end here.
+
+use crate::backend::rust::{self, RustOptions};
+use crate::diagnostics::{Diagnostic, Diagnostics, Levels};
+use crate::frontend::{detect, eds, xdd};
+use crate::ir::{Catalog, FileInfo, Format};
+use crate::passes;
+use crate::source::{FileId, Source};
+
+/// What a caller may choose.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Lenient or strict, and the level of each code.
+    pub levels: Levels,
+    /// Further names of `$NODEID` in formulas, such as `$MY_NODE_ID`.
+    pub node_id_aliases: Vec<String>,
+    /// What the generated Rust looks like.
+    pub rust: RustOptions,
+}
+
+/// The outcome of a compilation, or of a part of it.
+#[derive(Debug)]
+pub struct Compilation {
+    /// The files that were read; spans refer to them.
+    pub sources: Vec<Source>,
+    /// What they describe; `None` where they couldn't be used at all.
+    pub catalog: Option<Catalog>,
+    /// What there is to say about them, from top to bottom.
+    pub diagnostics: Diagnostics,
+    /// The format, where it was recognised.
+    pub format: Option<Format>,
+}
+
+impl Compilation {
+    /// Whether output may be produced.
+    pub fn is_usable(&self) -> bool {
+        self.catalog.is_some() && !self.diagnostics.has_errors()
+    }
+
+    /// `file:line:column: message [EDS020]`: a finding of this compilation on one line, for tools that want one.
+    pub fn one_line(&self, diagnostic: &Diagnostic) -> String {
+        let mut text = String::new();
+        if let Some(source) = self.sources.get(diagnostic.span.file.0 as usize) {
+            text += source.name();
+            if !diagnostic.span.is_empty() {
+                let at = source.position(diagnostic.span.start);
+                text += &format!(":{}:{}", at.line, at.column);
+            }
+            text += ": ";
+        }
+        text += &format!("{} [{}]", diagnostic.message, diagnostic.code.id);
+        text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
+    }
+
+    /// The Rust module of the first device, or `None` where there are errors.
+    pub fn rust(&self, options: &RustOptions) -> Option<String> {
+        if !self.is_usable() {
+            return None;
+        }
+        let catalog = self.catalog.as_ref()?;
+        let device = catalog.devices.first()?;
+        Some(rust::emit(device, catalog.files.first()?, options))
+    }
+}
+
+/// Reads `source` into the IR, as it stands.
+pub fn read(source: Source, options: &Options) -> Compilation {
+    let mut diagnostics = Diagnostics::new(options.levels.clone());
+    let file = FileId(0);
+    let format = match detect::format(&source, file) {
+        Ok(format) => Some(format),
+        Err(diagnostic) => {
+            diagnostics.push(*diagnostic);
+            None
+        }
+    };
+    let aliases = &options.node_id_aliases;
+    let device = match format {
+        Some(Format::Eds | Format::Dcf) => eds::read(&source, file, aliases, &mut diagnostics),
+        Some(Format::Xdd) => xdd::read(&source, file, aliases, &mut diagnostics),
+        _ => None,
+    };
+    let catalog = device.zip(format).map(|(device, format)| Catalog {
+        files: vec![FileInfo {
+            name: source.name().to_owned(),
+            format,
+            encoding: source.encoding(),
+            sha256: source.sha256().to_owned(),
+        }],
+        devices: vec![device],
+    });
+    Compilation { sources: vec![source], catalog, diagnostics, format }
+}
+
+/// Reads `source` and checks it: the IR that every back end starts from.
+pub fn check(source: Source, options: &Options) -> Compilation {
+    let mut compilation = read(source, options);
+    if let Some(catalog) = &mut compilation.catalog {
+        passes::check(catalog, &mut compilation.diagnostics);
+    }
+    compilation.diagnostics.sort();
+    compilation
+}

@@ -1,0 +1,242 @@
+//! Numbers and `$NODEID` formulas of CiA 306, and the spellings that real files have for them.
+
+/// What a text was read as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Number {
+    /// The reading.
+    pub parsed: Parsed,
+    /// How the text departs from the grammar.
+    pub quirk: Option<Quirk>,
+}
+
+/// A number, a formula, or neither.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parsed {
+    /// A number; `hex` tells whether it was written as a bit pattern (hexadecimal and without a sign).
+    Int {
+        /// Its value.
+        value: i128,
+        /// Whether it is a bit pattern.
+        hex: bool,
+    },
+    /// `$NODEID` plus this.
+    NodeId(i128),
+    /// Text with a `$` that is no formula of the grammar.
+    UnknownFormula,
+    /// Anything else.
+    Text,
+}
+
+/// A departure from the grammar.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quirk {
+    /// A leading zero makes it octal, and decimal would be another number.
+    Octal,
+    /// A leading zero, but the number is the same in decimal or can't be octal.
+    LeadingZero,
+    /// `NNh`.
+    HexSuffix,
+    /// A suffix of C (`U`, `L`, `UL`, `LL`, `ULL`).
+    CSuffix,
+    /// A formula that doesn't start with `$NODEID`.
+    ReversedNodeId,
+}
+
+impl Number {
+    fn plain(value: i128) -> Self {
+        Number { parsed: Parsed::Int { value, hex: false }, quirk: None }
+    }
+
+    fn hex(value: i128) -> Self {
+        Number { parsed: Parsed::Int { value, hex: true }, quirk: None }
+    }
+
+    fn with(self, quirk: Quirk) -> Self {
+        Number { quirk: Some(quirk), ..self }
+    }
+
+    const TEXT: Number = Number { parsed: Parsed::Text, quirk: None };
+
+    /// The value, where the text is a number.
+    pub fn int(self) -> Option<i128> {
+        match self.parsed {
+            Parsed::Int { value, .. } => Some(value),
+            _ => None,
+        }
+    }
+}
+
+/// Reads `text`, which has no blanks around it. `aliases` are further names of `$NODEID`.
+pub fn parse(text: &str, aliases: &[String]) -> Number {
+    if !aliases.is_empty() || text.contains('$') {
+        if let Some(formula) = parse_formula(text, aliases) {
+            return formula;
+        }
+    }
+    parse_number(text)
+}
+
+/// Whether `text` has nothing but octal digits.
+pub fn is_octal(text: &str) -> bool {
+    radix(text, 8).is_some()
+}
+
+fn parse_number(text: &str) -> Number {
+    match text.as_bytes() {
+        [b'0'..=b'9', ..] => unsigned(text),
+        [b'-', rest @ ..] if !rest.is_empty() => negated(text[1..].trim_start()),
+        [b'+', rest @ ..] if !rest.is_empty() => unsigned(text[1..].trim_start()),
+        _ => hex_suffix(text),
+    }
+}
+
+fn negated(text: &str) -> Number {
+    let number = unsigned(text);
+    match number.parsed {
+        Parsed::Int { value, .. } => Number { parsed: Parsed::Int { value: -value, hex: false }, ..number },
+        _ => number,
+    }
+}
+
+fn unsigned(text: &str) -> Number {
+    if let Some(digits) = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
+        return match radix(digits, 16) {
+            Some(value) => Number::hex(value),
+            None => c_suffix(text),
+        };
+    }
+    let Some(decimal) = radix(text, 10) else {
+        let suffixed = hex_suffix(text);
+        return if suffixed == Number::TEXT { c_suffix(text) } else { suffixed };
+    };
+    if text.len() == 1 || !text.starts_with('0') {
+        return Number::plain(decimal);
+    }
+    match radix(text, 8) {
+        Some(octal) if octal != decimal => Number::plain(octal).with(Quirk::Octal),
+        _ => Number::plain(decimal).with(Quirk::LeadingZero),
+    }
+}
+
+fn hex_suffix(text: &str) -> Number {
+    match text.strip_suffix(['h', 'H']).and_then(|digits| radix(digits, 16)) {
+        Some(value) => Number::hex(value).with(Quirk::HexSuffix),
+        None => Number::TEXT,
+    }
+}
+
+fn c_suffix(text: &str) -> Number {
+    let digits = text.trim_end_matches(['u', 'U', 'l', 'L']);
+    if digits.is_empty() || digits.len() == text.len() || text.len() - digits.len() > 3 {
+        return Number::TEXT;
+    }
+    let number = unsigned(digits);
+    if number.parsed == Parsed::Text {
+        number
+    } else {
+        number.with(Quirk::CSuffix)
+    }
+}
+
+/// Digits only: no sign, no separator; at most what fits 120 bits.
+fn radix(digits: &str, radix: u32) -> Option<i128> {
+    let bytes = digits.as_bytes();
+    if bytes.is_empty() || bytes.len() > 40 {
+        return None;
+    }
+    let mut value: i128 = 0;
+    for &byte in bytes {
+        let digit = (byte as char).to_digit(radix)?;
+        value = value * i128::from(radix) + i128::from(digit);
+        if value >> 120 != 0 {
+            return None;
+        }
+    }
+    Some(value)
+}
+
+/// A sum with one `$NODEID` (or an alias of it) among its terms.
+fn parse_formula(text: &str, aliases: &[String]) -> Option<Number> {
+    let is_node_id = |term: &str| {
+        term.eq_ignore_ascii_case("$NODEID") || aliases.iter().any(|alias| alias.eq_ignore_ascii_case(term))
+    };
+    let unknown = Number { parsed: Parsed::UnknownFormula, quirk: None };
+    let mentions = text.contains('$') || text.split('+').any(|term| is_node_id(term.trim()));
+    if !mentions {
+        return None;
+    }
+    let (mut offset, mut seen) = (0i128, None);
+    for (position, term) in text.split('+').map(str::trim).enumerate() {
+        if is_node_id(term) {
+            if seen.replace(position).is_some() {
+                return Some(unknown);
+            }
+        } else {
+            match parse_number(term).parsed {
+                Parsed::Int { value, .. } => offset += value,
+                _ => return Some(unknown),
+            }
+        }
+    }
+    let position = seen?;
+    let number = Number { parsed: Parsed::NodeId(offset), quirk: None };
+    Some(if position == 0 { number } else { number.with(Quirk::ReversedNodeId) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn int(text: &str) -> Option<i128> {
+        parse(text, &[]).int()
+    }
+
+    fn quirk(text: &str) -> Option<Quirk> {
+        parse(text, &[]).quirk
+    }
+
+    #[test]
+    fn numbers_in_every_spelling() {
+        assert_eq!((int("0"), quirk("0")), (Some(0), None));
+        assert_eq!((int("0X1a"), quirk("0X1a")), (Some(26), None));
+        assert_eq!((int("-0x77359400"), quirk("-0x77359400")), (Some(-2_000_000_000), None));
+        assert_eq!((int("012"), quirk("012")), (Some(10), Some(Quirk::Octal)));
+        assert_eq!((int("018"), quirk("018")), (Some(18), Some(Quirk::LeadingZero)));
+        assert_eq!((int("00000005"), quirk("00000005")), (Some(5), Some(Quirk::LeadingZero)));
+        assert_eq!((int("1Fh"), quirk("0000h")), (Some(31), Some(Quirk::HexSuffix)));
+        assert_eq!((int("FFh"), quirk("FFh")), (Some(255), Some(Quirk::HexSuffix)));
+        assert_eq!(int("0x1234567890ABCDEFLL"), Some(0x1234_5678_90AB_CDEF));
+        assert_eq!(quirk("10UL"), Some(Quirk::CSuffix));
+        assert_eq!(int("18446744073709551615"), Some(u64::MAX.into()));
+        assert_eq!(int("+5"), Some(5));
+    }
+
+    #[test]
+    fn what_is_no_number() {
+        for text in ["", "-", "+", "0x", "x", "1.5", "0x1G", "h", "--5", "1_000", "0x-5", &"9".repeat(99), "L", "²"] {
+            assert_eq!(parse(text, &[]).parsed, Parsed::Text, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn formulas_in_every_spelling() {
+        for (text, offset) in [
+            ("$NODEID+0x180", 0x180),
+            ("$NODEID + 0x40000180", 0x4000_0180),
+            ("$nodeid+5", 5),
+            ("$NodeID", 0),
+            ("$NODEID+1+2", 3),
+        ] {
+            assert_eq!(parse(text, &[]), Number { parsed: Parsed::NodeId(offset), quirk: None }, "{text:?}");
+        }
+        assert_eq!(parse("0x80+$NODEID", &[]).parsed, Parsed::NodeId(0x80));
+        assert_eq!(quirk("0x80+$NODEID"), Some(Quirk::ReversedNodeId));
+        for text in ["$MY_NODE_ID+0x200", "$NODEID-1", "$NODEID+", "$NODEID+$NODEID", "$", "$NODEID+x"] {
+            assert_eq!(parse(text, &[]).parsed, Parsed::UnknownFormula, "{text:?}");
+        }
+        let aliases = ["$MY_NODE_ID".to_string(), "Node-ID".to_string()];
+        assert_eq!(parse("$MY_NODE_ID+0x200", &aliases).parsed, Parsed::NodeId(0x200));
+        assert_eq!(parse("200h + Node-ID", &aliases).parsed, Parsed::NodeId(0x200));
+        assert_eq!(parse("12", &aliases).parsed, Parsed::Int { value: 12, hex: false });
+    }
+}

@@ -1,0 +1,348 @@
+//! From the text of a default, limit or configured value to a [`Value`] of the item's type.
+
+use super::number::{self, Number, Parsed, Quirk};
+use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::ir::{CompactString, Type, Value};
+use crate::source::Span;
+
+/// What a value is for, which decides how it is reported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// A default or a configured value.
+    Value,
+    /// A limit: bit patterns of signed values are usual there.
+    Limit,
+}
+
+/// Converts texts to values and reports what had to be repaired.
+pub struct Converter<'d> {
+    /// Where findings go.
+    pub diagnostics: &'d mut Diagnostics,
+    /// Further names of `$NODEID`.
+    pub aliases: &'d [String],
+}
+
+impl Converter<'_> {
+    /// Converts `text`, which stands at `span`, to a value of type `ty`; empty text is no value.
+    pub fn value(&mut self, text: &str, span: Span, ty: Type, role: Role) -> Option<Value> {
+        if text.is_empty() {
+            return None;
+        }
+        Some(match ty {
+            Type::Integer(_) | Type::Unsigned(_) => self.integer(text, span, ty, role),
+            Type::Boolean => self.boolean(text, span),
+            Type::Real32 => self.real(text, span, 32),
+            Type::Real64 => self.real(text, span, 64),
+            Type::VisibleString(_) | Type::UnicodeString(_) => Value::Text(self.unquoted(text, span).into()),
+            Type::OctetString(_) => self.octets(text, span),
+            Type::Domain => {
+                self.report(&codes::DOMAIN_DEFAULT, span, "a domain can't have a value in the file", "kept as text");
+                raw(text)
+            }
+            Type::TimeOfDay | Type::TimeDifference => self.time(text, span, ty),
+            Type::Opaque(_) | Type::Named(_) => raw(text),
+        })
+    }
+
+    /// Reads a number and reports how it departs from the grammar; `None` (and a report) for what is none.
+    pub fn number(&mut self, text: &str, span: Span) -> Option<Value> {
+        let number = number::parse(text, self.aliases);
+        self.quirk(number, text, span);
+        match number.parsed {
+            Parsed::Int { value, .. } => Some(Value::Int(value)),
+            Parsed::NodeId(offset) => Some(Value::NodeId(offset)),
+            Parsed::UnknownFormula => {
+                self.unknown_formula(text, span);
+                None
+            }
+            Parsed::Text => {
+                let message = format!("`{text}` is no number");
+                self.report(&codes::ILLEGAL_NUMBER, span, message, "expected a decimal or 0x number");
+                None
+            }
+        }
+    }
+
+    /// Text without one pair of quotation marks around it.
+    pub fn unquoted<'t>(&mut self, text: &'t str, span: Span) -> &'t str {
+        match text.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')) {
+            Some(inner) => {
+                self.diagnostics.push(
+                    Diagnostic::new(&codes::QUOTED_VALUE, span, "the text is in quotation marks")
+                        .label("the marks were removed")
+                        .fix(inner),
+                );
+                inner
+            }
+            None => text,
+        }
+    }
+
+    fn integer(&mut self, text: &str, span: Span, ty: Type, role: Role) -> Value {
+        let number = number::parse(text, self.aliases);
+        self.quirk(number, text, span);
+        match number.parsed {
+            Parsed::Int { value, hex } => self.fit(value, hex, text, span, ty, role),
+            Parsed::NodeId(offset) => Value::NodeId(offset),
+            Parsed::UnknownFormula => {
+                self.unknown_formula(text, span);
+                raw(text)
+            }
+            Parsed::Text => self.fraction(text, span, ty),
+        }
+    }
+
+    /// A number against the range of its type; the bits of a negative number are read as such.
+    fn fit(&mut self, value: i128, hex: bool, text: &str, span: Span, ty: Type, role: Role) -> Value {
+        let Some((low, high)) = ty.integer_range() else { return Value::Int(value) };
+        if (low..=high).contains(&value) {
+            return Value::Int(value);
+        }
+        let modulus = high - low + 1;
+        if hex && ty.is_signed() && value < modulus {
+            let negative = value - modulus;
+            if role == Role::Value {
+                self.diagnostics.push(
+                    Diagnostic::new(
+                        &codes::TWOS_COMPLEMENT,
+                        span,
+                        format!("{text} is no {ty}, but its bits are {negative}"),
+                    )
+                    .label(format!("read as {negative}"))
+                    .fix(negative.to_string()),
+                );
+            }
+            return Value::Int(negative);
+        }
+        self.report(
+            &codes::OUT_OF_TYPE,
+            span,
+            format!("{text} doesn't fit {ty}, which goes from {low} to {high}"),
+            "kept as it is",
+        );
+        Value::Int(value)
+    }
+
+    /// `0.0` for an integer; any other text is kept.
+    fn fraction(&mut self, text: &str, span: Span, ty: Type) -> Value {
+        if let Some((whole, fraction)) = text.split_once('.') {
+            if !fraction.is_empty() && fraction.bytes().all(|byte| byte == b'0') {
+                if let Some(value) = number::parse(whole, &[]).int() {
+                    self.diagnostics.push(
+                        Diagnostic::new(&codes::REAL_FOR_INTEGER, span, format!("{text} was given for an {ty}"))
+                            .label(format!("read as {value}"))
+                            .fix(value.to_string()),
+                    );
+                    return Value::Int(value);
+                }
+            }
+            if text.parse::<f64>().is_ok() {
+                let message = format!("{text} was given for an {ty}");
+                self.report(&codes::REAL_FOR_INTEGER, span, message, "kept as text");
+                return raw(text);
+            }
+        }
+        self.illegal(text, span, ty)
+    }
+
+    fn boolean(&mut self, text: &str, span: Span) -> Value {
+        if text.eq_ignore_ascii_case("true") {
+            return Value::Bool(true);
+        }
+        if text.eq_ignore_ascii_case("false") {
+            return Value::Bool(false);
+        }
+        let number = number::parse(text, self.aliases);
+        match number.int() {
+            Some(0) => Value::Bool(false),
+            Some(1) => Value::Bool(true),
+            Some(value) => {
+                self.report(&codes::OUT_OF_TYPE, span, format!("{text} is no BOOLEAN"), "expected 0 or 1");
+                Value::Int(value)
+            }
+            None => self.illegal(text, span, Type::Boolean),
+        }
+    }
+
+    fn real(&mut self, text: &str, span: Span, bits: u32) -> Value {
+        let ty = if bits == 32 { Type::Real32 } else { Type::Real64 };
+        if let Some(digits) = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
+            return self.real_bits(digits, text, span, bits);
+        }
+        if let Some(value) = finite(text) {
+            return Value::Real(value);
+        }
+        if let Some(value) = text.contains(',').then(|| finite(&text.replacen(',', ".", 1))).flatten() {
+            let fix = text.replacen(',', ".", 1);
+            self.diagnostics.push(
+                Diagnostic::new(&codes::DECIMAL_COMMA, span, format!("{text} has a decimal comma"))
+                    .label(format!("read as {value}"))
+                    .fix(fix),
+            );
+            return Value::Real(value);
+        }
+        match number::parse(text, self.aliases).parsed {
+            Parsed::NodeId(offset) => Value::NodeId(offset),
+            _ => self.illegal(text, span, ty),
+        }
+    }
+
+    /// Exactly as many digits as the type has are its bits; any other count is the number itself.
+    fn real_bits(&mut self, digits: &str, text: &str, span: Span, bits: u32) -> Value {
+        let ty = if bits == 32 { Type::Real32 } else { Type::Real64 };
+        let Ok(pattern) = u64::from_str_radix(digits, 16) else { return self.illegal(text, span, ty) };
+        if digits.starts_with('+') {
+            return self.illegal(text, span, ty);
+        }
+        if digits.len() as u32 == bits / 4 {
+            let value = if bits == 32 { f64::from(f32::from_bits(pattern as u32)) } else { f64::from_bits(pattern) };
+            return if value.is_finite() { Value::Real(value) } else { self.illegal(text, span, ty) };
+        }
+        self.report(
+            &codes::REAL_AS_HEX,
+            span,
+            format!("{text} doesn't have the {} digits of a {ty}'s bits", bits / 4),
+            format!("read as the number {pattern}"),
+        );
+        Value::Real(pattern as f64)
+    }
+
+    fn octets(&mut self, text: &str, span: Span) -> Value {
+        let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")).unwrap_or(text);
+        let nibbles: Option<Vec<u8>> = digits
+            .chars()
+            .filter(|c| !matches!(c, ' ' | '\t' | ',' | '-' | ':'))
+            .map(|c| c.to_digit(16).map(|digit| digit as u8))
+            .collect();
+        match nibbles {
+            Some(nibbles) if nibbles.len() % 2 == 0 => {
+                Value::Bytes(nibbles.chunks_exact(2).map(|pair| pair[0] << 4 | pair[1]).collect())
+            }
+            // A lone 0 is how tools write "nothing" for every type.
+            Some(nibbles) if nibbles == [0] => Value::Bytes(vec![0]),
+            _ => {
+                let message = format!("`{text}` isn't made of pairs of hexadecimal digits");
+                self.report(&codes::BAD_OCTETS, span, message, "kept as text");
+                raw(text)
+            }
+        }
+    }
+
+    /// A time as the number that its 48 bits make, the milliseconds in the lower 28.
+    fn time(&mut self, text: &str, span: Span, ty: Type) -> Value {
+        let number = number::parse(text, self.aliases);
+        match number.int() {
+            Some(value) if (0..1 << 48).contains(&value) => {
+                Value::Time { milliseconds: (value & 0x0FFF_FFFF) as u32, days: (value >> 32) as u16 }
+            }
+            _ => self.illegal(text, span, ty),
+        }
+    }
+
+    fn illegal(&mut self, text: &str, span: Span, ty: Type) -> Value {
+        self.report(&codes::ILLEGAL_NUMBER, span, format!("`{text}` is no {ty}"), "kept as text");
+        raw(text)
+    }
+
+    fn unknown_formula(&mut self, text: &str, span: Span) {
+        self.diagnostics.push(
+            Diagnostic::new(&codes::UNKNOWN_FORMULA, span, format!("`{text}` is no formula of CiA 306"))
+                .label("kept as text")
+                .help("a formula is $NODEID, or $NODEID+number; another name of the node-ID can be given as an alias"),
+        );
+    }
+
+    /// Reports how a number departs from the grammar.
+    pub fn quirk(&mut self, number: Number, text: &str, span: Span) {
+        let Some(quirk) = number.quirk else { return };
+        let (code, message): (&'static Code, String) = match quirk {
+            Quirk::Octal => (&codes::OCTAL_NUMBER, format!("{text} has a leading zero and so is octal")),
+            Quirk::LeadingZero => (&codes::LEADING_ZERO, format!("{text} has a leading zero")),
+            Quirk::HexSuffix => (&codes::HEX_SUFFIX, format!("{text} has the suffix of a hexadecimal number")),
+            Quirk::CSuffix => (&codes::TRAILING_TEXT, format!("{text} has a suffix of the language C")),
+            Quirk::ReversedNodeId => (&codes::REVERSED_NODEID, format!("`{text}` doesn't start with $NODEID")),
+        };
+        let fix = match number.parsed {
+            Parsed::Int { value, hex: true } => format!("{value:#x}"),
+            Parsed::Int { value, hex: false } => value.to_string(),
+            Parsed::NodeId(offset) => format!("$NODEID+{offset:#x}"),
+            _ => return,
+        };
+        self.diagnostics.push(Diagnostic::new(code, span, message).label(format!("read as {fix}")).fix(fix));
+    }
+
+    fn report(&mut self, code: &'static Code, span: Span, message: impl Into<String>, label: impl Into<String>) {
+        self.diagnostics.push(Diagnostic::new(code, span, message).label(label));
+    }
+}
+
+fn raw(text: &str) -> Value {
+    Value::Raw(CompactString::from(text))
+}
+
+/// A decimal real number; not the words that Rust also reads (`inf`, `nan`).
+fn finite(text: &str) -> Option<f64> {
+    let numeric = text.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E'));
+    numeric.then(|| text.parse::<f64>().ok()).flatten().filter(|value| value.is_finite())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn convert(text: &str, ty: Type, role: Role) -> (Option<Value>, Vec<&'static str>) {
+        let mut diagnostics = Diagnostics::default();
+        let value = Converter { diagnostics: &mut diagnostics, aliases: &[] }.value(text, Span::default(), ty, role);
+        (value, diagnostics.list().iter().map(|d| d.code.id).collect())
+    }
+
+    fn value(text: &str, ty: Type) -> (Option<Value>, Vec<&'static str>) {
+        convert(text, ty, Role::Value)
+    }
+
+    #[test]
+    fn integers_fit_their_type_or_are_reported() {
+        let i32 = Type::Integer(32);
+        assert_eq!(value("0xFFFFFFFF", i32), (Some(Value::Int(-1)), vec!["EDS024"]));
+        assert_eq!(convert("0x80000000", i32, Role::Limit), (Some(Value::Int(i32::MIN.into())), vec![]));
+        assert_eq!(convert("65536", Type::Unsigned(16), Role::Limit), (Some(Value::Int(65536)), vec!["EDS025"]));
+        assert_eq!(value("0.0", Type::Unsigned(32)), (Some(Value::Int(0)), vec!["EDS028"]));
+        assert_eq!(value("2.5", i32), (Some(raw("2.5")), vec!["EDS028"]));
+        assert_eq!(value("abc", i32), (Some(raw("abc")), vec!["EDS022"]));
+        assert_eq!(value("", i32), (None, vec![]));
+        assert_eq!(value("-8388608", Type::Integer(24)), (Some(Value::Int(-8_388_608)), vec![]));
+    }
+
+    #[test]
+    fn reals_in_every_spelling() {
+        for text in ["1.5", "0x3FC00000"] {
+            assert_eq!(value(text, Type::Real32), (Some(Value::Real(1.5)), vec![]), "{text}");
+        }
+        assert_eq!(value("1,5", Type::Real32), (Some(Value::Real(1.5)), vec!["EDS029"]));
+        assert_eq!(value("0x02", Type::Real32), (Some(Value::Real(2.0)), vec!["EDS030"]));
+        assert_eq!(value("0x3FF8000000000000", Type::Real64), (Some(Value::Real(1.5)), vec![]));
+        assert_eq!(value("-3.402823E+38", Type::Real32), (Some(Value::Real(-3.402823E+38)), vec![]));
+        for text in ["nan", "inf", "0x7FC00000", "0x+1", "1e999"] {
+            assert_eq!(value(text, Type::Real32).1, ["EDS022"], "{text}");
+        }
+    }
+
+    #[test]
+    fn texts_octets_and_times() {
+        let string = Type::VisibleString(None);
+        assert_eq!(value("\"abc\"", string), (Some(Value::Text("abc".into())), vec!["EDS016"]));
+        assert_eq!(value("\"", string), (Some(Value::Text("\"".into())), vec![]));
+        for text in ["01a105", "01 a1 05", "0x01a105"] {
+            assert_eq!(value(text, Type::OctetString(None)), (Some(Value::Bytes(vec![1, 0xa1, 5])), vec![]));
+        }
+        assert_eq!(value("0x123", Type::OctetString(None)), (Some(raw("0x123")), vec!["EDS037"]));
+        assert_eq!(value("0", Type::TimeOfDay), (Some(Value::Time { milliseconds: 0, days: 0 }), vec![]));
+        assert_eq!(
+            value("0x000200000005", Type::TimeDifference),
+            (Some(Value::Time { milliseconds: 5, days: 2 }), vec![])
+        );
+        assert_eq!(value("true", Type::Boolean), (Some(Value::Bool(true)), vec![]));
+        assert_eq!(value("2", Type::Boolean), (Some(Value::Int(2)), vec!["EDS025"]));
+        assert_eq!(value("@ABCD", Type::Domain), (Some(raw("@ABCD")), vec!["EDS031"]));
+    }
+}

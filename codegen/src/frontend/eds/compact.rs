@@ -1,0 +1,107 @@
+//! CompactSubObj: many equal sub-indices described at once, and the sections that refine single ones.
+
+use super::lists;
+use super::object::Raw;
+use super::reader::Reader;
+use super::sections::Refinement;
+use crate::diagnostics::{codes, Diagnostic};
+use crate::frontend::canopen::value::Role;
+use crate::ir::{Access, Binding, CompactString, Configured, Extension, Group, Item, ObjectCode, Type, Value};
+use crate::limits;
+use crate::syntax::ini::{Entry, Section};
+
+/// Adds the sub-indices 0 to `count` that the group doesn't describe one by one.
+pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, count: u8) {
+    let Some(index) = group.index() else { return };
+    reader.derived_items += usize::from(count) + 1;
+    if reader.derived_items > limits::MAX_DERIVED_ITEMS {
+        return reader.too_many_derived(raw.origin.span);
+    }
+    let described: Vec<u8> = group.items.iter().filter_map(|item| Some(item.object()?.1)).collect();
+    let missing = |sub: u8| described.binary_search(&sub).is_err();
+    group.items.reserve_exact(usize::from(count) + 1);
+    if missing(0) {
+        let mut item = Item::new(Binding::canopen(index, 0));
+        item.name = CompactString::const_new("NrOfObjects");
+        item.ty = Type::Unsigned(8);
+        item.access = Access::ReadOnly;
+        item.default = Some(Value::Int(i128::from(count)));
+        item.origin = raw.origin;
+        group.items.push(item);
+    }
+    // All elements share what the object says: it is read, and reported on, once.
+    let template = reader.item(index, 1, raw, ObjectCode::Array);
+    group.flags = template.flags;
+    for sub in (1..=count).filter(|&sub| missing(sub)) {
+        let mut item = template.clone();
+        item.bindings[0] = Binding::canopen(index, sub);
+        item.name = compact_str::format_compact!("{}{sub}", group.name);
+        item.at.name = group.name_at;
+        group.items.push(item);
+    }
+    group.items.sort_by_key(|item| item.object().map(|(_, sub)| sub));
+}
+
+/// Applies `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]`: their keys are decimal sub-indices.
+pub(super) fn refine(
+    reader: &mut Reader<'_, '_>,
+    group: &mut Group,
+    index: u16,
+    sections: &[(Refinement, Section)],
+) {
+    for (refinement, section) in sections {
+        let extensions = &mut group.extensions;
+        let entries = lists::by_sub_index(reader, section, |reader, entry| {
+            if reader.doc.is_comment(entry) {
+                reader.extension(entry, extensions);
+            } else {
+                nothing_to_refine(reader, index, section, entry, extensions);
+            }
+        });
+        for (number, entry) in entries {
+            let of_number = |item: &Item| item.object().is_some_and(|(_, sub)| u32::from(sub) == number);
+            match group.items.iter().position(of_number) {
+                Some(position) => apply(reader, &mut group.items[position], *refinement, &entry),
+                None => nothing_to_refine(reader, index, section, &entry, &mut group.extensions),
+            }
+        }
+    }
+}
+
+fn nothing_to_refine(
+    reader: &mut Reader<'_, '_>,
+    index: u16,
+    section: &Section,
+    entry: &Entry,
+    extensions: &mut Vec<Extension>,
+) {
+    let (name, key) = (reader.doc.name(section), reader.doc.key(entry));
+    reader.diagnostics.push(
+        Diagnostic::new(
+            &codes::NAME_WITHOUT_SUB,
+            reader.doc.key_span(entry),
+            format!("0x{index:04X} has no sub-index {key}"),
+        )
+        .label("kept as an extension attribute")
+        .help("the keys of this section are sub-indices in decimal"),
+    );
+    let key = compact_str::format_compact!("{name}/{key}");
+    extensions.push(Extension { key, value: reader.doc.value(entry).into(), span: reader.doc.value_span(entry) });
+}
+
+fn apply(reader: &mut Reader<'_, '_>, item: &mut Item, refinement: Refinement, entry: &Entry) {
+    match refinement {
+        Refinement::Name => reader.name(Some(entry), &mut item.name, &mut item.at.name),
+        Refinement::Value => {
+            let value = reader.typed(Some(entry), item.ty, Role::Value);
+            configured(item).value = value;
+            item.at.configured = reader.doc.value_span(entry);
+            reader.take_comments(&mut item.extensions);
+        }
+        Refinement::Denotation => configured(item).denotation = Some(reader.doc.value(entry).into()),
+    }
+}
+
+fn configured(item: &mut Item) -> &mut Configured {
+    item.configured.get_or_insert_with(Box::default)
+}

@@ -1,0 +1,478 @@
+//! The sections about the file and the device as a whole.
+
+use std::collections::BTreeMap;
+
+use super::lists::{self, Lists};
+use super::reader::{Fixed, Reader};
+use super::sections::{Kind, List};
+use crate::diagnostics::{codes, Diagnostic};
+use crate::frontend::canopen::number;
+use crate::ir::{CanOpenSettings, Commissioning, CompactString, Device, DynamicChannel, Extension, Header};
+use crate::syntax::ini::{Entry, Section};
+
+/// Fills `device` from its header sections and returns what the object lists say.
+pub(super) fn read(reader: &mut Reader<'_, '_>, header: &[(Kind, Section)], device: &mut Device) -> Lists {
+    report_repeated(reader, header);
+    report_missing(reader, header);
+    let mut lists = Lists::default();
+    let mut canopen = CanOpenSettings::default();
+    for (kind, section) in header {
+        match kind {
+            Kind::FileInfo => file_info(reader, section, device),
+            Kind::DeviceInfo => device_info(reader, section, device, &mut canopen),
+            Kind::DummyUsage => dummy_usage(reader, section, device, &mut canopen),
+            Kind::Comments => comments(reader, section, &mut device.header.comments, &mut device.extensions),
+            Kind::List(list) => lists.read(reader, *list, section, device),
+            Kind::Commissioning => commissioning(reader, section, device),
+            Kind::SupportedModules => Lists::supported_modules(reader, section, device),
+            Kind::ConnectedModules => connected_modules(reader, section, device),
+            Kind::DynamicChannels => dynamic_channels(reader, section, device, &mut canopen),
+            _ => {}
+        }
+        reader.take_comments(&mut device.extensions);
+    }
+    device.name = device.identity.product_name.clone();
+    device.canopen = Some(Box::new(canopen));
+    lists
+}
+
+fn report_repeated(reader: &mut Reader<'_, '_>, header: &[(Kind, Section)]) {
+    for (position, (kind, section)) in header.iter().enumerate().skip(1) {
+        // The kinds are few, so that a file of nothing but headers costs no more than their number each.
+        let first = header[..position.min(16)].iter().find(|(other, _)| other == kind);
+        if let Some((_, first)) = first {
+            reader.duplicate_sections(&[*first, *section]);
+        }
+    }
+}
+
+fn report_missing(reader: &mut Reader<'_, '_>, header: &[(Kind, Section)]) {
+    let mandatory = [
+        (Kind::FileInfo, "FileInfo"),
+        (Kind::DeviceInfo, "DeviceInfo"),
+        (Kind::List(List::Mandatory), "MandatoryObjects"),
+    ];
+    for (kind, name) in mandatory {
+        if !header.iter().any(|(other, _)| *other == kind) {
+            reader.missing_section(name);
+        }
+    }
+}
+
+/// Finds `key` among `names` without regard to case.
+fn position(names: &[&str], key: &str) -> Option<usize> {
+    names.iter().position(|name| name.eq_ignore_ascii_case(key))
+}
+
+/// Reports keys that occur before in the same section; `seen` has a flag per known key.
+fn once(reader: &mut Reader<'_, '_>, seen: &mut [Option<Entry>], which: usize, entry: &Entry) {
+    if let Some(earlier) = seen[which].replace(*entry) {
+        reader.duplicate_key(&earlier, entry);
+    }
+}
+
+const FILE_INFO: [&str; 12] = [
+    "FileName",
+    "FileVersion",
+    "FileRevision",
+    "EDSVersion",
+    "Description",
+    "CreationTime",
+    "CreationDate",
+    "CreatedBy",
+    "ModificationTime",
+    "ModificationDate",
+    "ModifiedBy",
+    "LastEDS",
+];
+
+fn file_info(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device) {
+    let mut seen = [None; FILE_INFO.len()];
+    for entry in reader.doc.entries(section) {
+        let Some(which) = position(&FILE_INFO, reader.doc.key(entry)) else {
+            reader.extension(entry, &mut device.extensions);
+            continue;
+        };
+        once(reader, &mut seen, which, entry);
+        let text = reader.doc.value(entry);
+        let form_ok = match which {
+            1 | 2 => is_version(text),
+            3 => is_eds_version(text),
+            5 | 8 => is_time(text),
+            6 | 9 => is_date(text),
+            _ => true,
+        };
+        if !form_ok && !text.is_empty() {
+            header_format(reader, entry, which);
+        }
+        *header_field(&mut device.header, which) = text.into();
+    }
+    missing(reader, section, &FILE_INFO, &seen, &[0, 1, 2]);
+    old_version(reader, section, &device.header, seen[3].as_ref());
+}
+
+/// Reports which of the entries `mandatory` weren't seen.
+fn missing(
+    reader: &mut Reader<'_, '_>,
+    section: &Section,
+    keys: &[&str],
+    seen: &[Option<Entry>],
+    mandatory: &[usize],
+) {
+    for &which in mandatory {
+        if seen[which].as_ref().is_none_or(|entry| reader.doc.value(entry).is_empty()) {
+            reader.missing_entry(section, keys[which]);
+        }
+    }
+}
+
+fn header_field(header: &mut Header, which: usize) -> &mut CompactString {
+    match which {
+        0 => &mut header.file_name,
+        1 => &mut header.file_version,
+        2 => &mut header.file_revision,
+        3 => &mut header.format_version,
+        4 => &mut header.description,
+        5 => &mut header.creation_time,
+        6 => &mut header.creation_date,
+        7 => &mut header.created_by,
+        8 => &mut header.modification_time,
+        9 => &mut header.modification_date,
+        10 => &mut header.modified_by,
+        _ => &mut header.last_eds,
+    }
+}
+
+fn header_format(reader: &mut Reader<'_, '_>, entry: &Entry, which: usize) {
+    let expected = match which {
+        1 | 2 => "a whole number up to 255",
+        3 => "a version x.y, such as 4.0",
+        5 | 8 => "a time hh:mm with AM or PM, such as 09:30AM",
+        _ => "a date mm-dd-yyyy, such as 12-31-2020",
+    };
+    let message = format!("{} isn't {expected}", FILE_INFO[which]);
+    let span = reader.doc.value_span(entry);
+    reader.diagnostics.push(Diagnostic::new(&codes::HEADER_FORMAT, span, message).label("kept as text"));
+}
+
+fn old_version(reader: &mut Reader<'_, '_>, section: &Section, header: &Header, entry: Option<&Entry>) {
+    let (version, given) = match header.format_version.as_str() {
+        "" => ("3.0", false),
+        version => (version, true),
+    };
+    if version.parse::<f64>().is_ok_and(|version| version < 4.0) {
+        let (message, span) = match entry.filter(|_| given) {
+            Some(entry) => (format!("the file is of EDS version {version}"), reader.doc.value_span(entry)),
+            None => ("the file has no EDSVersion, which means 3.0".to_owned(), reader.doc.name_span(section)),
+        };
+        reader.diagnostics.push(Diagnostic::new(&codes::OLD_EDS_VERSION, span, message));
+    }
+}
+
+fn is_version(text: &str) -> bool {
+    number::parse(text, &[]).int().is_some_and(|version| (0..=255).contains(&version))
+}
+
+fn is_eds_version(text: &str) -> bool {
+    let digit = |part: &str| part.len() == 1 && part.as_bytes()[0].is_ascii_digit();
+    text.split_once('.').is_some_and(|(major, minor)| digit(major) && digit(minor) && major <= "4")
+}
+
+fn is_time(text: &str) -> bool {
+    let bytes = text.as_bytes();
+    let (Some(time), Some(half)) = (bytes.get(..5), text.get(5..)) else { return false };
+    let digits = [0, 1, 3, 4].iter().all(|&at| time[at].is_ascii_digit());
+    digits && time[2] == b':' && matches!(half.trim().to_ascii_uppercase().as_str(), "AM" | "PM")
+}
+
+fn is_date(text: &str) -> bool {
+    let bytes = text.as_bytes();
+    let digit = |at: usize| bytes[at].is_ascii_digit();
+    bytes.len() == 10
+        && bytes[2] == b'-'
+        && bytes[5] == b'-'
+        && [0, 1, 3, 4, 6, 7, 8, 9].iter().all(|&at| digit(at))
+        && (b"01"..=b"12").contains(&&[bytes[0], bytes[1]])
+}
+
+const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
+
+fn device_info(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device, canopen: &mut CanOpenSettings) {
+    const KEYS: [&str; 16] = [
+        "VendorName",
+        "ProductName",
+        "OrderCode",
+        "VendorNumber",
+        "ProductNumber",
+        "RevisionNumber",
+        "SimpleBootUpMaster",
+        "SimpleBootUpSlave",
+        "Granularity",
+        "DynamicChannelsSupported",
+        "GroupMessaging",
+        "NrOfRXPDO",
+        "NrOfTXPDO",
+        "LSS_Supported",
+        "CompactPDO",
+        "ProductVersion",
+    ];
+    let mut seen = [None; KEYS.len()];
+    let mut rates = [None; BIT_RATES.len()];
+    for entry in reader.doc.entries(section) {
+        let key = reader.doc.key(entry);
+        let Some(which) = position(&KEYS, key) else {
+            if !bit_rate(reader, entry, &mut rates, canopen) {
+                reader.extension(entry, &mut device.extensions);
+            }
+            continue;
+        };
+        once(reader, &mut seen, which, entry);
+        match which {
+            0..=2 => {
+                let (mut name, mut at) = (CompactString::default(), Default::default());
+                reader.name(Some(entry), &mut name, &mut at);
+                match which {
+                    0 => device.identity.vendor_name = name,
+                    1 => device.identity.product_name = name,
+                    _ => device.identity.order_code = name,
+                }
+            }
+            3 => device.identity.vendor_id = reader.u32_of(entry),
+            4 => device.identity.product_code = reader.u32_of(entry),
+            5 => device.identity.revision_number = reader.u32_of(entry),
+            6 => canopen.boot_up_master = reader.flag(entry),
+            7 => canopen.boot_up_slave = reader.flag(entry),
+            8 => canopen.granularity = granularity(reader, entry),
+            9 => canopen.dynamic_channels_supported = reader.u32_of(entry).unwrap_or(0),
+            10 => canopen.group_messaging = reader.flag(entry),
+            11 => {
+                canopen.rx_pdos = reader.unsigned(entry, 0xFFFF).map(|count| count as u16);
+                canopen.at.rx_pdos = reader.doc.value_span(entry);
+            }
+            12 => {
+                canopen.tx_pdos = reader.unsigned(entry, 0xFFFF).map(|count| count as u16);
+                canopen.at.tx_pdos = reader.doc.value_span(entry);
+            }
+            13 => canopen.lss = reader.flag(entry),
+            14 => canopen.compact_pdo = reader.unsigned(entry, 0xFF).unwrap_or(0) as u8,
+            _ => reader.extension(entry, &mut device.extensions),
+        }
+    }
+    missing(reader, section, &KEYS, &seen, &[0, 1, 3, 4]);
+}
+
+/// `BaudRate_250=1`; false for any other key.
+fn bit_rate(
+    reader: &mut Reader<'_, '_>,
+    entry: &Entry,
+    seen: &mut [Option<Entry>; BIT_RATES.len()],
+    canopen: &mut CanOpenSettings,
+) -> bool {
+    let key = reader.doc.key(entry);
+    let rate = key.get(9..).filter(|_| key[..9].eq_ignore_ascii_case("BaudRate_"));
+    let rate = rate.and_then(|rate| rate.parse::<u16>().ok());
+    let which = rate.and_then(|rate| BIT_RATES.iter().position(|&known| known == rate));
+    let Some(which) = which else { return false };
+    once(reader, seen, which, entry);
+    let rate = BIT_RATES[which];
+    canopen.bit_rates.retain(|&other| other != rate);
+    if reader.flag(entry) {
+        let at = canopen.bit_rates.partition_point(|&other| other < rate);
+        canopen.bit_rates.insert(at, rate);
+    }
+    true
+}
+
+/// Bits, from 1 to 64; not a flag, though some tools write it like one (E82).
+fn granularity(reader: &mut Reader<'_, '_>, entry: &Entry) -> Option<u8> {
+    let value = reader.unsigned(entry, 0xFF)?;
+    if value > 64 {
+        let span = reader.doc.value_span(entry);
+        let message = format!("a granularity of {value} bits is more than a PDO has");
+        reader.diagnostics.push(Diagnostic::new(&codes::VALUE_NOT_ALLOWED, span, message).label("expected 0 to 64"));
+    }
+    Some(value as u8)
+}
+
+fn dummy_usage(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device, canopen: &mut CanOpenSettings) {
+    canopen.dummies_given = true;
+    let mut seen = [None; 256];
+    let mut usage = [false; 256];
+    for entry in reader.doc.entries(section) {
+        let Some(code) = dummy_code(reader.doc.key(entry)) else {
+            reader.extension(entry, &mut device.extensions);
+            continue;
+        };
+        once(reader, &mut seen, usize::from(code), entry);
+        usage[usize::from(code)] = reader.flag(entry);
+    }
+    canopen.dummies.extend((0..=u8::MAX).filter(|&code| usage[usize::from(code)]));
+    canopen.dummies.sort_unstable();
+    canopen.dummies.dedup();
+}
+
+/// The data type of `Dummy0007`.
+fn dummy_code(key: &str) -> Option<u8> {
+    let digits = key.get(5..).filter(|_| key[..5].eq_ignore_ascii_case("Dummy"))?;
+    let hexadecimal = digits.len() <= 4 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+    hexadecimal.then(|| u8::from_str_radix(digits, 16).ok()).flatten()
+}
+
+/// `LineN`, by number; a missing line is no line.
+pub(super) fn comments(
+    reader: &mut Reader<'_, '_>,
+    section: &Section,
+    lines: &mut Vec<CompactString>,
+    extensions: &mut Vec<Extension>,
+) {
+    let mut numbered: Vec<(u32, &Entry)> = Vec::new();
+    let mut count = None;
+    for entry in reader.doc.entries(section) {
+        let key = reader.doc.key(entry);
+        let digits = key.get(4..).filter(|_| key[..4].eq_ignore_ascii_case("Line"));
+        match digits.and_then(|digits| digits.parse::<u32>().ok()) {
+            Some(number) => numbered.push((number, entry)),
+            // How many lines there are is plain to see, and many files have it wrong.
+            None if key.eq_ignore_ascii_case("Lines") => {
+                if let Some(earlier) = count.replace(entry) {
+                    reader.duplicate_key(earlier, entry);
+                }
+            }
+            None => reader.extension(entry, extensions),
+        }
+    }
+    numbered.sort_by_key(|&(number, _)| number);
+    for (position, &(number, entry)) in numbered.iter().enumerate() {
+        match numbered.get(position + 1) {
+            Some(&(next, later)) if next == number => reader.duplicate_key(entry, later),
+            _ => lines.push(reader.doc.value(entry).into()),
+        }
+    }
+}
+
+fn commissioning(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device) {
+    const KEYS: [&str; 7] =
+        ["NodeID", "NodeName", "Baudrate", "NetNumber", "NetworkName", "CANopenManager", "LSS_SerialNumber"];
+    let mut seen = [None; KEYS.len()];
+    let mut own = device.commissioning.take().unwrap_or_default();
+    for entry in reader.doc.entries(section) {
+        let Some(which) = position(&KEYS, reader.doc.key(entry)) else {
+            reader.extension(entry, &mut device.extensions);
+            continue;
+        };
+        once(reader, &mut seen, which, entry);
+        let text = reader.doc.value(entry);
+        match which {
+            0 => own.node_id = node_id(reader, entry),
+            1 => own.node_name = text.into(),
+            2 => own.bit_rate = reader.unsigned(entry, 0xFFFF).map(|rate| rate as u16),
+            3 => own.net_number = reader.u32_of(entry),
+            4 => own.network_name = text.into(),
+            5 => own.manager = reader.flag(entry),
+            _ => own.lss_serial_number = reader.u32_of(entry),
+        }
+    }
+    missing(reader, section, &KEYS, &seen, &[0, 2]);
+    device.identity.serial_number = own.lss_serial_number.filter(|&serial| serial != 0);
+    device.commissioning = Some(own);
+}
+
+fn node_id(reader: &mut Reader<'_, '_>, entry: &Entry) -> Option<u8> {
+    let value = reader.unsigned(entry, 0xFF)?;
+    if !(1..=127).contains(&value) {
+        let span = reader.doc.value_span(entry);
+        let message = format!("{value} is no node-ID");
+        reader.diagnostics.push(Diagnostic::new(&codes::VALUE_NOT_ALLOWED, span, message).label("expected 1 to 127"));
+        return None;
+    }
+    Some(value as u8)
+}
+
+fn connected_modules(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device) {
+    let mut own = device.commissioning.take().unwrap_or_else(|| Box::new(Commissioning::default()));
+    for entry in lists::numbered(reader, section, "NrOfEntries", &mut device.extensions) {
+        if let Some(module) = reader.unsigned(&entry, 0xFFFF) {
+            own.connected_modules.push(module as u16);
+        }
+    }
+    device.commissioning = Some(own);
+}
+
+/// Segments `TypeN`, `DirN`, `RangeN`, `PPOffsetN` (CiA 302-4, CiA 306-2).
+fn dynamic_channels(
+    reader: &mut Reader<'_, '_>,
+    section: &Section,
+    device: &mut Device,
+    canopen: &mut CanOpenSettings,
+) {
+    const FIELDS: [&str; 4] = ["Type", "Dir", "Range", "PPOffset"];
+    let mut segments: BTreeMap<u32, [Option<Entry>; FIELDS.len()]> = BTreeMap::new();
+    let mut count = None;
+    for entry in reader.doc.entries(section) {
+        let key = reader.doc.key(entry);
+        let split = key.len() - key.bytes().rev().take_while(u8::is_ascii_digit).count();
+        match (position(&FIELDS, &key[..split]), key[split..].parse::<u32>()) {
+            (Some(field), Ok(number)) => once(reader, segments.entry(number).or_default(), field, entry),
+            _ if key.eq_ignore_ascii_case("NrOfSeg") => {
+                if let Some(earlier) = count.replace(entry) {
+                    reader.duplicate_key(earlier, entry);
+                }
+            }
+            _ => reader.extension(entry, &mut device.extensions),
+        }
+    }
+    if let Some(count) = count {
+        lists::announced_count(reader, count, segments.len());
+    }
+    canopen.dynamic_channels.extend(segments.values().map(|fields| dynamic_channel(reader, fields)));
+}
+
+fn dynamic_channel(reader: &mut Reader<'_, '_>, fields: &[Option<Entry>; 4]) -> DynamicChannel {
+    let mut segment = DynamicChannel::default();
+    let [data_type, direction, range, offset] = fields;
+    segment.data_type = data_type.as_ref().and_then(|entry| reader.u32_of(entry)).unwrap_or(0);
+    let mut text = |entry: &Option<Entry>| entry.as_ref().map(|entry| reader.fixed(entry, Fixed::Number));
+    segment.direction = text(direction).map_or("", |(text, _)| text).into();
+    segment.range = text(range).map_or("", |(text, _)| text).into();
+    let Some((text, span)) = text(offset).filter(|(text, _)| !text.is_empty()) else { return segment };
+    match offsets(text) {
+        Some((offset, difference)) => (segment.offset, segment.difference) = (offset, difference),
+        None => {
+            let message = format!("`{text}` is no offset");
+            let label = "expected `offset` or `offset, difference`";
+            reader.diagnostics.push(Diagnostic::new(&codes::ILLEGAL_NUMBER, span, message).label(label));
+        }
+    }
+    segment
+}
+
+/// `offset` or `offset, difference`.
+fn offsets(text: &str) -> Option<(i64, Option<i64>)> {
+    let number = |text: &str| number::parse(text.trim(), &[]).int().and_then(|value| i64::try_from(value).ok());
+    match text.split_once(',') {
+        Some((offset, difference)) => Some((number(offset)?, Some(number(difference)?))),
+        None => Some((number(text)?, None)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forms_of_the_header() {
+        assert!(is_date("12-31-2020") && !is_date("2016-03-25") && !is_date("13-01-2020") && !is_date("12-31-20é"));
+        assert!(is_time("12:00PM") && is_time("09:30 am") && !is_time("17:24:43") && !is_time("9:30AM"));
+        assert!(is_eds_version("4.0") && is_eds_version("3.0"));
+        for text in ["404", "4", "402", "5.0", "4.10"] {
+            assert!(!is_eds_version(text), "{text}");
+        }
+        assert!(is_version("1") && !is_version("1.0") && !is_version("-") && !is_version("256"));
+        assert_eq!((dummy_code("dummy0007"), dummy_code("Dummy1B")), (Some(7), Some(0x1B)));
+        for key in ["Dummy", "Dummy+7", "Dummy0100", "Dummy00007", "Dumm\u{e9}07"] {
+            assert_eq!(dummy_code(key), None, "{key}");
+        }
+        assert_eq!(offsets("0, 1"), Some((0, Some(1))));
+        assert_eq!(offsets("0x10"), Some((16, None)));
+    }
+}

@@ -1,0 +1,247 @@
+//! The object lists, and what they say of objects that exist or don't.
+
+use super::reader::Reader;
+use super::sections::List;
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{Device, Extension};
+use crate::source::Span;
+use crate::syntax::ini::{Entry, Section};
+
+/// What the object lists announce.
+#[derive(Default)]
+pub(super) struct Lists {
+    listed: Vec<(u16, List, Span)>,
+    /// Whether there is any list at all.
+    pub(super) given: bool,
+}
+
+impl Lists {
+    pub(super) fn read(&mut self, reader: &mut Reader<'_, '_>, list: List, section: &Section, device: &mut Device) {
+        self.given = true;
+        for entry in &numbered(reader, section, "SupportedObjects", &mut device.extensions) {
+            if let Some(index) = reader.index_of(entry) {
+                self.listed.push((index, list, reader.doc.value_span(entry)));
+            }
+        }
+        reader.take_comments(&mut device.extensions);
+    }
+
+    pub(super) fn supported_modules(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device) {
+        let mut earlier = None;
+        for entry in reader.doc.entries(section) {
+            if reader.doc.key(entry).eq_ignore_ascii_case("NrOfEntries") {
+                if let Some(earlier) = earlier.replace(entry) {
+                    reader.duplicate_key(earlier, entry);
+                }
+                let span = reader.doc.value_span(entry);
+                reader.announced_modules = reader.unsigned(entry, 0xFFFF).map(|count| (count, span));
+            } else {
+                reader.extension(entry, &mut device.extensions);
+            }
+        }
+        if earlier.is_none() {
+            reader.missing_entry(section, "NrOfEntries");
+        }
+    }
+}
+
+/// The entries `1=`, `2=` … of a list, of a repeated one the last, checked against the count that `count_key` gives.
+pub(super) fn numbered(
+    reader: &mut Reader<'_, '_>,
+    section: &Section,
+    count_key: &str,
+    extensions: &mut Vec<Extension>,
+) -> Vec<Entry> {
+    let (entries, count) = by_number(reader, section, count_key, |reader, entry| reader.extension(entry, extensions));
+    let agrees = match count {
+        Some(count) => announced_count(reader, &count, entries.len()),
+        None => {
+            reader.missing_entry(section, count_key);
+            true
+        }
+    };
+    let gap = entries.iter().zip(1..).find(|((number, _), expected)| number != expected);
+    if let (Some(((number, entry), expected)), true) = (gap, agrees) {
+        let message = format!("the list goes on with {number}, but its next entry should be {expected}");
+        reader.diagnostics.push(
+            Diagnostic::new(&codes::LIST_COUNT, reader.doc.key_span(entry), message)
+                .label("the entries that exist are used")
+                .help("number the entries from 1 without a gap"),
+        );
+    }
+    entries.into_iter().map(|(_, entry)| entry).collect()
+}
+
+/// Every entry of a list whose keys are sub-indices, with its sub-index; the list may have gaps, but not `others`.
+pub(super) fn by_sub_index(
+    reader: &mut Reader<'_, '_>,
+    section: &Section,
+    others: impl FnMut(&mut Reader<'_, '_>, &Entry),
+) -> Vec<(u32, Entry)> {
+    let (entries, count) = by_number(reader, section, "NrOfEntries", others);
+    match count {
+        Some(count) => _ = announced_count(reader, &count, entries.len()),
+        None => reader.missing_entry(section, "NrOfEntries"),
+    }
+    entries
+}
+
+/// The entries whose keys are decimal numbers, sorted and without repetitions and empty ones, and the one with the key
+/// `count_key`. All `others` are passed on.
+fn by_number(
+    reader: &mut Reader<'_, '_>,
+    section: &Section,
+    count_key: &str,
+    mut others: impl FnMut(&mut Reader<'_, '_>, &Entry),
+) -> (Vec<(u32, Entry)>, Option<Entry>) {
+    let doc = reader.doc;
+    let mut entries: Vec<(u32, Entry)> = Vec::with_capacity(doc.entries(section).len());
+    let mut count = None;
+    for entry in doc.entries(section) {
+        if let Some(number) = reader.key_number(entry) {
+            entries.push((number, *entry));
+        } else if doc.key(entry).eq_ignore_ascii_case(count_key) {
+            if let Some(earlier) = count.replace(*entry) {
+                reader.duplicate_key(&earlier, entry);
+            }
+        } else {
+            others(reader, entry);
+        }
+    }
+    if !entries.is_sorted_by(|earlier, later| earlier.0 < later.0) {
+        entries.sort_by_key(|&(number, _)| number);
+        for pair in entries.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+            reader.duplicate_key(&pair[0].1, &pair[1].1);
+        }
+        // The sort is stable, so that the last of equal ones is the file's last.
+        entries.reverse();
+        entries.dedup_by_key(|&mut (number, _)| number);
+        entries.reverse();
+    }
+    entries.retain(|(_, entry)| !doc.value(entry).is_empty());
+    (entries, count)
+}
+
+/// Whether `entry` announces as many entries as there are; reports where not.
+pub(super) fn announced_count(reader: &mut Reader<'_, '_>, entry: &Entry, count: usize) -> bool {
+    let Some(announced) = reader.unsigned(entry, 0xFFFF) else { return true };
+    let (key, text, span) = (reader.doc.key(entry), reader.doc.value(entry), reader.doc.value_span(entry));
+    if announced as usize != count {
+        let message = format!("{key} announces {announced} entries, but there are {count}");
+        reader.diagnostics.push(
+            Diagnostic::new(&codes::LIST_COUNT, span, message)
+                .label("the entries that exist are used")
+                .fix(count.to_string()),
+        );
+        return false;
+    }
+    if text.starts_with("0x") || text.starts_with("0X") {
+        let message = format!("{key} is a hexadecimal number");
+        reader.diagnostics.push(
+            Diagnostic::new(&codes::HEX_COUNT, span, message)
+                .label(format!("read as {announced}"))
+                .fix(announced.to_string()),
+        );
+    }
+    true
+}
+
+/// A set of indices.
+struct Indices(Box<[u64; 1024]>);
+
+impl Indices {
+    fn new() -> Self {
+        Indices(Box::new([0; 1024]))
+    }
+
+    /// Adds `index`; whether it was new.
+    fn insert(&mut self, index: u16) -> bool {
+        let (word, bit) = (&mut self.0[usize::from(index / 64)], 1 << (index % 64));
+        let new = *word & bit == 0;
+        *word |= bit;
+        new
+    }
+
+    fn contains(&self, index: u16) -> bool {
+        self.0[usize::from(index / 64)] >> (index % 64) & 1 == 1
+    }
+}
+
+/// Holds the lists and the objects of `device` against each other.
+pub(super) fn check(reader: &mut Reader<'_, '_>, lists: &Lists, device: &Device) {
+    let mut described = Indices::new();
+    for group in &device.groups {
+        if let Some(index) = group.index() {
+            described.insert(index);
+        }
+    }
+    let mut listed = Indices::new();
+    for &(index, list, span) in &lists.listed {
+        if !listed.insert(index) {
+            let message = format!("0x{index:04X} is listed twice");
+            reader.diagnostics.push(Diagnostic::new(&codes::LISTED_TWICE, span, message));
+        }
+        if !described.contains(index) {
+            let message = format!("0x{index:04X} is listed, but there is no section [{index:04X}]");
+            reader.diagnostics.push(
+                Diagnostic::new(&codes::LISTED_NOT_DESCRIBED, span, message).label("nothing is known of this object"),
+            );
+        }
+        let right = belongs(index);
+        if right != Some(list) {
+            let message = format!("0x{index:04X} doesn't belong into this list");
+            let label = match right {
+                Some(right) => format!("it belongs into [{}]", right.name()),
+                None => "an object of the data type area belongs into none".to_owned(),
+            };
+            reader.diagnostics.push(Diagnostic::new(&codes::WRONG_LIST, span, message).label(label));
+        }
+    }
+    not_listed(reader, lists, &listed, device);
+    for (index, span) in std::mem::take(&mut reader.link_spans) {
+        if !described.contains(index) {
+            let message = format!("the link leads to 0x{index:04X}, which isn't described");
+            reader.diagnostics.push(Diagnostic::new(&codes::DANGLING_LINK, span, message));
+        }
+    }
+}
+
+fn not_listed(reader: &mut Reader<'_, '_>, lists: &Lists, listed: &Indices, device: &Device) {
+    if lists.listed.is_empty() {
+        if let Some(group) = device.groups.first() {
+            reader.diagnostics.push(
+                Diagnostic::new(&codes::NOT_LISTED, group.origin.span, "the file lists none of its objects")
+                    .label("the first object")
+                    .help("list them in [MandatoryObjects], [OptionalObjects] and [ManufacturerObjects]"),
+            );
+        }
+        return;
+    }
+    for group in &device.groups {
+        let Some(index) = group.index().filter(|&index| index >= 0x1000) else { continue };
+        if !listed.contains(index) {
+            let message = format!("0x{index:04X} is described, but in none of the object lists");
+            reader.diagnostics.push(Diagnostic::new(&codes::NOT_LISTED, group.origin.span, message));
+        }
+    }
+}
+
+impl List {
+    fn name(self) -> &'static str {
+        match self {
+            List::Mandatory => "MandatoryObjects",
+            List::Optional => "OptionalObjects",
+            List::Manufacturer => "ManufacturerObjects",
+        }
+    }
+}
+
+/// The list into which an index belongs; `None` below 0x1000, where data types are defined.
+fn belongs(index: u16) -> Option<List> {
+    match index {
+        0x0000..=0x0FFF => None,
+        0x1000 | 0x1001 | 0x1018 => Some(List::Mandatory),
+        0x2000..=0x5FFF => Some(List::Manufacturer),
+        _ => Some(List::Optional),
+    }
+}

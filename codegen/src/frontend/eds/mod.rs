@@ -1,0 +1,300 @@
+//! EDS and DCF files (CiA 306-1) to IR.
+//!
+//! [`read`] takes the sections of a file in one pass: those of the header fill the device at once, those of objects are
+//! sorted by index, so that an object sees all of its sections together, wherever they stand in the file.
+//!
+//! | file | subject |
+//! |---|---|
+//! | `sections` | what a section is, by its name |
+//! | `reader` | reading single entries |
+//! | `header` | [FileInfo], [DeviceInfo], [DummyUsage], [Comments], [DeviceComissioning], [DynamicChannels] |
+//! | `lists` | the object lists, and what they say of objects that exist or don't |
+//! | `object` | an object and its sub-indices |
+//! | `compact` | CompactSubObj and the sections that refine it |
+//! | `modules` | modular devices |
+
+mod compact;
+mod header;
+mod lists;
+mod modules;
+mod object;
+mod reader;
+mod sections;
+
+use std::collections::HashSet;
+
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Device, Extension, Group, ObjectCode, Shape, Type, TypeDef, Value};
+use crate::source::{Encoding, FileId, Origin, Source, Span};
+use crate::syntax::ini::{Document, Oddity, Section};
+use object::ObjectSections;
+use reader::Reader;
+use sections::{Kind, Refinement};
+
+/// Reads the device that `source` describes. Everything that had to be repaired goes to `diagnostics`.
+///
+/// Returns `None`, with an error, when there is no CANopen section at all.
+pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut Diagnostics) -> Option<Device> {
+    let doc = Document::parse(source.text(), file);
+    report_encoding(source, file, diagnostics);
+    report_oddities(&doc, diagnostics);
+    let mut reader = Reader {
+        doc: &doc,
+        diagnostics,
+        aliases,
+        types: Vec::new(),
+        link_spans: Vec::new(),
+        orphan_sections: Vec::new(),
+        announced_modules: None,
+        derived_items: 0,
+        comments: Vec::new(),
+        hex_flags: None,
+    };
+    let sorted = Sorted::new(&mut reader);
+    if sorted.is_empty() {
+        reader.diagnostics.push(
+            Diagnostic::new(&codes::NOT_AN_EDS, Span::new(file, 0, 0), "this is no EDS: it has no section of CiA 306")
+                .help("an EDS has [FileInfo], [DeviceInfo], object lists, and a section for each object, such as [1000]"),
+        );
+        return None;
+    }
+    let mut device = Device { origin: Origin { span: Span::new(file, 0, 0), line: 1 }, ..Device::default() };
+    for comment in doc.preamble() {
+        reader.extension(comment, &mut device.extensions);
+    }
+    let lists = header::read(&mut reader, &sorted.header, &mut device);
+    objects(&mut reader, sorted.objects, &mut device);
+    modules::read(&mut reader, sorted.modules, &mut device);
+    lists::check(&mut reader, &lists, &device);
+    unknown_sections(&mut reader, &sorted.unknown, &mut device);
+    reader.report_hex_flags();
+    Some(device)
+}
+
+/// The sections of a file by what they are about.
+struct Sorted {
+    /// In the order of the file.
+    header: Vec<(Kind, Section)>,
+    /// By index, then object before sub-indices; the order of the file among equals.
+    objects: Vec<(u16, u32, Kind, Section)>,
+    /// By module.
+    modules: Vec<(u32, sections::ModulePart, Section)>,
+    /// In the order of the file.
+    unknown: Vec<Section>,
+}
+
+impl Sorted {
+    fn new(reader: &mut Reader<'_, '_>) -> Self {
+        let doc = reader.doc;
+        let count = doc.sections().len();
+        let mut sorted = Sorted {
+            header: Vec::new(),
+            objects: Vec::with_capacity(count),
+            modules: Vec::new(),
+            unknown: Vec::new(),
+        };
+        for section in doc.sections() {
+            let name = doc.name(section);
+            let (kind, legal) = sections::classify(name);
+            if !legal {
+                illegal_name(reader, section, kind);
+            }
+            match kind {
+                Kind::Object(index) => sorted.objects.push((index, 0, kind, *section)),
+                Kind::Sub(index, sub) => sorted.objects.push((index, 1 + u32::from(sub), kind, *section)),
+                Kind::Refinement(index, _) | Kind::Links(index) => sorted.objects.push((index, 0x200, kind, *section)),
+                Kind::Module(number, part) => sorted.modules.push((number, part, *section)),
+                Kind::Unknown => sorted.unknown.push(*section),
+                _ => sorted.header.push((kind, *section)),
+            }
+        }
+        if !sorted.objects.is_sorted_by_key(|object| (object.0, object.1)) {
+            sorted.objects.sort_by_key(|object| (object.0, object.1));
+        }
+        sorted.modules.sort_by_key(|module| module.0);
+        sorted
+    }
+
+    fn is_empty(&self) -> bool {
+        self.header.is_empty() && self.objects.is_empty() && self.modules.is_empty()
+    }
+}
+
+/// Builds the objects, each from its run of sections.
+fn objects(reader: &mut Reader<'_, '_>, sorted: Vec<(u16, u32, Kind, Section)>, device: &mut Device) {
+    let mut own = ObjectSections::default();
+    let mut rest = sorted.as_slice();
+    device.groups.reserve(sorted.len() / 4);
+    while let Some(&(index, ..)) = rest.first() {
+        let run = rest.iter().take_while(|section| section.0 == index).count();
+        own.clear();
+        for (_, _, kind, section) in &rest[..run] {
+            match *kind {
+                Kind::Object(_) => own.object.push(*section),
+                Kind::Sub(_, sub) => own.subs.push((sub, *section)),
+                Kind::Refinement(_, refinement) => own.refinements.push((refinement, *section)),
+                _ => own.links.push(*section),
+            }
+        }
+        rest = &rest[run..];
+        if let Some(group) = reader.object(index, &mut own) {
+            define_type(reader, &group, device);
+            device.groups.push(group);
+        }
+    }
+}
+
+/// An object that defines a type: an alias of a basic one, or a number of bits whose meaning nobody tells.
+fn define_type(reader: &mut Reader<'_, '_>, group: &Group, device: &mut Device) {
+    let (Some(index), Some(code)) = (group.index(), group.object_code()) else { return };
+    if !matches!(code, ObjectCode::DefType | ObjectCode::DefStruct) {
+        if index < 0x1000 && index > 0 {
+            let message = format!("0x{index:04X} lies in the area of data types and is a {}", code.name());
+            reader.diagnostics.push(Diagnostic::new(&codes::TYPE_AREA_OBJECT, group.origin.span, message));
+        }
+        return;
+    }
+    let (target, bits) = defined_type(group, index, code);
+    reader.types.push((u32::from(index), target));
+    device.types.push(TypeDef {
+        name: group.name.clone(),
+        code: Some(u32::from(index)),
+        shape: Shape::Alias(target),
+        bits,
+        documentation: None,
+        origin: group.origin,
+    });
+}
+
+/// What a type is another name of, and its length in bits.
+fn defined_type(group: &Group, index: u16, code: ObjectCode) -> (Type, Option<u32>) {
+    let nobody_tells = Type::Opaque(Some(u32::from(index)));
+    let number = |sub| group.sub(sub).and_then(|item| item.default.as_ref()).and_then(Value::as_int);
+    match (code, group.items.as_slice()) {
+        // Reading a DEFTYPE gives the length of the type in bits (CiA 301 7.4.7). Where that is the length of the
+        // DataType, too, nothing else can be meant than another name of it.
+        (ObjectCode::DefType, [own]) => match (own.ty.bits(), number(0)) {
+            (Some(bits), None) => (own.ty, Some(bits)),
+            (Some(bits), Some(length)) if length == i128::from(bits) => (own.ty, Some(bits)),
+            (None, None) if !matches!(own.ty, Type::Opaque(_)) => (own.ty, None),
+            (_, length) => (nobody_tells, length.and_then(|bits| u32::try_from(bits).ok()).filter(|&bits| bits > 0)),
+        },
+        // Some tools name the basic type in sub-index 1, and limits in those behind it.
+        (ObjectCode::DefType, [_, first, ..]) if first.name.eq_ignore_ascii_case("Type") => {
+            let basic = number(1).and_then(|code| Type::from_cia301(u32::try_from(code).ok()?));
+            basic.map_or((nobody_tells, None), |basic| (basic, basic.bits()))
+        }
+        _ => (nobody_tells, None),
+    }
+}
+
+fn illegal_name(reader: &mut Reader<'_, '_>, section: &Section, kind: Kind) {
+    let fix = match kind {
+        Kind::Object(index) => format!("{index:04X}"),
+        Kind::Sub(index, sub) => format!("{index:04X}sub{sub:X}"),
+        Kind::Refinement(index, Refinement::Name) => format!("{index:04X}Name"),
+        Kind::Refinement(index, Refinement::Value) => format!("{index:04X}Value"),
+        Kind::Refinement(index, Refinement::Denotation) => format!("{index:04X}Denotation"),
+        Kind::Links(index) => format!("{index:04X}ObjectLinks"),
+        _ => String::new(),
+    };
+    let name = reader.doc.name(section);
+    let mut diagnostic = Diagnostic::new(
+        &codes::ILLEGAL_SECTION_NAME,
+        reader.doc.name_span(section),
+        format!("the section name `{name}` breaks the grammar of CiA 306"),
+    );
+    if !fix.is_empty() {
+        diagnostic = diagnostic.label(format!("read as {fix}")).fix(fix);
+    }
+    reader.diagnostics.push(diagnostic);
+}
+
+/// Keeps what no part of CiA 306 gives a meaning, as `section/key` extensions of the device.
+fn unknown_sections(reader: &mut Reader<'_, '_>, unknown: &[Section], device: &mut Device) {
+    let mut seen: HashSet<String> = HashSet::new();
+    for section in unknown {
+        let name = reader.doc.name(section);
+        // [Tools] is CiA 306-1's own, and of no interest to anybody but the tools it names.
+        if !name.eq_ignore_ascii_case("Tools") {
+            reader.diagnostics.push(
+                Diagnostic::new(
+                    &codes::UNKNOWN_SECTION,
+                    reader.doc.name_span(section),
+                    format!("CiA 306 knows no section [{name}]"),
+                )
+                .label("kept as extension attributes of the device"),
+            );
+        }
+        if !seen.insert(name.to_ascii_lowercase()) {
+            reader.diagnostics.push(Diagnostic::new(
+                &codes::DUPLICATE_SECTION,
+                reader.doc.name_span(section),
+                format!("section [{name}] occurs twice"),
+            ));
+        }
+    }
+    let orphans = std::mem::take(&mut reader.orphan_sections);
+    for section in unknown.iter().chain(&orphans) {
+        let name = reader.doc.name(section);
+        for entry in reader.doc.entries(section) {
+            let key = if reader.doc.is_comment(entry) { ";" } else { reader.doc.key(entry) };
+            let key = compact_str::format_compact!("{name}/{key}");
+            let (value, span) = (reader.doc.value(entry), reader.doc.value_span(entry));
+            device.extensions.push(Extension { key, value: value.into(), span });
+        }
+    }
+}
+
+fn report_encoding(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
+    let (message, read_as) = match source.encoding() {
+        Encoding::Utf8 => return,
+        Encoding::Utf8Bom if source.bytes().get(3..).is_some_and(|rest| std::str::from_utf8(rest).is_ok()) => return,
+        Encoding::Utf16 => ("the file is UTF-16", "UTF-16"),
+        Encoding::Utf8Bom => ("the file has the mark of UTF-8, and isn't", "Windows-1252"),
+        Encoding::Windows1252 => ("the file is neither ASCII nor UTF-8", "Windows-1252"),
+    };
+    let at = source.text().bytes().position(|byte| !byte.is_ascii());
+    let (at, label) = match at {
+        Some(at) => (at, format!("the first such character; read as {read_as}")),
+        None => (0, format!("read as {read_as}")),
+    };
+    let length = source.text()[at..].chars().next().map_or(0, char::len_utf8);
+    let span = Span::new(file, at as u32, (at + length) as u32);
+    diagnostics.push(
+        Diagnostic::new(&codes::NOT_UTF8, span, message)
+            .label(label)
+            .help("CiA 306 allows ASCII only; UTF-8 is what most tools read"),
+    );
+}
+
+fn report_oddities(doc: &Document<'_>, diagnostics: &mut Diagnostics) {
+    let hash_lines = doc.oddities().iter().filter(|(oddity, _)| *oddity == Oddity::HashLine).count();
+    let mut hash_seen = false;
+    for &(oddity, span) in doc.oddities() {
+        let (code, message, label) = match oddity {
+            Oddity::Junk => (&codes::JUNK_LINE, "this line has no meaning in an EDS", "skipped"),
+            Oddity::EntryOutsideSection => {
+                (&codes::ENTRY_OUTSIDE_SECTION, "this entry stands above the first section", "skipped")
+            }
+            Oddity::UnclosedHeader => {
+                (&codes::MALFORMED_HEADER, "this section header has no `]`", "read up to the end of the line")
+            }
+            Oddity::TextAfterHeader => (&codes::MALFORMED_HEADER, "text follows the section header", "skipped"),
+            Oddity::IndentedHeader => {
+                (&codes::INDENTED_HEADER, "this section header isn't in the first column", "read all the same")
+            }
+            Oddity::LongLine => (&codes::LONG_LINE, "this line has over 255 characters", ""),
+            Oddity::HashLine if hash_seen => continue,
+            Oddity::HashLine => {
+                hash_seen = true;
+                let message = format!("{hash_lines} line(s) start with `#`, which marks no comment in CiA 306");
+                let help = "start comment lines with `;`";
+                diagnostics
+                    .push(Diagnostic::new(&codes::HASH_COMMENT, span, message).label("the first; skipped").help(help));
+                continue;
+            }
+        };
+        diagnostics.push(Diagnostic::new(code, span, message).label(label));
+    }
+}

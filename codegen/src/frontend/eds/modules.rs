@@ -1,0 +1,249 @@
+//! Modular devices: what plugged-in modules add to the dictionary (CiA 306, "modular devices").
+
+use std::collections::BTreeMap;
+
+use super::header;
+use super::lists;
+use super::object::{Key, ObjectSections, Raw};
+use super::reader::{Fixed, Reader};
+use super::sections::ModulePart;
+use crate::diagnostics::{codes, Diagnostic};
+use crate::frontend::canopen::number;
+use crate::ir::{Device, Group, Module, ObjectCode, SubExtension};
+use crate::source::Span;
+use crate::syntax::ini::{Entry, Section};
+
+/// The sections of one module.
+#[derive(Default)]
+struct Parts {
+    info: Vec<Section>,
+    comments: Vec<Section>,
+    fixed_list: Vec<Section>,
+    fixed: BTreeMap<u16, ObjectSections>,
+    extends_list: Vec<Section>,
+    extensions: BTreeMap<u16, Vec<Section>>,
+}
+
+/// Adds the modules that the sections describe. `sections` is sorted by module.
+pub(super) fn read(reader: &mut Reader<'_, '_>, sections: Vec<(u32, ModulePart, Section)>, device: &mut Device) {
+    let mut by_module: BTreeMap<u32, Parts> = BTreeMap::new();
+    for (number, part, section) in sections {
+        let parts = by_module.entry(number).or_default();
+        match part {
+            ModulePart::Info => parts.info.push(section),
+            ModulePart::Comments => parts.comments.push(section),
+            ModulePart::FixedObjects => parts.fixed_list.push(section),
+            ModulePart::FixedObject(index) => parts.fixed.entry(index).or_default().object.push(section),
+            ModulePart::FixedSub(index, sub) => parts.fixed.entry(index).or_default().subs.push((sub, section)),
+            ModulePart::SubExtends => parts.extends_list.push(section),
+            ModulePart::SubExtension(index) => parts.extensions.entry(index).or_default().push(section),
+        }
+    }
+    check_announced(reader, &by_module);
+    for (number, parts) in by_module {
+        let module = module(reader, number, parts, device);
+        device.modules.push(module);
+    }
+}
+
+fn check_announced(reader: &mut Reader<'_, '_>, by_module: &BTreeMap<u32, Parts>) {
+    let described = by_module.len();
+    let Some((announced, span)) = reader.announced_modules else {
+        if described > 0 {
+            reader.missing_section("SupportedModules");
+        }
+        return;
+    };
+    if announced as usize != described {
+        let message = format!("{announced} modules are announced, but {described} are described");
+        reader.diagnostics.push(Diagnostic::new(&codes::UNRESOLVED_MODULE, span, message));
+    }
+}
+
+fn module(reader: &mut Reader<'_, '_>, number: u32, mut parts: Parts, device: &Device) -> Module {
+    let mut module = Module { number, ..Module::default() };
+    info(reader, &parts.info, &mut module);
+    reader.duplicate_sections(&parts.comments);
+    for section in &parts.comments {
+        header::comments(reader, section, &mut module.comments, &mut module.extensions);
+    }
+    let fixed = announced(reader, &parts.fixed_list, &mut module);
+    missing(reader, &fixed, |index| parts.fixed.contains_key(&index), |index| format!("[M{number}Fixed{index:04X}]"));
+    for (&index, sections) in &mut parts.fixed {
+        sections.subs.sort_by_key(|&(sub, _)| sub);
+        if let Some(group) = reader.object(index, sections) {
+            clash(reader, &group, device);
+            if !fixed.contains_key(&index) {
+                let message = format!("0x{index:04X} isn't in [M{number}FixedObjects]");
+                reader.diagnostics.push(Diagnostic::new(&codes::NOT_LISTED, group.origin.span, message));
+            }
+            module.fixed_objects.push(group);
+        }
+    }
+    let extends = announced(reader, &parts.extends_list, &mut module);
+    let section_name = |index| format!("[M{number}SubExt{index:04X}]");
+    missing(reader, &extends, |index| parts.extensions.contains_key(&index), section_name);
+    for (&index, sections) in &parts.extensions {
+        let extension = sub_extension(reader, index, sections, &mut module);
+        let origin = extension.template.origin.span;
+        if !extends.contains_key(&index) {
+            let message = format!("0x{index:04X} isn't in [M{number}SubExtends]");
+            reader.diagnostics.push(Diagnostic::new(&codes::SUB_EXTEND, origin, message));
+        }
+        extended_object(reader, index, origin, device);
+        module.sub_extensions.push(extension);
+    }
+    module
+}
+
+fn info(reader: &mut Reader<'_, '_>, sections: &[Section], module: &mut Module) {
+    const KEYS: [&str; 4] = ["ProductName", "ProductVersion", "ProductRevision", "OrderCode"];
+    reader.duplicate_sections(sections);
+    let mut seen = [None; KEYS.len()];
+    for section in sections {
+        module.origin = reader.origin(section);
+        for entry in reader.doc.entries(section) {
+            let key = reader.doc.key(entry);
+            let Some(which) = KEYS.iter().position(|known| known.eq_ignore_ascii_case(key)) else {
+                reader.extension(entry, &mut module.extensions);
+                continue;
+            };
+            if let Some(earlier) = seen[which].replace(*entry) {
+                reader.duplicate_key(&earlier, entry);
+            }
+            let text = match which {
+                0 => &mut module.name,
+                1 => &mut module.version,
+                2 => &mut module.revision,
+                _ => &mut module.identity.order_code,
+            };
+            let mut at = Span::default();
+            reader.name(Some(entry), text, &mut at);
+        }
+    }
+}
+
+/// The indices that a list announces, each with its entry.
+fn announced(reader: &mut Reader<'_, '_>, sections: &[Section], module: &mut Module) -> BTreeMap<u16, Entry> {
+    reader.duplicate_sections(sections);
+    let mut indices = BTreeMap::new();
+    for section in sections {
+        for entry in lists::numbered(reader, section, "NrOfEntries", &mut module.extensions) {
+            let Some(index) = reader.index_of(&entry) else { continue };
+            if indices.insert(index, entry).is_some() {
+                let message = format!("0x{index:04X} is listed twice");
+                let span = reader.doc.value_span(&entry);
+                reader.diagnostics.push(Diagnostic::new(&codes::LISTED_TWICE, span, message));
+            }
+        }
+    }
+    reader.take_comments(&mut module.extensions);
+    indices
+}
+
+fn missing(
+    reader: &mut Reader<'_, '_>,
+    announced: &BTreeMap<u16, Entry>,
+    exists: impl Fn(u16) -> bool,
+    section_name: impl Fn(u16) -> String,
+) {
+    for (index, entry) in announced {
+        if !exists(*index) {
+            let span = reader.doc.value_span(entry);
+            let message = format!("there is no section {}", section_name(*index));
+            reader.diagnostics.push(Diagnostic::new(&codes::UNRESOLVED_MODULE, span, message).label("announced here"));
+        }
+    }
+}
+
+/// Sub-indices can be added only to what has sub-indices.
+fn extended_object(reader: &mut Reader<'_, '_>, index: u16, span: Span, device: &Device) {
+    let Some(object) = device.object(index) else { return };
+    if let Some(code) = object.object_code().filter(|code| !code.has_subs()) {
+        let message = format!("0x{index:04X} of the device is a {}, which has no sub-indices", code.name());
+        reader.diagnostics.push(
+            Diagnostic::new(&codes::SUB_EXTEND, span, message)
+                .note_at(object.origin.span, "it is described here"),
+        );
+    }
+}
+
+fn clash(reader: &mut Reader<'_, '_>, group: &Group, device: &Device) {
+    let Some(own) = group.index().and_then(|index| device.object(index)) else { return };
+    reader.diagnostics.push(
+        Diagnostic::new(&codes::MODULE_INDEX_CLASH, group.origin.span, "the device has this object already")
+            .note_at(own.origin.span, "it is described here"),
+    );
+}
+
+fn sub_extension(
+    reader: &mut Reader<'_, '_>,
+    index: u16,
+    sections: &[Section],
+    module: &mut Module,
+) -> SubExtension {
+    reader.duplicate_sections(sections);
+    let mut raw = reader.raw_with(sections, &["Count", "ObjExtend"]);
+    let mut template = reader.item(index, 1, &raw, ObjectCode::Var);
+    reader.name(raw.get(Key::ParameterName), &mut template.name, &mut template.at.name);
+    module.extensions.append(&mut raw.extensions);
+    let (count, per) = sub_count(reader, &raw);
+    let extends_object = raw.more[1].is_some_and(|entry| obj_extend(reader, &entry));
+    reader.take_comments(&mut template.extensions);
+    SubExtension { index, count, per, extends_object, template }
+}
+
+/// How many sub-indices a module adds; or none, and the number of bits that it adds to a common one.
+fn sub_count(reader: &mut Reader<'_, '_>, raw: &Raw) -> (u16, Option<u16>) {
+    let mut report = |span, message: String, label| {
+        let help = "Count is a number of sub-indices, or 0, `;` and a number of bits";
+        reader.diagnostics.push(Diagnostic::new(&codes::SUB_EXTEND, span, message).label(label).help(help));
+    };
+    let Some(entry) = raw.more[0].filter(|entry| !reader.doc.value(entry).is_empty()) else {
+        let message = "Count is missing: how many sub-indices does the module add?";
+        report(raw.origin.span, message.into(), "");
+        return (0, None);
+    };
+    let (text, span) = (reader.doc.value(&entry), reader.doc.value_span(&entry));
+    let Some((number, bits)) = count(text) else {
+        report(span, format!("`{text}` is no count of sub-indices"), "left out");
+        return (0, None);
+    };
+    match (number, bits) {
+        (0, None) => report(span, "the module adds no sub-index".into(), ""),
+        (1.., Some(_)) => report(span, format!("`{text}` is both a number of sub-indices and one of bits"), ""),
+        _ => {}
+    }
+    (number, bits)
+}
+
+fn obj_extend(reader: &mut Reader<'_, '_>, entry: &Entry) -> bool {
+    let (text, span) = reader.fixed(entry, Fixed::Number);
+    let value = number::parse(text, &[]).int();
+    if !text.is_empty() && !matches!(value, Some(0 | 1)) {
+        let message = format!("ObjExtend is `{text}`, neither 0 nor 1");
+        reader.diagnostics.push(Diagnostic::new(&codes::SUB_EXTEND, span, message).label("read as 0"));
+    }
+    value == Some(1)
+}
+
+/// `n`, or `n;m`.
+fn count(text: &str) -> Option<(u16, Option<u16>)> {
+    let number = |text: &str| number::parse(text.trim(), &[]).int().and_then(|value| u16::try_from(value).ok());
+    match text.split_once(';') {
+        Some((count, bits)) => Some((number(count)?, Some(number(bits)?))),
+        None => Some((number(text)?, None)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_of_sub_extensions() {
+        assert_eq!(count("3"), Some((3, None)));
+        assert_eq!(count("0;2"), Some((0, Some(2))));
+        assert_eq!(count("x"), None);
+    }
+}

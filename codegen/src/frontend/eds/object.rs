@@ -1,0 +1,569 @@
+//! From the sections of an object to a [`Group`] with its items.
+
+use super::compact;
+use super::lists;
+use super::reader::{Fixed, Reader};
+use super::sections::Refinement;
+use crate::diagnostics::{codes, Diagnostic};
+use crate::frontend::canopen::number;
+use crate::frontend::canopen::value::Role;
+use crate::ir::{
+    Access, Binding, CompactString, Configured, Extension, Group, Item, Limits, Mappable, ObjectCode, Type, Value,
+};
+use crate::source::{Origin, Span};
+use crate::syntax::ini::{Entry, Section};
+
+/// The sections about one object, collected from all over the file.
+#[derive(Default)]
+pub(super) struct ObjectSections {
+    /// `[xxxx]`; several where the file repeats it.
+    pub object: Vec<Section>,
+    /// `[xxxxsubN]`, by sub-index.
+    pub subs: Vec<(u8, Section)>,
+    /// `[xxxxName]` and its like.
+    pub refinements: Vec<(Refinement, Section)>,
+    /// `[xxxxObjectLinks]`
+    pub links: Vec<Section>,
+}
+
+impl ObjectSections {
+    pub(super) fn clear(&mut self) {
+        self.object.clear();
+        self.subs.clear();
+        self.refinements.clear();
+        self.links.clear();
+    }
+}
+
+/// The keywords of an object, by position in [`Raw`].
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Key {
+    ParameterName,
+    ObjectType,
+    SubNumber,
+    DataType,
+    AccessType,
+    DefaultValue,
+    PdoMapping,
+    LowLimit,
+    HighLimit,
+    ObjFlags,
+    CompactSubObj,
+    ParameterValue,
+    Denotation,
+    UploadFile,
+    DownloadFile,
+}
+
+/// Number of keywords.
+const KEYS: usize = 15;
+
+/// The keyword that is spelt `key`, in any case. Their lengths tell most of them apart.
+fn keyword(key: &str) -> Option<Key> {
+    let candidates: &[(&str, Key)] = match key.len() {
+        8 => &[("DataType", Key::DataType), ("LowLimit", Key::LowLimit), ("ObjFlags", Key::ObjFlags)],
+        9 => &[("HighLimit", Key::HighLimit), ("SubNumber", Key::SubNumber)],
+        10 => &[
+            ("ObjectType", Key::ObjectType),
+            ("AccessType", Key::AccessType),
+            ("PDOMapping", Key::PdoMapping),
+            ("Denotation", Key::Denotation),
+            ("UploadFile", Key::UploadFile),
+        ],
+        12 => &[("DefaultValue", Key::DefaultValue), ("DownloadFile", Key::DownloadFile)],
+        13 => &[("ParameterName", Key::ParameterName), ("CompactSubObj", Key::CompactSubObj)],
+        14 => &[("ParameterValue", Key::ParameterValue)],
+        _ => &[],
+    };
+    candidates.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|&(_, keyword)| keyword)
+}
+
+/// Keywords of one value, which say nothing about an object whose values are its sub-indices.
+const OF_A_VALUE: [Key; 10] = [
+    Key::DataType,
+    Key::AccessType,
+    Key::DefaultValue,
+    Key::PdoMapping,
+    Key::LowLimit,
+    Key::HighLimit,
+    Key::ParameterValue,
+    Key::Denotation,
+    Key::UploadFile,
+    Key::DownloadFile,
+];
+
+/// Keywords of an object with sub-indices, which say nothing about one value.
+const OF_MANY_VALUES: [Key; 2] = [Key::SubNumber, Key::CompactSubObj];
+
+/// The entries of a section, sorted into the keywords of an object.
+pub(super) struct Raw {
+    fields: [Option<Entry>; KEYS],
+    /// The keywords that only an extension of sub-indices has.
+    pub(super) more: [Option<Entry>; 2],
+    pub(super) extensions: Vec<Extension>,
+    pub(super) origin: Origin,
+}
+
+impl Raw {
+    pub(super) fn get(&self, key: Key) -> Option<&Entry> {
+        self.fields[key as usize].as_ref()
+    }
+}
+
+impl<'a> Reader<'a, '_> {
+    /// Sorts the entries of sections of the same name into keywords; of a repeated key the last value counts.
+    pub(super) fn raw(&mut self, sections: &[Section]) -> Raw {
+        self.raw_with(sections, &[])
+    }
+
+    /// The same with the further keywords `more`, of which there are two at most.
+    pub(super) fn raw_with(&mut self, sections: &[Section], more: &[&str]) -> Raw {
+        let mut raw =
+            Raw { fields: [None; KEYS], more: [None; 2], extensions: Vec::new(), origin: Origin::default() };
+        let Some(first) = sections.first() else { return raw };
+        raw.origin = Origin { span: self.doc.name_span(first), line: first.line };
+        for section in sections {
+            for entry in self.doc.entries(section) {
+                let key = self.doc.key(entry);
+                let field = match keyword(key) {
+                    Some(keyword) => &mut raw.fields[keyword as usize],
+                    None => match more.iter().position(|name| name.eq_ignore_ascii_case(key)) {
+                        Some(position) => &mut raw.more[position],
+                        None => {
+                            self.extension(entry, &mut raw.extensions);
+                            continue;
+                        }
+                    },
+                };
+                if let Some(earlier) = field.replace(*entry) {
+                    self.duplicate_key(&earlier, entry);
+                }
+            }
+        }
+        raw
+    }
+
+    /// The object `index`, from everything that the file says about it.
+    pub(super) fn object(&mut self, index: u16, sections: &mut ObjectSections) -> Option<Group> {
+        if sections.object.is_empty() && sections.subs.is_empty() {
+            self.refinement_without_object(index, sections);
+            return None;
+        }
+        self.duplicate_sections(&sections.object);
+        let raw = self.raw(&sections.object);
+        let orphan = sections.object.is_empty();
+        let mut group = Group::object(index, ObjectCode::Record);
+        group.origin = raw.origin;
+        if orphan {
+            let (sub, first) = sections.subs[0];
+            group.origin = Origin { span: self.doc.name_span(&first), line: first.line };
+            self.diagnostics.push(
+                Diagnostic::new(&codes::ORPHAN_SUB, group.origin.span, format!("[{index:04X}sub{sub:X}] has no object"))
+                    .label(format!("there is no section [{index:04X}]"))
+                    .help("a RECORD was made to hold it; describe the object with ObjectType and SubNumber"),
+            );
+        }
+        self.name(raw.get(Key::ParameterName), &mut group.name, &mut group.name_at);
+        let compact = self.compact_count(&raw);
+        let code = if orphan {
+            ObjectCode::Record
+        } else {
+            self.object_code(index, &raw, !sections.subs.is_empty() || compact.is_some())
+        };
+        self.take_comments(&mut group.extensions);
+        self.fill(&mut group, index, code, raw, sections, compact);
+        self.links(&mut group, &sections.links);
+        Some(group)
+    }
+
+    fn fill(
+        &mut self,
+        group: &mut Group,
+        index: u16,
+        code: ObjectCode,
+        mut raw: Raw,
+        sections: &ObjectSections,
+        compact: Option<u8>,
+    ) {
+        group.kind = crate::ir::GroupKind::Object { index, code, category: None };
+        group.extensions.append(&mut raw.extensions);
+        if code.has_subs() || (!sections.subs.is_empty() && code != ObjectCode::Var) {
+            self.subs(group, index, &sections.subs);
+            let has_value = code == ObjectCode::Record && raw.get(Key::DataType).is_some() && group.sub(0).is_none();
+            if has_value && compact.is_none() && self.is_var(&raw) {
+                self.own_value(group, index, &raw);
+            } else if compact.is_none() {
+                group.flags = self.flags(&raw);
+                self.unused(&raw, &OF_A_VALUE, &mut group.extensions);
+            }
+            self.sub_number(group, &raw, compact);
+            if let Some(count) = compact {
+                compact::expand(self, group, &raw, count);
+            }
+            self.take_comments(&mut group.extensions);
+        } else {
+            self.unused(&raw, &OF_MANY_VALUES, &mut group.extensions);
+            let mut item = self.item(index, 0, &raw, code);
+            item.name = group.name.clone();
+            item.at.name = group.name_at;
+            group.items.push(item);
+        }
+        self.duplicate_refinements(&sections.refinements);
+        compact::refine(self, group, index, &sections.refinements);
+    }
+
+    /// Keeps entries that mean nothing where they stand, unless they are empty or 0.
+    fn unused(&mut self, raw: &Raw, keys: &[Key], extensions: &mut Vec<Extension>) {
+        for &key in keys {
+            let Some(entry) = raw.get(key) else { continue };
+            let (text, span) = (self.doc.value(entry), self.doc.value_span(entry));
+            let is_count_or_flag = matches!(key, Key::SubNumber | Key::CompactSubObj | Key::PdoMapping);
+            if text.is_empty() || is_count_or_flag && self.peek_number(Some(entry)) == Some(0) {
+                continue;
+            }
+            if self.diagnostics.wants(&codes::NOT_ALLOWED_ENTRY) {
+                let message = format!("{} has no meaning here", self.doc.key(entry));
+                self.diagnostics.push(
+                    Diagnostic::new(&codes::NOT_ALLOWED_ENTRY, self.doc.key_span(entry), message)
+                        .label("kept as an extension attribute"),
+                );
+            }
+            extensions.push(Extension { key: self.doc.key(entry).into(), value: text.into(), span });
+        }
+    }
+
+    fn duplicate_refinements(&mut self, refinements: &[(Refinement, Section)]) {
+        if refinements.len() < 2 {
+            return;
+        }
+        for kind in [Refinement::Name, Refinement::Value, Refinement::Denotation] {
+            let same = refinements.iter().filter(|(other, _)| *other == kind).map(|&(_, section)| section);
+            self.duplicate_sections(&same.collect::<Vec<_>>());
+        }
+    }
+
+    fn is_var(&self, raw: &Raw) -> bool {
+        self.peek_number(raw.get(Key::ObjectType)).is_none_or(|code| code == 7)
+    }
+
+    /// A VAR that also has sub-indices, but no sub-index 0: its own value is that.
+    fn own_value(&mut self, group: &mut Group, index: u16, raw: &Raw) {
+        let mut item = self.item(index, 0, raw, ObjectCode::Var);
+        item.name = group.name.clone();
+        item.at.name = group.name_at;
+        group.items.insert(0, item);
+    }
+
+    fn subs(&mut self, group: &mut Group, index: u16, subs: &[(u8, Section)]) {
+        group.items.reserve_exact(subs.len());
+        let mut rest = subs;
+        while let Some(&(sub, _)) = rest.first() {
+            let count = rest.iter().take_while(|(other, _)| *other == sub).count();
+            let mut raw = if count == 1 {
+                self.raw(std::slice::from_ref(&rest[0].1))
+            } else {
+                let same: Vec<Section> = rest[..count].iter().map(|(_, section)| *section).collect();
+                self.duplicate_sections(&same);
+                self.raw(&same)
+            };
+            let code = self.sub_code(&raw);
+            let mut item = self.item(index, sub, &raw, code);
+            self.name(raw.get(Key::ParameterName), &mut item.name, &mut item.at.name);
+            self.unused(&raw, &OF_MANY_VALUES, &mut item.extensions);
+            item.extensions.append(&mut raw.extensions);
+            group.items.push(item);
+            rest = &rest[count..];
+        }
+    }
+
+    /// What a sub-index is: a VAR, or a DOMAIN.
+    fn sub_code(&mut self, raw: &Raw) -> ObjectCode {
+        let Some(entry) = raw.get(Key::ObjectType) else { return ObjectCode::Var };
+        let (text, span) = self.fixed(entry, Fixed::Number);
+        if text.is_empty() {
+            return ObjectCode::Var;
+        }
+        let number = number::parse(text, &[]);
+        self.converter().quirk(number, text, span);
+        match number.int() {
+            Some(2) => ObjectCode::Domain,
+            Some(7) => ObjectCode::Var,
+            _ => {
+                let message = format!("`{text}` is no object type of a sub-index");
+                self.diagnostics
+                    .push(Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, span, message).label("read as VAR"));
+                ObjectCode::Var
+            }
+        }
+    }
+
+    /// ObjectType, or what the sections show where it is missing or can't be.
+    fn object_code(&mut self, index: u16, raw: &Raw, has_subs: bool) -> ObjectCode {
+        let Some(entry) = raw.get(Key::ObjectType) else { return self.var_with_subs(index, raw, has_subs) };
+        let (text, span) = self.fixed(entry, Fixed::Number);
+        if text.is_empty() {
+            return self.var_with_subs(index, raw, has_subs);
+        }
+        let number = number::parse(text, &[]);
+        self.converter().quirk(number, text, span);
+        match number.int().and_then(ObjectCode::from_number) {
+            Some(ObjectCode::Var) => self.var_with_subs(index, raw, has_subs),
+            Some(code) => code,
+            None => {
+                let by_content = if has_subs { ObjectCode::Record } else { ObjectCode::Var };
+                let message = format!("`{text}` is no object type");
+                self.diagnostics.push(
+                    Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, span, message)
+                        .label(format!("read as {}", by_content.name())),
+                );
+                by_content
+            }
+        }
+    }
+
+    fn var_with_subs(&mut self, index: u16, raw: &Raw, has_subs: bool) -> ObjectCode {
+        if !has_subs {
+            return ObjectCode::Var;
+        }
+        let span = raw.get(Key::ObjectType).map_or(raw.origin.span, |entry| self.doc.value_span(entry));
+        self.diagnostics.push(
+            Diagnostic::new(&codes::VAR_WITH_SUBS, span, format!("0x{index:04X} is a VAR and has sub-indices"))
+                .label("treated as a RECORD")
+                .help("write ObjectType=0x9 for a RECORD, 0x8 for an ARRAY"),
+        );
+        ObjectCode::Record
+    }
+
+    /// One value: a VAR, a DOMAIN, a sub-index. The name is the caller's.
+    pub(super) fn item(&mut self, index: u16, sub: u8, raw: &Raw, code: ObjectCode) -> Item {
+        let mut item = Item::new(Binding::canopen(index, sub));
+        item.origin = raw.origin;
+        let ty = self.data_type(raw, code, &mut item);
+        item.ty = ty.unwrap_or(Type::Opaque(None));
+        item.access = self.access(raw, code, &mut item);
+        if ty.is_none() {
+            // Nobody can say which bytes to write.
+            item.access = Access::ReadOnly;
+        }
+        item.mappable = self.mappable(raw.get(Key::PdoMapping), item.access, &mut item);
+        item.default = self.typed(raw.get(Key::DefaultValue), item.ty, Role::Value);
+        item.limits = Limits {
+            low: self.typed(raw.get(Key::LowLimit), item.ty, Role::Limit),
+            high: self.typed(raw.get(Key::HighLimit), item.ty, Role::Limit),
+        };
+        item.at.default = self.span_of(raw.get(Key::DefaultValue));
+        item.at.low = self.span_of(raw.get(Key::LowLimit));
+        item.at.high = self.span_of(raw.get(Key::HighLimit));
+        item.flags = self.flags(raw);
+        self.configured(raw, &mut item);
+        self.take_comments(&mut item.extensions);
+        item
+    }
+
+    /// What a DCF adds to an item.
+    fn configured(&mut self, raw: &Raw, item: &mut Item) {
+        let keys = [Key::ParameterValue, Key::Denotation, Key::UploadFile, Key::DownloadFile];
+        if keys.iter().all(|&key| raw.get(key).is_none()) {
+            return;
+        }
+        let text = |key| raw.get(key).map(|entry| self.doc.value(entry)).filter(|text| !text.is_empty());
+        let mut configured = Configured {
+            value: None,
+            denotation: text(Key::Denotation).map(CompactString::from),
+            upload_file: text(Key::UploadFile).map(CompactString::from),
+            download_file: text(Key::DownloadFile).map(CompactString::from),
+        };
+        configured.value = self.typed(raw.get(Key::ParameterValue), item.ty, Role::Value);
+        item.at.configured = self.span_of(raw.get(Key::ParameterValue));
+        if configured != Configured::default() {
+            item.configured = Some(Box::new(configured));
+        }
+    }
+
+    /// The value of an entry; text is taken as a whole, anything else without a comment behind it.
+    pub(super) fn typed(&mut self, entry: Option<&Entry>, ty: Type, role: Role) -> Option<Value> {
+        let entry = entry?;
+        let (text, span) = match ty {
+            Type::VisibleString(_) | Type::UnicodeString(_) | Type::Domain | Type::Opaque(_) | Type::Named(_) => {
+                (self.doc.value(entry), self.doc.value_span(entry))
+            }
+            _ => self.fixed(entry, Fixed::Number),
+        };
+        self.converter().value(text, span, ty, role)
+    }
+
+    /// DataType; `None` where a value needs one and has none.
+    fn data_type(&mut self, raw: &Raw, code: ObjectCode, item: &mut Item) -> Option<Type> {
+        let (text, span) = match raw.get(Key::DataType) {
+            Some(entry) => self.fixed(entry, Fixed::Number),
+            None => ("", raw.origin.span),
+        };
+        item.at.ty = span;
+        if text.is_empty() {
+            return self.no_data_type(code, span);
+        }
+        let number = self.converter().number(text, span).as_ref().and_then(Value::as_int);
+        Some(match number.and_then(|number| u32::try_from(number).ok()) {
+            Some(number) => self.type_by_code(number, span),
+            None => Type::Opaque(None),
+        })
+    }
+
+    fn no_data_type(&mut self, code: ObjectCode, span: Span) -> Option<Type> {
+        let (kind, message) = match code {
+            ObjectCode::Domain => return Some(Type::Domain),
+            ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null => return Some(Type::Opaque(None)),
+            ObjectCode::Array => (&codes::COMPACT_WITHOUT_TYPE, "CompactSubObj is given without DataType"),
+            _ => (&codes::MISSING_DATA_TYPE, "there is no DataType"),
+        };
+        self.diagnostics.push(
+            Diagnostic::new(kind, span, message)
+                .label("kept read-only, as raw bytes")
+                .help("add DataType= with the code of a basic type, such as 0x0007 for UNSIGNED32"),
+        );
+        None
+    }
+
+    fn type_by_code(&mut self, code: u32, span: Span) -> Type {
+        if let Some(ty) = Type::from_cia301(code) {
+            return ty;
+        }
+        if let Ok(position) = self.types.binary_search_by_key(&code, |&(known, _)| known) {
+            return self.types[position].1;
+        }
+        let (kind, message) = match code {
+            0x20..=0x23 => (&codes::COMPLEX_DATA_TYPE, format!("{code:#06x} is the type of a record, not of a value")),
+            0x0E | 0x17 | 0x1C..=0x1F => (&codes::COMPLEX_DATA_TYPE, format!("the data type {code:#06x} is reserved")),
+            _ => (&codes::UNKNOWN_DATA_TYPE, format!("{code:#06x} is no data type of CiA 301 or of this file")),
+        };
+        self.diagnostics.push(Diagnostic::new(kind, span, message).label("kept as raw bytes"));
+        Type::Opaque(Some(code))
+    }
+
+    fn access(&mut self, raw: &Raw, code: ObjectCode, item: &mut Item) -> Access {
+        let (text, span) = match raw.get(Key::AccessType) {
+            Some(entry) => self.fixed(entry, Fixed::Number),
+            None => ("", raw.origin.span),
+        };
+        item.at.access = span;
+        if text.is_empty() {
+            return match code {
+                ObjectCode::Domain => Access::ReadWrite,
+                ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null => Access::ReadOnly,
+                _ => {
+                    let message = "there is no AccessType";
+                    self.diagnostics
+                        .push(Diagnostic::new(&codes::MISSING_ACCESS, span, message).label("kept read-only"));
+                    Access::ReadOnly
+                }
+            };
+        }
+        if let Some(access) = Access::from_cia306(text) {
+            return access;
+        }
+        let access = if text.eq_ignore_ascii_case("w") { Access::WriteOnly } else { Access::ReadOnly };
+        self.diagnostics.push(
+            Diagnostic::new(&codes::UNKNOWN_ACCESS, span, format!("`{text}` is no access type"))
+                .label(format!("read as {}", access.name()))
+                .help("write one of ro, wo, rw, rwr, rww, const"),
+        );
+        access
+    }
+
+    fn mappable(&mut self, entry: Option<&Entry>, access: Access, item: &mut Item) -> Mappable {
+        let Some(entry) = entry else { return Mappable::default() };
+        item.at.mappable = self.doc.value_span(entry);
+        if self.flag(entry) {
+            Mappable::by_access(access)
+        } else {
+            Mappable::default()
+        }
+    }
+
+    fn flags(&mut self, raw: &Raw) -> u32 {
+        let Some(entry) = raw.get(Key::ObjFlags) else { return 0 };
+        self.u32_of(entry).unwrap_or(0)
+    }
+
+    /// The number of sub-indices that CompactSubObj stands for.
+    fn compact_count(&mut self, raw: &Raw) -> Option<u8> {
+        let entry = raw.get(Key::CompactSubObj)?;
+        let (text, span) = self.fixed(entry, Fixed::Number);
+        if text.is_empty() {
+            return None;
+        }
+        let count = self.converter().number(text, span)?.as_int().unwrap_or(-1);
+        if !(0..=254).contains(&count) {
+            let message = format!("CompactSubObj is {text}, and an object has 254 sub-indices at most");
+            let label = if count > 0 { "read as 254" } else { "left out" };
+            self.diagnostics.push(Diagnostic::new(&codes::VALUE_NOT_ALLOWED, span, message).label(label));
+        }
+        (count > 0).then(|| count.min(254) as u8)
+    }
+
+    fn sub_number(&mut self, group: &Group, raw: &Raw, compact: Option<u8>) {
+        let structure = group.items.iter().filter(|item| item.object().is_some_and(|(_, sub)| sub == 0xFF)).count();
+        let described = group.items.len() - structure;
+        let Some(entry) = raw.get(Key::SubNumber) else { return self.no_sub_number(raw, compact) };
+        let (text, span) = self.fixed(entry, Fixed::Number);
+        if text.is_empty() {
+            return self.no_sub_number(raw, compact);
+        }
+        let Some(announced) = self.converter().number(text, span) else { return };
+        let announced = announced.as_int().unwrap_or(-1);
+        if compact.is_some() {
+            if announced > 0 {
+                self.diagnostics.push(
+                    Diagnostic::new(&codes::COMPACT_AND_SUBS, span, "SubNumber is given beside CompactSubObj")
+                        .label("what is described stays, the compact description fills the gaps"),
+                );
+            }
+        } else if structure > 0 && announced == group.items.len() as i128 {
+            self.diagnostics.push(
+                Diagnostic::new(&codes::STRUCTURE_ENTRY, span, "SubNumber counts sub-index 0xFF")
+                    .label(format!("{described} without it"))
+                    .fix(described.to_string()),
+            );
+        } else if announced != described as i128 {
+            let message = format!("SubNumber is {announced}, but {described} sub-indices are described");
+            self.diagnostics.push(
+                Diagnostic::new(&codes::SUB_NUMBER, span, message)
+                    .label("the sections that exist are used")
+                    .fix(described.to_string()),
+            );
+        }
+    }
+
+    fn no_sub_number(&mut self, raw: &Raw, compact: Option<u8>) {
+        if compact.is_none() && raw.origin.line > 0 && self.diagnostics.wants(&codes::MISSING_ENTRY) {
+            let message = "there is neither SubNumber nor CompactSubObj";
+            self.diagnostics.push(Diagnostic::new(&codes::MISSING_ENTRY, raw.origin.span, message));
+        }
+    }
+
+    fn links(&mut self, group: &mut Group, sections: &[Section]) {
+        self.duplicate_sections(sections);
+        for section in sections {
+            for entry in lists::numbered(self, section, "ObjectLinks", &mut group.extensions) {
+                if let Some(index) = self.index_of(&entry) {
+                    group.links.push(index);
+                    self.link_spans.push((index, self.doc.value_span(&entry)));
+                }
+            }
+        }
+        self.take_comments(&mut group.extensions);
+    }
+
+    fn refinement_without_object(&mut self, index: u16, sections: &ObjectSections) {
+        let all = sections.refinements.iter().map(|(_, section)| section).chain(&sections.links);
+        for section in all {
+            let span = self.doc.name_span(section);
+            let message = format!("[{}] belongs to an object that isn't described", self.doc.name(section));
+            self.diagnostics.push(
+                Diagnostic::new(&codes::NAME_WITHOUT_SUB, span, message)
+                    .label(format!("there is no section [{index:04X}]; kept as extension attributes")),
+            );
+            self.orphan_sections.push(*section);
+        }
+    }
+}

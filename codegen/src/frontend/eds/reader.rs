@@ -1,0 +1,288 @@
+//! The state of reading one file, and the reading of single entries.
+
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::frontend::canopen::number::{self, Parsed};
+use crate::frontend::canopen::value::Converter;
+use crate::ir::{CompactString, Extension, Type};
+use crate::limits;
+use crate::source::{Origin, Span};
+use crate::syntax::ini::{Document, Entry, Section};
+
+pub(super) struct Reader<'a, 'd> {
+    pub doc: &'a Document<'a>,
+    pub diagnostics: &'d mut Diagnostics,
+    pub aliases: &'d [String],
+    /// Types that the file defines, by their code. Objects come in order of index, so that types come first.
+    pub types: Vec<(u32, Type)>,
+    /// Targets of object links, checked once all objects are known.
+    pub link_spans: Vec<(u16, Span)>,
+    /// Sections that refine an object that doesn't exist; kept as extensions of the device.
+    pub orphan_sections: Vec<Section>,
+    /// The number of modules that [SupportedModules] announces, and where.
+    pub announced_modules: Option<(u32, Span)>,
+    /// How many items were made from CompactSubObj and CompactPDO.
+    pub derived_items: usize,
+    /// Comments behind values, until the element that they belong to is complete and takes them.
+    pub comments: Vec<Extension>,
+    /// The first flag that is a hexadecimal number, and how many there are: tools write all or none so.
+    pub hex_flags: Option<(Span, usize)>,
+}
+
+/// The form of a value that isn't free text, for what may follow it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Fixed {
+    /// A number or an access type: a comment behind `;` is usual.
+    Number,
+    /// 0 or 1, and nothing else.
+    Flag,
+}
+
+/// The key under which the IR keeps comments.
+const COMMENT: CompactString = CompactString::const_new(";");
+
+impl<'a, 'd> Reader<'a, 'd> {
+    pub(super) fn converter(&mut self) -> Converter<'_> {
+        Converter { diagnostics: self.diagnostics, aliases: self.aliases }
+    }
+
+    /// The value of an entry of fixed form, without comments and quotation marks. A comment goes to `comments`.
+    pub(super) fn fixed(&mut self, entry: &Entry, form: Fixed) -> (&'a str, Span) {
+        let text = self.doc.value(entry);
+        let span = self.doc.value_span(entry);
+        let cut = text.bytes().position(|byte| matches!(byte, b';' | b'#' | b'"'));
+        let Some(cut) = cut else { return (text, span) };
+        self.fixed_part(text, span, cut, form)
+    }
+
+    /// [`fixed`](Self::fixed) for a text that has a mark at `mark`.
+    #[cold]
+    fn fixed_part(&mut self, text: &'a str, span: Span, mark: usize, form: Fixed) -> (&'a str, Span) {
+        // What stands in quotation marks is no comment.
+        let quoted = text.starts_with('"').then(|| text[1..].find('"').map(|close| close + 2)).flatten();
+        let from = quoted.unwrap_or(if text.as_bytes()[mark] == b'"' { text.len() } else { mark });
+        let cut = text[from..].find([';', '#']).map(|at| from + at);
+        let kept = text[..cut.unwrap_or(text.len())].trim_end();
+        let kept_span = Span::new(span.file, span.start, span.start + kept.len().max(1) as u32);
+        if let Some(cut) = cut {
+            let rest = Span::new(span.file, span.start + cut as u32, span.end);
+            self.comment_behind(text, cut, kept, rest, form);
+        }
+        (self.converter().unquoted(kept, kept_span).trim(), kept_span)
+    }
+
+    fn comment_behind(&mut self, text: &str, cut: usize, kept: &str, rest: Span, form: Fixed) {
+        let found = match (text.as_bytes()[cut], form) {
+            (b'#', _) => Some((&codes::HASH_COMMENT, "a `#` comment follows the value")),
+            (_, Fixed::Flag) => Some((&codes::TRAILING_TEXT, "more text follows the value")),
+            // `;` is what a comment line starts with, and what most readers cut a number at.
+            _ => None,
+        };
+        if let Some((code, message)) = found {
+            self.diagnostics
+                .push(Diagnostic::new(code, rest, message).label(format!("the value is `{kept}`")).fix(""));
+        }
+        let comment = text[cut + 1..].trim();
+        if !comment.is_empty() {
+            self.comments.push(Extension { key: COMMENT, value: comment.into(), span: rest });
+        }
+    }
+
+    /// Moves the comments read so far to the element that they belong to.
+    pub(super) fn take_comments(&mut self, extensions: &mut Vec<Extension>) {
+        if !self.comments.is_empty() {
+            extensions.append(&mut self.comments);
+        }
+    }
+
+    /// A flag: 0 or 1, or a word that can only mean one of them.
+    pub(super) fn flag(&mut self, entry: &Entry) -> bool {
+        match self.doc.value(entry) {
+            "0" | "" => return false,
+            "1" => return true,
+            _ => {}
+        }
+        let (text, span) = self.fixed(entry, Fixed::Flag);
+        let value = match text {
+            "0" | "" => return false,
+            "1" => return true,
+            _ if ["true", "yes"].iter().any(|word| word.eq_ignore_ascii_case(text)) => Some(true),
+            _ if ["false", "no"].iter().any(|word| word.eq_ignore_ascii_case(text)) => Some(false),
+            _ => match number::parse(text, &[]).parsed {
+                Parsed::Int { value: value @ (0 | 1), hex: true } => {
+                    self.hex_flags.get_or_insert((span, 0)).1 += 1;
+                    return value == 1;
+                }
+                Parsed::Int { value, .. } => Some(value != 0),
+                _ => None,
+            },
+        };
+        let key = self.doc.key(entry);
+        let read_as = if value == Some(true) { "1" } else { "0" };
+        self.diagnostics.push(
+            Diagnostic::new(&codes::NOT_BOOLEAN, span, format!("{key} is `{text}`, neither 0 nor 1"))
+                .label(format!("read as {read_as}"))
+                .fix(read_as),
+        );
+        value.unwrap_or(false)
+    }
+
+    /// One report for all flags that are hexadecimal numbers.
+    pub(super) fn report_hex_flags(&mut self) {
+        let Some((span, count)) = self.hex_flags.take() else { return };
+        let message = match count {
+            1 => "a flag is a hexadecimal number, neither 0 nor 1".to_owned(),
+            _ => format!("{count} flags are hexadecimal numbers, neither 0 nor 1"),
+        };
+        let label = if count == 1 { "read for what it means" } else { "the first; all are read for what they mean" };
+        self.diagnostics.push(Diagnostic::new(&codes::NOT_BOOLEAN, span, message).label(label));
+    }
+
+    /// A number whose spelling nobody has to be told about here, because another reading of the same entry does.
+    pub(super) fn peek_number(&self, entry: Option<&Entry>) -> Option<i128> {
+        let text = self.doc.value(entry?);
+        let text = text.split([';', '#']).next().unwrap_or("").trim().trim_matches('"');
+        number::parse(text, &[]).int()
+    }
+
+    /// A number of 32 bits; anything else is reported. Empty is missing.
+    pub(super) fn u32_of(&mut self, entry: &Entry) -> Option<u32> {
+        self.unsigned(entry, u32::MAX)
+    }
+
+    /// A number up to `max`; anything else is reported. Empty is missing.
+    pub(super) fn unsigned(&mut self, entry: &Entry, max: u32) -> Option<u32> {
+        let (text, span) = self.fixed(entry, Fixed::Number);
+        if text.is_empty() {
+            return None;
+        }
+        let number = number::parse(text, &[]);
+        // `001` is 1 to everybody; `018` and `010` aren't the same number to all readers.
+        let harmless = number.quirk == Some(number::Quirk::LeadingZero) && number::is_octal(text);
+        if !harmless {
+            self.converter().quirk(number, text, span);
+        }
+        let value = number.int().and_then(|value| u32::try_from(value).ok()).filter(|&value| value <= max);
+        if value.is_none() {
+            let key = self.doc.key(entry);
+            let message = format!("{key} is `{text}`, which is no number from 0 to {max}");
+            self.diagnostics.push(Diagnostic::new(&codes::ILLEGAL_NUMBER, span, message).label("left out"));
+        }
+        value
+    }
+
+    /// The index that an entry of a list names; what is none is reported. Empty is missing.
+    pub(super) fn index_of(&mut self, entry: &Entry) -> Option<u16> {
+        let (text, span) = self.fixed(entry, Fixed::Number);
+        if text.is_empty() {
+            return None;
+        }
+        let number = number::parse(text, &[]);
+        self.converter().quirk(number, text, span);
+        let index = number.int().and_then(|index| u16::try_from(index).ok());
+        if index.is_none() {
+            let message = format!("`{text}` is no index");
+            self.diagnostics.push(
+                Diagnostic::new(&codes::ILLEGAL_NUMBER, span, message)
+                    .label("left out")
+                    .help("an index is 0x1000 to 0xFFFF"),
+            );
+        }
+        index
+    }
+
+    /// The decimal number that a key of a list is.
+    pub(super) fn key_number(&self, entry: &Entry) -> Option<u32> {
+        let key = self.doc.key(entry);
+        (key.len() <= 9 && key.bytes().all(|byte| byte.is_ascii_digit())).then(|| key.parse().ok()).flatten()
+    }
+
+    /// Where the value of an entry stands, if there is one.
+    pub(super) fn span_of(&self, entry: Option<&Entry>) -> Span {
+        entry.map_or(Span::default(), |entry| self.doc.value_span(entry))
+    }
+
+    /// Reads a name: free text, kept whole but for one pair of quotation marks around it.
+    pub(super) fn name(&mut self, entry: Option<&Entry>, name: &mut CompactString, at: &mut Span) {
+        let Some(entry) = entry else { return };
+        let (text, span) = (self.doc.value(entry), self.doc.value_span(entry));
+        *name = if text.starts_with('"') { self.converter().unquoted(text, span).into() } else { text.into() };
+        *at = span;
+    }
+
+    /// Keeps an entry, or a comment that says something, that the IR has no field for.
+    pub(super) fn extension(&mut self, entry: &Entry, extensions: &mut Vec<Extension>) {
+        let (key, value, span) = (self.doc.key(entry), self.doc.value(entry), self.doc.value_span(entry));
+        if self.doc.is_comment(entry) {
+            // A line of dashes says nothing.
+            if value.bytes().any(|byte| byte.is_ascii_alphanumeric() || !byte.is_ascii()) {
+                extensions.push(Extension { key: COMMENT, value: value.into(), span });
+            }
+            return;
+        }
+        let known = extensions.iter().rev().take(limits::MAX_COMPARED_EXTENSIONS);
+        if let Some(earlier) = known.into_iter().find(|other| other.key.eq_ignore_ascii_case(key)) {
+            let span = earlier.span;
+            self.duplicate(span, self.doc.key_span(entry), key);
+        }
+        if self.diagnostics.wants(&codes::UNKNOWN_KEY) {
+            let message = format!("`{key}` is no key of CiA 306");
+            self.diagnostics.push(
+                Diagnostic::new(&codes::UNKNOWN_KEY, self.doc.key_span(entry), message)
+                    .label("kept as an extension attribute"),
+            );
+        }
+        extensions.push(Extension { key: key.into(), value: value.into(), span });
+    }
+
+    /// Reports that the file lacks a mandatory section.
+    pub(super) fn missing_section(&mut self, name: &str) {
+        let file = self.doc.sections().first().map_or(Span::default(), |first| self.doc.name_span(first)).file;
+        let message = format!("there is no section [{name}]");
+        self.diagnostics.push(Diagnostic::new(&codes::MISSING_SECTION, Span::new(file, 0, 0), message));
+    }
+
+    /// Reports that a section lacks a mandatory entry.
+    pub(super) fn missing_entry(&mut self, section: &Section, key: &str) {
+        if self.diagnostics.wants(&codes::MISSING_ENTRY) {
+            let message = format!("[{}] has no {key}", self.doc.name(section));
+            let span = self.doc.name_span(section);
+            self.diagnostics.push(Diagnostic::new(&codes::MISSING_ENTRY, span, message));
+        }
+    }
+
+    pub(super) fn duplicate_key(&mut self, earlier: &Entry, later: &Entry) {
+        let key = self.doc.key(later);
+        self.duplicate(self.doc.value_span(earlier), self.doc.key_span(later), key);
+    }
+
+    pub(super) fn duplicate(&mut self, earlier: Span, later: Span, key: &str) {
+        self.diagnostics.push(
+            Diagnostic::new(&codes::DUPLICATE_KEY, later, format!("`{key}` occurs twice in this section"))
+                .label("this value is used")
+                .note_at(earlier, "and this one is not"),
+        );
+    }
+
+    pub(super) fn duplicate_sections(&mut self, same: &[Section]) {
+        for later in same.iter().skip(1) {
+            let message = format!("section [{}] occurs twice", self.doc.name(later));
+            self.diagnostics.push(
+                Diagnostic::new(&codes::DUPLICATE_SECTION, self.doc.name_span(later), message)
+                    .label("merged with the first")
+                    .note_at(self.doc.name_span(&same[0]), "the first is here"),
+            );
+        }
+    }
+
+    pub(super) fn too_many_derived(&mut self, span: Span) {
+        self.diagnostics.push(Diagnostic::new(
+            &codes::INPUT_TOO_LARGE,
+            span,
+            format!("more than {} sub-indices follow from CompactSubObj", limits::MAX_DERIVED_ITEMS),
+        ));
+    }
+
+    pub(super) fn origin(&self, section: &Section) -> Origin {
+        Origin { span: self.doc.name_span(section), line: section.line }
+    }
+}

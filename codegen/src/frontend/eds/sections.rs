@@ -1,0 +1,191 @@
+//! What a section is, by its name (CiA 306, "section names").
+
+/// The meaning of a section's name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    FileInfo,
+    DeviceInfo,
+    DummyUsage,
+    Comments,
+    List(List),
+    Commissioning,
+    SupportedModules,
+    ConnectedModules,
+    DynamicChannels,
+    /// `[xxxx]`
+    Object(u16),
+    /// `[xxxxsubN]`
+    Sub(u16, u8),
+    /// `[xxxxName]`, `[xxxxValue]`, `[xxxxDenotation]`
+    Refinement(u16, Refinement),
+    /// `[xxxxObjectLinks]`
+    Links(u16),
+    /// `[M<n>…]`
+    Module(u32, ModulePart),
+    Unknown,
+}
+
+/// The three object lists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum List {
+    Mandatory,
+    Optional,
+    Manufacturer,
+}
+
+/// What a `[xxxx…]` section says about the sub-indices of a compact object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Refinement {
+    Name,
+    Value,
+    Denotation,
+}
+
+/// A part of a module's description.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ModulePart {
+    Info,
+    Comments,
+    FixedObjects,
+    FixedObject(u16),
+    FixedSub(u16, u8),
+    SubExtends,
+    SubExtension(u16),
+}
+
+const NAMED: [(&str, Kind); 13] = [
+    ("FileInfo", Kind::FileInfo),
+    ("DeviceInfo", Kind::DeviceInfo),
+    ("DummyUsage", Kind::DummyUsage),
+    ("Comments", Kind::Comments),
+    ("MandatoryObjects", Kind::List(List::Mandatory)),
+    ("OptionalObjects", Kind::List(List::Optional)),
+    ("ManufacturerObjects", Kind::List(List::Manufacturer)),
+    // The standard's own spelling, and the right one.
+    ("DeviceComissioning", Kind::Commissioning),
+    ("DeviceCommissioning", Kind::Commissioning),
+    ("SupportedModules", Kind::SupportedModules),
+    ("ConnectedModules", Kind::ConnectedModules),
+    ("DynamicChannels", Kind::DynamicChannels),
+    ("Tools", Kind::Unknown),
+];
+
+/// The meaning of `name`, and whether the name keeps to the grammar.
+pub(super) fn classify(name: &str) -> (Kind, bool) {
+    if let Some(found) = classify_object(name) {
+        return found;
+    }
+    if let Some((_, kind)) = NAMED.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)) {
+        return (*kind, true);
+    }
+    if let Some(found) = classify_module(name) {
+        return found;
+    }
+    (Kind::Unknown, true)
+}
+
+fn classify_object(name: &str) -> Option<(Kind, bool)> {
+    let (digits, prefixed) = match name.get(..2) {
+        Some("0x" | "0X") => (&name[2..], true),
+        _ => (name, false),
+    };
+    let length = digits.bytes().take_while(u8::is_ascii_hexdigit).count();
+    // `[DeviceInfo]` starts with hexadecimal digits, too: only four of them make an index, or more with leading zeros.
+    if length == 0 || length > 8 {
+        return None;
+    }
+    let index = u16::from_str_radix(&digits[..length], 16).ok()?;
+    let legal = length == 4 && !prefixed;
+    let rest = &digits[length..];
+    if rest.is_empty() {
+        return Some((Kind::Object(index), legal));
+    }
+    let word = rest.trim_start();
+    if let Some(number) = strip_prefix_ignore_case(word, "sub") {
+        let number = number.trim_start();
+        let sub = hex_u8(number)?;
+        let canonical = number.len() == 1 || !number.starts_with('0');
+        return Some((Kind::Sub(index, sub), legal && canonical && rest.len() == 3 + number.len()));
+    }
+    let kind = match () {
+        _ if word.eq_ignore_ascii_case("Name") => Kind::Refinement(index, Refinement::Name),
+        _ if word.eq_ignore_ascii_case("Value") => Kind::Refinement(index, Refinement::Value),
+        _ if word.eq_ignore_ascii_case("Denotation") => Kind::Refinement(index, Refinement::Denotation),
+        _ if word.eq_ignore_ascii_case("ObjectLinks") => Kind::Links(index),
+        _ => return None,
+    };
+    Some((kind, legal && word.len() == rest.len()))
+}
+
+fn classify_module(name: &str) -> Option<(Kind, bool)> {
+    let rest = strip_prefix_ignore_case(name, "M")?;
+    let length = rest.bytes().take_while(u8::is_ascii_digit).count();
+    let number: u32 = rest.get(..length)?.parse().ok()?;
+    let canonical = !rest.starts_with('0');
+    let word = &rest[length..];
+    let (part, legal) = match () {
+        _ if word.eq_ignore_ascii_case("ModuleInfo") => (ModulePart::Info, true),
+        _ if word.eq_ignore_ascii_case("Comments") => (ModulePart::Comments, true),
+        _ if word.eq_ignore_ascii_case("FixedObjects") => (ModulePart::FixedObjects, true),
+        _ if word.eq_ignore_ascii_case("SubExtends") => (ModulePart::SubExtends, true),
+        _ => {
+            let (is_extension, object) = match strip_prefix_ignore_case(word, "SubExt") {
+                Some(object) => (true, object),
+                None => (false, strip_prefix_ignore_case(word, "Fixed")?),
+            };
+            match (is_extension, classify_object(object)?) {
+                (true, (Kind::Object(index), legal)) => (ModulePart::SubExtension(index), legal),
+                (false, (Kind::Object(index), legal)) => (ModulePart::FixedObject(index), legal),
+                (false, (Kind::Sub(index, sub), legal)) => (ModulePart::FixedSub(index, sub), legal),
+                _ => return None,
+            }
+        }
+    };
+    Some((Kind::Module(number, part), legal && canonical))
+}
+
+fn hex_u8(digits: &str) -> Option<u8> {
+    let only_digits = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+    only_digits.then(|| u8::from_str_radix(digits, 16).ok()).flatten()
+}
+
+fn strip_prefix_ignore_case<'a>(text: &'a str, prefix: &str) -> Option<&'a str> {
+    let head = text.get(..prefix.len())?;
+    head.eq_ignore_ascii_case(prefix).then(|| &text[prefix.len()..])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn objects_and_their_refinements() {
+        assert_eq!(classify("1A00"), (Kind::Object(0x1A00), true));
+        assert_eq!(classify("200a"), (Kind::Object(0x200A), true));
+        assert_eq!(classify("A0"), (Kind::Object(0xA0), false));
+        assert_eq!(classify("0x2000"), (Kind::Object(0x2000), false));
+        for name in ["1018sub1", "1018Sub1", "1018SUB1"] {
+            assert_eq!(classify(name), (Kind::Sub(0x1018, 1), true));
+        }
+        assert_eq!(classify("2000subFF"), (Kind::Sub(0x2000, 0xFF), true));
+        assert_eq!(classify("02000"), (Kind::Object(0x2000), false));
+        assert_eq!(classify("02000sub1"), (Kind::Sub(0x2000, 1), false));
+        for name in ["2000sub01", "1003sub00", "2000 sub1", "A0sub1"] {
+            assert!(!classify(name).1, "{name}");
+        }
+        assert_eq!(classify("2000Value"), (Kind::Refinement(0x2000, Refinement::Value), true));
+        assert_eq!(classify("2000objectlinks"), (Kind::Links(0x2000), true));
+    }
+
+    #[test]
+    fn other_sections() {
+        assert_eq!(classify("deviceinfo"), (Kind::DeviceInfo, true));
+        assert_eq!(classify("DeviceComissioning"), classify("DeviceCommissioning"));
+        assert_eq!(classify("M1SubExt6000"), (Kind::Module(1, ModulePart::SubExtension(0x6000)), true));
+        assert_eq!(classify("M12Fixed1A00sub1"), (Kind::Module(12, ModulePart::FixedSub(0x1A00, 1)), true));
+        assert_eq!(classify("M01ModuleInfo"), (Kind::Module(1, ModulePart::Info), false));
+        for name in ["File", "Params", "", "2000sub100", "2000subx", "20000", "M", "Mx", "MComments", "M1Fixed", "ü"] {
+            assert_eq!(classify(name).0, Kind::Unknown, "{name}");
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! Front ends: one folder a format, each turning syntax into IR and nothing else.
+
+pub mod canopen;
+pub mod detect;
+pub mod eds;
+pub mod xdd;

@@ -1,0 +1,343 @@
+//! From an object or sub-object, and the parameter to which it refers, to an item.
+
+use super::application::{span_of, Allowed, AllowedRange, View};
+use super::objects::{Builder, Key, Raw};
+use super::reader::{Given, Texts};
+use super::types::{enum_value, underlying};
+use crate::diagnostics::{codes, Diagnostic};
+use crate::frontend::canopen::number;
+use crate::frontend::canopen::value::Role;
+use crate::ir::{
+    Access, Behaviour, Binding, CompactString, Configured, Extension, Item, Limits, Mappable, ObjectCode, Quantity,
+    Scale, Shape, Storage, Type, TypeDef, TypeId, Value,
+};
+
+/// What a sub-object takes from its object: the parameter of the whole, and the type of this component.
+pub(super) type Parent<'v, 'p, 'a> = Option<(&'v View<'p, 'a>, Option<Type>)>;
+
+impl<'a, 'p> Builder<'a, '_, 'p> {
+    /// One value: a VAR, a DOMAIN, a sub-object. Name, texts and extensions are the caller's.
+    pub(super) fn item(
+        &mut self,
+        index: u16,
+        sub: u8,
+        raw: &Raw<'a>,
+        view: &View<'p, 'a>,
+        code: ObjectCode,
+        parent: Parent<'_, 'p, 'a>,
+    ) -> Item {
+        let mut item = Item::new(Binding::canopen(index, sub));
+        item.origin = raw.origin;
+        let ty = self.data_type(raw, view, code, parent.and_then(|(_, component)| component), &mut item);
+        let plain = ty.unwrap_or(Type::Opaque(None));
+        let allowed = view.find(|parameter| parameter.allowed.as_deref());
+        let allowed = allowed.map(|allowed| self.application.allowed(self.reader, allowed));
+        let allowed = allowed.filter(|allowed| self.charge(allowed.weight, raw.span(Key::UniqueIdRef)));
+        item.ty = self.enumeration(plain, view, allowed);
+        let base = underlying(&self.types, item.ty);
+        item.access = self.access(raw, view, code, parent, &mut item);
+        if ty.is_none() {
+            // Nobody can say which bytes to write.
+            item.access = Access::ReadOnly;
+        }
+        item.mappable = self.mappable(raw, item.access, &mut item);
+        let default = raw.get(Key::DefaultValue).or_else(|| view.find(|parameter| parameter.default.as_ref()));
+        item.default = self.typed(default, base, Role::Value);
+        item.at.default = span_of(default);
+        // An enumeration of the allowed values says all of them.
+        self.limits(raw, base, allowed.filter(|_| item.ty == plain), &mut item);
+        item.flags = self.flags(raw);
+        self.configured(raw, view, base, &mut item);
+        self.quantity(view, allowed, base, &mut item);
+        self.behaviour(view, &mut item);
+        item
+    }
+
+    fn typed(&mut self, given: Option<&Given<'a>>, ty: Type, role: Role) -> Option<Value> {
+        let given = given?;
+        self.reader.converter().value(&given.text, given.span, ty, role)
+    }
+
+    fn data_type(
+        &mut self,
+        raw: &Raw<'a>,
+        view: &View<'p, 'a>,
+        code: ObjectCode,
+        component: Option<Type>,
+        item: &mut Item,
+    ) -> Option<Type> {
+        let parameter = view.find(|parameter| parameter.ty.as_ref());
+        if let Some(given) = raw.get(Key::DataType) {
+            item.at.ty = given.span;
+            let Some(number) = self.reader.hex(Some(given), u32::MAX, "data type") else {
+                return Some(Type::Opaque(None));
+            };
+            let ty = self.type_by_code(number, item);
+            // An enumeration of the same integers says more.
+            let named = parameter.map(|parameter| self.application.resolve(self.reader, parameter));
+            return named.filter(|&named| named != ty && underlying(&self.types, named) == ty).or(Some(ty));
+        }
+        item.at.ty = parameter.map_or(raw.origin.span, |parameter| parameter.span());
+        // IEC 61131-3 has no domains: a parameter that stands for one has some other type.
+        if code == ObjectCode::Domain {
+            return Some(Type::Domain);
+        }
+        if let Some(parameter) = parameter {
+            return Some(self.application.resolve(self.reader, parameter));
+        }
+        if component.is_some() {
+            return component;
+        }
+        if matches!(code, ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null) {
+            return Some(Type::Opaque(None));
+        }
+        self.reader.diagnostics.push(
+            Diagnostic::new(
+                &codes::MISSING_DATA_TYPE,
+                item.at.ty,
+                "neither the object nor a parameter has a data type",
+            )
+            .label("kept read-only, as raw bytes")
+            .help("add dataType=\"0007\", say, for UNSIGNED32"),
+        );
+        None
+    }
+
+    fn type_by_code(&mut self, code: u32, item: &Item) -> Type {
+        if let Some(ty) = Type::from_cia301(code) {
+            return ty;
+        }
+        if let Some(&ty) = self.codes.get(&code) {
+            return ty;
+        }
+        let (kind, message) = match code {
+            0x20..=0x23 => (&codes::COMPLEX_DATA_TYPE, format!("{code:#06x} is the type of a record, not of a value")),
+            0x0E | 0x17 | 0x1C..=0x1F => (&codes::COMPLEX_DATA_TYPE, format!("the data type {code:#06x} is reserved")),
+            _ => (&codes::UNKNOWN_DATA_TYPE, format!("{code:#06x} is no data type of CiA 301 or of this file")),
+        };
+        self.reader.diagnostics.push(Diagnostic::new(kind, item.at.ty, message).label("kept as raw bytes"));
+        Type::Opaque(Some(code))
+    }
+
+    fn access(
+        &mut self,
+        raw: &Raw<'a>,
+        view: &View<'p, 'a>,
+        code: ObjectCode,
+        parent: Parent<'_, 'p, 'a>,
+        item: &mut Item,
+    ) -> Access {
+        if let Some(given) = raw.get(Key::AccessType) {
+            item.at.access = given.span;
+            if let Some(access) = Access::from_cia306(&given.text) {
+                return access;
+            }
+            let access = if given.text.eq_ignore_ascii_case("w") { Access::WriteOnly } else { Access::ReadOnly };
+            self.unknown_access(given, access, "write one of ro, wo, rw, rwr, rww, const");
+            return access;
+        }
+        let of_parent = parent.filter(|_| !view.exists()).map(|(parent, _)| parent);
+        let given = view.find(|parameter| parameter.access.as_ref());
+        let given = given.or_else(|| of_parent.and_then(|parent| parent.find(|parameter| parameter.access.as_ref())));
+        if let Some(given) = given {
+            item.at.access = given.span;
+            return self.parameter_access(given);
+        }
+        item.at.access = raw.origin.span;
+        // What a parameter doesn't say is `read` by the schema of CiA 311.
+        let is_read = view.own().is_some_and(|parameter| !parameter.is_variable);
+        match code {
+            ObjectCode::Domain if !is_read => return Access::ReadWrite,
+            ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null => {}
+            _ if is_read => {}
+            _ => {
+                let message = "neither the object nor a parameter has an access type";
+                self.reader
+                    .diagnostics
+                    .push(Diagnostic::new(&codes::MISSING_ACCESS, raw.origin.span, message).label("kept read-only"));
+            }
+        }
+        Access::ReadOnly
+    }
+
+    fn parameter_access(&mut self, given: &Given<'a>) -> Access {
+        match given.text.as_ref() {
+            "read" => Access::ReadOnly,
+            "write" => Access::WriteOnly,
+            "readWrite" => Access::ReadWrite,
+            "readWriteInput" => Access::ReadWriteInput,
+            "readWriteOutput" => Access::ReadWriteOutput,
+            "const" => Access::Constant,
+            "noAccess" => {
+                let message = "an object refers to a parameter that the bus has no access to";
+                self.reader
+                    .diagnostics
+                    .push(Diagnostic::new(&codes::XDD_VALUE, given.span, message).label("kept read-only"));
+                Access::ReadOnly
+            }
+            _ => {
+                let help = "write one of read, write, readWrite, readWriteInput, readWriteOutput, const, noAccess";
+                self.unknown_access(given, Access::ReadOnly, help);
+                Access::ReadOnly
+            }
+        }
+    }
+
+    fn unknown_access(&mut self, given: &Given<'a>, access: Access, help: &str) {
+        self.reader.diagnostics.push(
+            Diagnostic::new(&codes::UNKNOWN_ACCESS, given.span, format!("`{}` is no access type", given.text))
+                .label(format!("read as {}", access.name()))
+                .help(help),
+        );
+    }
+
+    fn mappable(&mut self, raw: &Raw<'a>, access: Access, item: &mut Item) -> Mappable {
+        let Some(given) = raw.get(Key::PdoMapping) else { return Mappable::default() };
+        item.at.mappable = given.span;
+        let text = given.text.as_ref();
+        let is = |word: &str| word.eq_ignore_ascii_case(text);
+        match () {
+            () if is("no") => Mappable::default(),
+            () if is("default") || is("optional") => Mappable::by_access(access),
+            () if is("TPDO") => Mappable { tpdo: true, rpdo: false },
+            () if is("RPDO") => Mappable { tpdo: false, rpdo: true },
+            () => {
+                self.reader.bad(given, "PDO mapping", "read as `no`; expected no, default, optional, TPDO or RPDO");
+                Mappable::default()
+            }
+        }
+    }
+
+    /// Labelled values are an enumeration of their own.
+    fn enumeration(&mut self, ty: Type, view: &View<'p, 'a>, allowed: Option<&'p Allowed<'a>>) -> Type {
+        let (Some(allowed), Some(position)) = (allowed, view.position) else { return ty };
+        let labelled = allowed.ranges.is_empty() && allowed.values.iter().all(|(_, texts)| !texts.labels.is_empty());
+        if allowed.values.is_empty() || !labelled || !matches!(ty, Type::Integer(_) | Type::Unsigned(_)) {
+            return ty;
+        }
+        if let Some(&known) = self.enumerations.get(&position) {
+            let is_same = matches!(&self.types[known.0 as usize].shape, Shape::Enumeration { base, .. } if *base == ty);
+            return if is_same { Type::Named(known) } else { ty };
+        }
+        let value =
+            |(given, texts): &(Given<'a>, Texts)| Some(enum_value(number::parse(&given.text, &[]).int()?, texts));
+        let Some(values) = allowed.values.iter().map(value).collect::<Option<Vec<_>>>() else { return ty };
+        let id = TypeId(self.types.len() as u32);
+        self.enumerations.insert(position, id);
+        self.types.push(TypeDef {
+            name: view.texts().label(),
+            code: None,
+            shape: Shape::Enumeration { base: ty, values, closed: false },
+            bits: ty.bits(),
+            documentation: None,
+            origin: crate::source::Origin::default(),
+        });
+        Type::Named(id)
+    }
+
+    /// The object's limits, else what the parameter's allowed values span.
+    fn limits(&mut self, raw: &Raw<'a>, ty: Type, allowed: Option<&'p Allowed<'a>>, item: &mut Item) {
+        let own = |key| raw.get(key);
+        (item.at.low, item.at.high) = (span_of(own(Key::LowLimit)), span_of(own(Key::HighLimit)));
+        item.limits.low = self.typed(own(Key::LowLimit), ty, Role::Limit);
+        item.limits.high = self.typed(own(Key::HighLimit), ty, Role::Limit);
+        let Some(allowed) = allowed else { return };
+        if !item.limits.is_empty() {
+            return keep_allowed(allowed, &mut item.extensions);
+        }
+        if let ([range], []) = (allowed.ranges.as_slice(), allowed.values.as_slice()) {
+            (item.at.low, item.at.high) = (span_of(range.low.as_ref()), span_of(range.high.as_ref()));
+            let low = self.typed(range.low.as_ref(), ty, Role::Limit);
+            item.limits = Limits { low, high: self.typed(range.high.as_ref(), ty, Role::Limit) };
+            return;
+        }
+        item.limits = self.hull(allowed, ty);
+        keep_allowed(allowed, &mut item.extensions);
+    }
+
+    /// The least and the greatest of several ranges and values.
+    fn hull(&mut self, allowed: &'p Allowed<'a>, ty: Type) -> Limits {
+        let single = allowed.values.iter().map(|(given, _)| (Some(given), Some(given)));
+        let ranges = allowed.ranges.iter().map(|range| (range.low.as_ref(), range.high.as_ref()));
+        let mut limits: Option<(Value, Value)> = None;
+        for (low, high) in ranges.chain(single) {
+            let low = self.typed(low, ty, Role::Limit);
+            let high = self.typed(high, ty, Role::Limit);
+            let (Some(low), Some(high)) = (low, high) else { return Limits::default() };
+            limits = match limits {
+                None if low.as_real().is_some() && high.as_real().is_some() => Some((low, high)),
+                None => return Limits::default(),
+                Some((least, greatest)) => {
+                    let less = low.as_real() < least.as_real();
+                    let more = high.as_real() > greatest.as_real();
+                    Some((if less { low } else { least }, if more { high } else { greatest }))
+                }
+            };
+        }
+        limits.map_or_else(Limits::default, |(low, high)| Limits { low: Some(low), high: Some(high) })
+    }
+
+    /// What an XDC adds to an item.
+    fn configured(&mut self, raw: &Raw<'a>, view: &View<'p, 'a>, ty: Type, item: &mut Item) {
+        let actual = raw.get(Key::ActualValue).or_else(|| view.find(|parameter| parameter.actual.as_ref()));
+        let denotation = match raw.get(Key::Denotation) {
+            Some(given) => Some(CompactString::from(given.text.as_ref())),
+            None => view.find(|parameter| parameter.denotation.as_deref()).map(Texts::label),
+        };
+        let configured = Configured {
+            value: self.typed(actual, ty, Role::Value),
+            denotation: denotation.filter(|text| !text.is_empty()),
+            ..Configured::default()
+        };
+        item.at.configured = span_of(actual);
+        if configured != Configured::default() {
+            item.configured = Some(Box::new(configured));
+        }
+    }
+
+    /// Unit and scale: engineering value = (raw + offset) × multiplier, in units of the unit's multiplier.
+    fn quantity(&mut self, view: &View<'p, 'a>, allowed: Option<&'p Allowed<'a>>, ty: Type, item: &mut Item) {
+        let unit = view.find(|parameter| parameter.unit.as_deref());
+        let multiplier = view.find(|parameter| parameter.multiplier.as_ref());
+        let offset = view.find(|parameter| parameter.offset.as_ref());
+        let of_unit = unit.and_then(|unit| unit.multiplier.as_ref());
+        let step = allowed.and_then(|allowed| match allowed.ranges.as_slice() {
+            [range] => range.step.as_ref(),
+            _ => None,
+        });
+        let mut quantity = Quantity { step: self.typed(step, ty, Role::Limit), ..Quantity::default() };
+        let given = multiplier.or(of_unit).or(offset).is_some();
+        let factors = [multiplier, of_unit].map(|given| self.reader.real(given, "multiplier").unwrap_or(1.0));
+        let (factor, offset) = (factors[0] * factors[1], self.reader.real(offset, "offset").unwrap_or(0.0));
+        if given && (factor != 1.0 || offset != 0.0) && (factor * offset).is_finite() && factor.is_finite() {
+            quantity.scale = Some(Scale::Linear { factor, offset: offset * factor });
+        }
+        if let Some(unit) = unit {
+            quantity.unit = unit.texts.label();
+            quantity.units = unit.texts.names(&quantity.unit);
+            super::reader::note("unitURI", unit.uri.as_ref(), &mut item.extensions);
+        }
+        if quantity != Quantity::default() {
+            item.quantity = Some(Box::new(quantity));
+        }
+    }
+
+    fn behaviour(&mut self, view: &View<'p, 'a>, item: &mut Item) {
+        let Some(given) = view.find(|parameter| parameter.persistent.as_ref()) else { return };
+        let storage = if self.reader.flag(Some(given)) { Storage::Immediate } else { Storage::Volatile };
+        item.behaviour = Some(Box::new(Behaviour { storage, ..Behaviour::default() }));
+    }
+}
+
+/// The exact list, of which limits are only the outline.
+fn keep_allowed(allowed: &Allowed<'_>, extensions: &mut Vec<Extension>) {
+    let text = |given: Option<&Given<'_>>| given.map_or_else(String::new, |given| given.text.to_string());
+    let range = |range: &AllowedRange<'_>| format!("{}..{}", text(range.low.as_ref()), text(range.high.as_ref()));
+    let ranges = allowed.ranges.iter().map(range);
+    let list: Vec<String> = ranges.chain(allowed.values.iter().map(|(given, _)| text(Some(given)))).collect();
+    let first = allowed.ranges.first().and_then(|range| range.low.as_ref());
+    let span = span_of(first.or(allowed.values.first().map(|(given, _)| given)));
+    if !list.is_empty() {
+        extensions.push(Extension { key: "allowedValues".into(), value: list.join(" ").into(), span });
+    }
+}

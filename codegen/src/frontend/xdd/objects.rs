@@ -1,0 +1,474 @@
+//! Objects and sub-objects of the object list.
+
+use std::collections::BTreeMap;
+
+use super::application::{Application, View};
+use super::reader::{note, Given, Read, Reader};
+use super::types::underlying;
+use crate::diagnostics::{codes, Diagnostic};
+use crate::frontend::canopen::deftype::defined_type;
+use crate::frontend::canopen::number;
+use crate::ir::{Category, Device, Extension, Group, GroupKind, ObjectCode, Shape, Type, TypeDef, TypeId};
+use crate::source::{Origin, Span};
+use crate::syntax::xml::{Cursor, Tag};
+
+/// Where the objects stand, in the order of the file.
+#[derive(Default)]
+pub(super) struct ObjectList {
+    places: Vec<(u16, Origin)>,
+}
+
+impl ObjectList {
+    /// Notes the objects of a CANopenObjectList.
+    pub fn note<'a>(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Device) -> Read<()> {
+        // The numbers of objects say nothing that the objects don't.
+        const NAMES: [&str; 3] = ["mandatoryObjects", "optionalObjects", "manufacturerObjects"];
+        reader.fields(parent, &NAMES, &mut device.extensions)?;
+        while let Some(tag) = reader.cursor.child(parent)? {
+            match tag.name {
+                "CANopenObject" => {
+                    let given = reader.field(&tag, "index")?;
+                    match reader.hex(given.as_ref(), 0xFFFF, "index") {
+                        Some(index) => self.places.push((index as u16, reader.cursor.origin(&tag))),
+                        None => missing_index(reader, &tag, "this object has no index"),
+                    }
+                }
+                "CANopenSubObject" => missing_index(reader, &tag, "this sub-object stands outside of an object"),
+                _ => reader.unknown(&tag, &mut device.extensions)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+fn missing_index(reader: &mut Reader<'_, '_>, tag: &Tag<'_>, message: &str) {
+    reader.diagnostics.push(Diagnostic::new(&codes::MISSING_INDEX, tag.span, message).label("left out"));
+}
+
+/// How many bytes of parameters may be copied into objects per byte of the file. One parameter for one object is the
+/// rule; a reference is shorter than what it refers to.
+const MAX_COPIES: usize = 64;
+
+/// Reads the objects by index and adds them to `device`.
+pub(super) fn build<'a>(
+    reader: &mut Reader<'a, '_>,
+    application: &Application<'a>,
+    list: ObjectList,
+    device: &mut Device,
+) -> Read<()> {
+    let mut places = list.places;
+    places.sort_by_key(|&(index, _)| index);
+    let mut builder = Builder {
+        copies_left: reader.text.len().saturating_mul(MAX_COPIES),
+        reader,
+        application,
+        types: std::mem::take(&mut device.types),
+        codes: BTreeMap::new(),
+        enumerations: BTreeMap::new(),
+        copies_exceeded: false,
+    };
+    device.groups.reserve(places.len());
+    for (at, &(index, origin)) in places.iter().enumerate() {
+        if let Some((_, later)) = places.get(at + 1).filter(|(other, _)| *other == index) {
+            builder.duplicate(later.span, origin.span, &format!("object 0x{index:04X}"));
+            continue;
+        }
+        builder.reader.cursor = Cursor::resume(builder.reader.text, origin);
+        let tag = builder.reader.cursor.root()?;
+        let group = builder.object(index, &tag)?;
+        builder.define_type(&group);
+        device.groups.push(group);
+    }
+    device.types = builder.types;
+    Ok(())
+}
+
+/// The attributes of an object or sub-object, by position in [`Raw`].
+#[derive(Clone, Copy)]
+pub(super) enum Key {
+    Index,
+    Name,
+    ObjectType,
+    DataType,
+    AccessType,
+    DefaultValue,
+    PdoMapping,
+    LowLimit,
+    HighLimit,
+    ObjFlags,
+    ActualValue,
+    Denotation,
+    UniqueIdRef,
+    SubNumber,
+    RangeSelector,
+}
+
+macro_rules! attributes {
+    ($index:literal) => {
+        [
+            $index,
+            "name",
+            "objectType",
+            "dataType",
+            "accessType",
+            "defaultValue",
+            "PDOmapping",
+            "lowLimit",
+            "highLimit",
+            "objFlags",
+            "actualValue",
+            "denotation",
+            "uniqueIDRef",
+            "subNumber",
+            "rangeSelector",
+        ]
+    };
+}
+
+const OBJECT: [&str; 15] = attributes!("index");
+const SUB_OBJECT: [&str; 15] = attributes!("subIndex");
+
+/// Attributes of one value, which say nothing about an object whose values are its sub-objects.
+const OF_A_VALUE: [Key; 8] = [
+    Key::DataType,
+    Key::AccessType,
+    Key::DefaultValue,
+    Key::PdoMapping,
+    Key::LowLimit,
+    Key::HighLimit,
+    Key::ActualValue,
+    Key::Denotation,
+];
+
+/// What an object or sub-object itself says.
+pub(super) struct Raw<'a> {
+    fields: [Option<Given<'a>>; OBJECT.len()],
+    pub extensions: Vec<Extension>,
+    pub origin: Origin,
+}
+
+impl<'a> Raw<'a> {
+    pub fn get(&self, key: Key) -> Option<&Given<'a>> {
+        self.fields[key as usize].as_ref()
+    }
+
+    pub fn span(&self, key: Key) -> Span {
+        self.get(key).map_or(self.origin.span, |given| given.span)
+    }
+}
+
+fn is_var(raw: &Raw<'_>) -> bool {
+    raw.get(Key::ObjectType).is_none_or(|given| number::parse(&given.text, &[]).int() == Some(7))
+}
+
+/// The state of building objects.
+pub(super) struct Builder<'a, 'd, 'p> {
+    pub reader: &'p mut Reader<'a, 'd>,
+    pub application: &'p Application<'a>,
+    /// The types of the device, those of the application process in front.
+    pub types: Vec<TypeDef>,
+    /// Types that objects define, by their index.
+    pub codes: BTreeMap<u32, Type>,
+    /// Enumerations made from the allowed values of a parameter, by its position.
+    pub enumerations: BTreeMap<usize, TypeId>,
+    copies_left: usize,
+    copies_exceeded: bool,
+}
+
+impl<'a, 'p> Builder<'a, '_, 'p> {
+    fn raw(&mut self, tag: &Tag<'a>, names: &[&str; OBJECT.len()]) -> Read<Raw<'a>> {
+        let mut extensions = Vec::new();
+        let origin = self.reader.cursor.origin(tag);
+        let fields = self.reader.fields(tag, names, &mut extensions)?;
+        let raw = Raw { fields, extensions, origin };
+        let mut extensions = Vec::new();
+        note("rangeSelector", raw.get(Key::RangeSelector), &mut extensions);
+        extensions.extend(raw.extensions);
+        Ok(Raw { extensions, ..raw })
+    }
+
+    fn object(&mut self, index: u16, tag: &Tag<'a>) -> Read<Group> {
+        let mut raw = self.raw(tag, &OBJECT)?;
+        let mut subs: BTreeMap<u8, Raw<'a>> = BTreeMap::new();
+        while let Some(child) = self.reader.cursor.child(tag)? {
+            if child.name == "CANopenSubObject" {
+                self.sub_object(&child, &mut subs)?;
+            } else {
+                self.reader.unknown(&child, &mut raw.extensions)?;
+            }
+        }
+        let view = self.view(&raw);
+        let mut group = Group::object(index, ObjectCode::Record);
+        group.origin = raw.origin;
+        self.name(&raw, &view, &mut group.name, &mut group.name_at);
+        let code = self.object_code(index, &raw, !subs.is_empty());
+        group.kind = GroupKind::Object { index, code, category: self.category(&view) };
+        group.extensions.append(&mut raw.extensions);
+        group.extensions.extend(view.extensions().cloned());
+        let texts = view.texts();
+        group.names = texts.names(&group.name);
+        if code.has_subs() || (!subs.is_empty() && code != ObjectCode::Var) {
+            group.documentation = texts.documentation();
+            self.subs(&mut group, index, &raw, &view, subs);
+        } else {
+            self.unused(&raw, &[Key::SubNumber], &mut group.extensions);
+            let mut item = self.item(index, 0, &raw, &view, code, None);
+            item.name = group.name.clone();
+            item.at.name = group.name_at;
+            item.names = group.names.clone();
+            item.documentation = texts.documentation();
+            group.items.push(item);
+        }
+        Ok(group)
+    }
+
+    fn sub_object(&mut self, tag: &Tag<'a>, subs: &mut BTreeMap<u8, Raw<'a>>) -> Read<()> {
+        let mut raw = self.raw(tag, &SUB_OBJECT)?;
+        self.reader.no_children(tag, &mut raw.extensions)?;
+        let given = raw.get(Key::Index).cloned();
+        let Some(sub) = self.reader.hex(given.as_ref(), 0xFF, "sub-index") else {
+            missing_index(self.reader, tag, "this sub-object has no sub-index");
+            return Ok(());
+        };
+        let later = raw.origin.span;
+        if let Some(earlier) = subs.insert(sub as u8, raw) {
+            self.duplicate(later, earlier.origin.span, &format!("sub-index 0x{sub:02X}"));
+        }
+        Ok(())
+    }
+
+    fn subs(
+        &mut self,
+        group: &mut Group,
+        index: u16,
+        object: &Raw<'a>,
+        parent: &View<'p, 'a>,
+        subs: BTreeMap<u8, Raw<'a>>,
+    ) {
+        group.items.reserve_exact(subs.len());
+        let count = subs.len();
+        let whole = parent.find(|parameter| parameter.ty.as_ref());
+        let whole = whole.map(|ty| self.application.resolve(self.reader, ty));
+        let first = subs.keys().next().copied();
+        for (position, (sub, mut raw)) in subs.into_iter().enumerate() {
+            let view = self.view(&raw);
+            let code = self.sub_code(&raw);
+            let component = whole.and_then(|ty| self.component(ty, sub, position, count));
+            let mut item = self.item(index, sub, &raw, &view, code, Some((parent, component)));
+            self.name(&raw, &view, &mut item.name, &mut item.at.name);
+            let texts = view.texts();
+            item.names = texts.names(&item.name);
+            item.documentation = texts.documentation();
+            self.unused(&raw, &[Key::SubNumber], &mut item.extensions);
+            item.extensions.append(&mut raw.extensions);
+            item.extensions.extend(view.extensions().cloned());
+            self.note_field(&view, sub);
+            group.items.push(item);
+        }
+        let is_record = group.object_code() == Some(ObjectCode::Record);
+        if is_record && object.get(Key::DataType).is_some() && first != Some(0) && is_var(object) {
+            self.own_value(group, index, object, parent);
+        } else {
+            group.flags = self.flags(object);
+            self.unused(object, &OF_A_VALUE, &mut group.extensions);
+        }
+        self.sub_number(group, object);
+    }
+
+    /// A VAR that also has sub-objects, but none of sub-index 0: its own value is that.
+    fn own_value(&mut self, group: &mut Group, index: u16, raw: &Raw<'a>, view: &View<'p, 'a>) {
+        let mut item = self.item(index, 0, raw, view, ObjectCode::Var, None);
+        item.name = group.name.clone();
+        item.at.name = group.name_at;
+        group.items.insert(0, item);
+    }
+
+    /// Keeps attributes that mean nothing where they stand, unless they say so themselves.
+    fn unused(&mut self, raw: &Raw<'a>, keys: &[Key], extensions: &mut Vec<Extension>) {
+        for &key in keys {
+            let Some(given) = raw.get(key) else { continue };
+            if matches!(given.text.as_ref(), "no" | "0") && matches!(key, Key::PdoMapping | Key::SubNumber) {
+                continue;
+            }
+            let name = OBJECT[key as usize];
+            if self.reader.diagnostics.wants(&codes::NOT_ALLOWED_ENTRY) {
+                let message = format!("{name} has no meaning here");
+                self.reader.diagnostics.push(
+                    Diagnostic::new(&codes::NOT_ALLOWED_ENTRY, given.span, message)
+                        .label("kept as an extension attribute"),
+                );
+            }
+            note(name, Some(given), extensions);
+        }
+    }
+
+    /// What a sub-object is: a VAR, or a DOMAIN.
+    fn sub_code(&mut self, raw: &Raw<'a>) -> ObjectCode {
+        let Some(given) = raw.get(Key::ObjectType) else { return ObjectCode::Var };
+        match number::parse(&given.text, &[]).int() {
+            Some(2) => ObjectCode::Domain,
+            Some(7) => ObjectCode::Var,
+            _ => {
+                let message = format!("`{}` is no object type of a sub-object", given.text);
+                self.reader
+                    .diagnostics
+                    .push(Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, given.span, message).label("read as VAR"));
+                ObjectCode::Var
+            }
+        }
+    }
+
+    /// The parameter of an object, unless such have been copied too often.
+    fn view(&mut self, raw: &Raw<'a>) -> View<'p, 'a> {
+        let application = self.application;
+        let view = application.view(self.reader, raw.get(Key::UniqueIdRef));
+        if self.charge(view.weight(), raw.span(Key::UniqueIdRef)) {
+            view
+        } else {
+            View::NONE
+        }
+    }
+
+    /// Whether another `weight` bytes of the application process may be copied. That they may not is told once.
+    pub(super) fn charge(&mut self, weight: usize, span: Span) -> bool {
+        if let Some(left) = self.copies_left.checked_sub(weight) {
+            self.copies_left = left;
+            return true;
+        }
+        if !std::mem::replace(&mut self.copies_exceeded, true) {
+            let message = "references to the same parameters would make the description many times longer";
+            self.reader
+                .diagnostics
+                .push(Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message).label("not resolved from here on"));
+        }
+        false
+    }
+
+    fn name(&mut self, raw: &Raw<'a>, view: &View<'p, 'a>, name: &mut crate::ir::CompactString, at: &mut Span) {
+        match raw.get(Key::Name) {
+            Some(given) => (*name, *at) = (given.text.as_ref().into(), given.span),
+            None => *name = view.texts().label(),
+        }
+    }
+
+    /// objectType, or what the sub-objects show where it is missing or can't be.
+    fn object_code(&mut self, index: u16, raw: &Raw<'a>, has_subs: bool) -> ObjectCode {
+        let by_content = if has_subs { ObjectCode::Record } else { ObjectCode::Var };
+        let Some(given) = raw.get(Key::ObjectType) else { return self.var_with_subs(index, raw, has_subs) };
+        match number::parse(&given.text, &[]).int().and_then(ObjectCode::from_number) {
+            Some(ObjectCode::Var) => self.var_with_subs(index, raw, has_subs),
+            Some(code) => code,
+            None => {
+                let message = format!("`{}` is no object type", given.text);
+                self.reader.diagnostics.push(
+                    Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, given.span, message)
+                        .label(format!("read as {}", by_content.name())),
+                );
+                by_content
+            }
+        }
+    }
+
+    fn var_with_subs(&mut self, index: u16, raw: &Raw<'a>, has_subs: bool) -> ObjectCode {
+        if !has_subs {
+            return ObjectCode::Var;
+        }
+        let message = format!("0x{index:04X} is a VAR and has sub-indices");
+        self.reader.diagnostics.push(
+            Diagnostic::new(&codes::VAR_WITH_SUBS, raw.span(Key::ObjectType), message)
+                .label("treated as a RECORD")
+                .help("write objectType=\"9\" for a RECORD, \"8\" for an ARRAY"),
+        );
+        ObjectCode::Record
+    }
+
+    fn category(&mut self, view: &View<'p, 'a>) -> Option<Category> {
+        let given = view.find(|parameter| parameter.support.as_ref())?;
+        match given.text.as_ref() {
+            "mandatory" => Some(Category::Mandatory),
+            "optional" => Some(Category::Optional),
+            "conditional" => Some(Category::Conditional),
+            _ => {
+                self.reader.bad(given, "kind of support", "left out; expected mandatory, optional or conditional");
+                None
+            }
+        }
+    }
+
+    /// objFlags: four hexadecimal digits.
+    pub(super) fn flags(&mut self, raw: &Raw<'a>) -> u32 {
+        self.reader.hex(raw.get(Key::ObjFlags), u32::MAX, "objFlags").unwrap_or(0)
+    }
+
+    /// The type of a component, from that of the whole object.
+    fn component(&self, whole: Type, sub: u8, position: usize, count: usize) -> Option<Type> {
+        let Type::Named(TypeId(at)) = underlying(&self.types, whole) else { return None };
+        match &self.types.get(at as usize)?.shape {
+            Shape::Array { element, .. } => (sub > 0).then_some(*element),
+            Shape::Record(fields) if fields.len() == count => fields.get(position).map(|field| field.ty),
+            _ => None,
+        }
+    }
+
+    /// A sub-object that refers to a variable of a structure tells the sub-index of that field.
+    fn note_field(&mut self, view: &View<'p, 'a>, sub: u8) {
+        let Some((structure, field)) = view.own().and_then(|parameter| parameter.field) else { return };
+        if let Some(Shape::Record(fields)) = self.types.get_mut(structure).map(|def| &mut def.shape) {
+            if let Some(field) = fields.get_mut(field) {
+                field.sub_index = Some(u16::from(sub));
+            }
+        }
+    }
+
+    /// subNumber counts the sub-objects including 0, without 0xFF; those that exist are used.
+    fn sub_number(&mut self, group: &Group, raw: &Raw<'a>) {
+        let Some(given) = raw.get(Key::SubNumber) else { return };
+        let structure = group.items.iter().filter(|item| item.object().is_some_and(|(_, sub)| sub == 0xFF)).count();
+        let described = group.items.len() - structure;
+        let announced = number::parse(&given.text, &[]).int();
+        if structure > 0 && announced == Some(group.items.len() as i128) {
+            self.reader.diagnostics.push(
+                Diagnostic::new(&codes::STRUCTURE_ENTRY, given.span, "subNumber counts sub-index 0xFF")
+                    .label(format!("{described} without it"))
+                    .fix(described.to_string()),
+            );
+        } else if announced != Some(described as i128) {
+            let message = format!("subNumber is {}, but {described} sub-indices are described", given.text);
+            self.reader.diagnostics.push(
+                Diagnostic::new(&codes::SUB_NUMBER, given.span, message)
+                    .label("the sub-objects that exist are used")
+                    .fix(described.to_string()),
+            );
+        }
+    }
+
+    fn duplicate(&mut self, later: Span, earlier: Span, what: &str) {
+        self.reader.diagnostics.push(
+            Diagnostic::new(&codes::DUPLICATE_OBJECT, later, format!("{what} occurs twice"))
+                .label("this one is used")
+                .note_at(earlier, "and this one is not"),
+        );
+    }
+
+    /// An object that defines a type: an alias of a basic one, or a number of bits whose meaning nobody tells.
+    fn define_type(&mut self, group: &Group) {
+        let (Some(index), Some(code)) = (group.index(), group.object_code()) else { return };
+        if !matches!(code, ObjectCode::DefType | ObjectCode::DefStruct) {
+            if index < 0x1000 && index > 0 {
+                let message = format!("0x{index:04X} lies in the area of data types and is a {}", code.name());
+                self.reader.diagnostics.push(Diagnostic::new(&codes::TYPE_AREA_OBJECT, group.origin.span, message));
+            }
+            return;
+        }
+        let (target, bits) = defined_type(group, index, code);
+        self.codes.insert(u32::from(index), target);
+        self.types.push(TypeDef {
+            name: group.name.clone(),
+            code: Some(u32::from(index)),
+            shape: Shape::Alias(target),
+            bits,
+            documentation: None,
+            origin: group.origin,
+        });
+    }
+}

@@ -1,0 +1,286 @@
+//! Access, bindings, units, storage and availability of items.
+
+use serde::{Deserialize, Serialize};
+
+use super::{CompactString, Condition, LocalText, Scale, Value};
+
+/// Access rights of an item, seen from the bus (CiA 306; ETG.2000 Flags/Access).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Access {
+    /// `ro`.
+    #[default]
+    #[serde(rename = "ro")]
+    ReadOnly,
+    /// `wo`.
+    #[serde(rename = "wo")]
+    WriteOnly,
+    /// `rw`.
+    #[serde(rename = "rw")]
+    ReadWrite,
+    /// `rwr`: read and write, and a process input (may go in a TPDO).
+    #[serde(rename = "rwr")]
+    ReadWriteInput,
+    /// `rww`: read and write, and a process output (may come in an RPDO).
+    #[serde(rename = "rww")]
+    ReadWriteOutput,
+    /// `const`: read-only and never changes.
+    #[serde(rename = "const")]
+    Constant,
+}
+
+impl Access {
+    /// The access type that CiA 306 spells so, in any case.
+    pub fn from_cia306(text: &str) -> Option<Self> {
+        const SPELLINGS: [(&str, Access); 6] = [
+            ("ro", Access::ReadOnly),
+            ("rw", Access::ReadWrite),
+            ("const", Access::Constant),
+            ("wo", Access::WriteOnly),
+            ("rwr", Access::ReadWriteInput),
+            ("rww", Access::ReadWriteOutput),
+        ];
+        SPELLINGS.iter().find(|(name, _)| name.eq_ignore_ascii_case(text)).map(|&(_, access)| access)
+    }
+
+    /// The spelling of CiA 306.
+    pub fn name(self) -> &'static str {
+        match self {
+            Access::ReadOnly => "ro",
+            Access::WriteOnly => "wo",
+            Access::ReadWrite => "rw",
+            Access::ReadWriteInput => "rwr",
+            Access::ReadWriteOutput => "rww",
+            Access::Constant => "const",
+        }
+    }
+
+    /// Whether it can be read.
+    pub fn readable(self) -> bool {
+        self != Access::WriteOnly
+    }
+
+    /// Whether it can be written.
+    pub fn writable(self) -> bool {
+        !matches!(self, Access::ReadOnly | Access::Constant)
+    }
+}
+
+/// Into which PDOs an item may be mapped, seen from the device: an RPDO is received by it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Mappable {
+    /// Into an RPDO.
+    pub rpdo: bool,
+    /// Into a TPDO.
+    pub tpdo: bool,
+}
+
+impl Mappable {
+    /// What PDOMapping = 1 of CiA 306 means for an item of this access.
+    pub fn by_access(access: Access) -> Self {
+        Mappable {
+            rpdo: matches!(access, Access::WriteOnly | Access::ReadWrite | Access::ReadWriteOutput),
+            tpdo: !matches!(access, Access::WriteOnly | Access::ReadWriteOutput),
+        }
+    }
+
+    /// Whether it may be mapped at all.
+    pub fn any(self) -> bool {
+        self.rpdo || self.tpdo
+    }
+}
+
+/// Where an item is found on one bus.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Binding {
+    /// An entry of the object dictionary.
+    Object {
+        /// On which buses.
+        buses: ObjectBuses,
+        /// Index.
+        index: u16,
+        /// Sub-index.
+        sub_index: u8,
+    },
+    /// Modbus registers, or single bits.
+    Register(Box<RegisterBinding>),
+    /// Bytes of a PROFINET record.
+    Record {
+        /// API number.
+        api: u32,
+        /// Slot.
+        slot: u16,
+        /// Subslot.
+        subslot: u16,
+        /// Record index.
+        index: u16,
+        /// First bit.
+        bit_offset: u32,
+        /// Number of bits.
+        bits: u32,
+    },
+    /// Bits of a fixed process image.
+    Image {
+        /// Name of the image.
+        image: CompactString,
+        /// First bit.
+        bit_offset: u32,
+        /// Number of bits.
+        bits: u32,
+    },
+    /// A numbered parameter in a named space, reached by messages.
+    Parameter {
+        /// The space.
+        space: CompactString,
+        /// The number.
+        code: u32,
+    },
+    /// A named parameter of an ASCII protocol.
+    Ascii(CompactString),
+    /// Memory of an EtherCAT slave controller.
+    EscMemory {
+        /// Address.
+        address: u16,
+        /// Number of bytes.
+        length: u16,
+    },
+    /// Write the address to one item, then read or write the value through another.
+    Indirect(Box<IndirectBinding>),
+}
+
+/// The buses on which an object is found under one index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ObjectBuses {
+    /// On CANopen.
+    pub canopen: bool,
+    /// On EtherCAT (CAN application protocol over EtherCAT).
+    pub coe: bool,
+}
+
+impl ObjectBuses {
+    /// CANopen only.
+    pub const CANOPEN: ObjectBuses = ObjectBuses { canopen: true, coe: false };
+    /// EtherCAT only.
+    pub const COE: ObjectBuses = ObjectBuses { canopen: false, coe: true };
+}
+
+impl Binding {
+    /// An entry of a CANopen object dictionary.
+    pub fn canopen(index: u16, sub_index: u8) -> Self {
+        Binding::Object { buses: ObjectBuses::CANOPEN, index, sub_index }
+    }
+}
+
+/// Where an item is found on Modbus.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RegisterBinding {
+    /// Which table.
+    pub space: RegisterSpace,
+    /// Address on the wire, counted from 0.
+    pub address: u16,
+    /// Number of registers (of bits in a coil or input table).
+    pub count: u16,
+    /// Whether the less significant word comes first.
+    pub low_word_first: bool,
+    /// Whether the bytes of a word are swapped.
+    pub bytes_swapped: bool,
+    /// First bit within the register, where the item is a part of it.
+    pub bit_offset: Option<u8>,
+}
+
+/// The four tables of Modbus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RegisterSpace {
+    /// 0x: coils.
+    Coil,
+    /// 1x: discrete inputs.
+    DiscreteInput,
+    /// 3x: input registers.
+    Input,
+    /// 4x: holding registers.
+    Holding,
+}
+
+/// Access through a window: an address item and a data item.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct IndirectBinding {
+    /// The item that takes the address.
+    pub address_item: CompactString,
+    /// The address to write there.
+    pub address: Value,
+    /// The item through which the value is read.
+    pub read_item: Option<CompactString>,
+    /// The item through which the value is written.
+    pub write_item: Option<CompactString>,
+    /// The procedure that describes the handshake, if it has one.
+    pub procedure: Option<CompactString>,
+}
+
+/// Unit and scale of an item.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Quantity {
+    /// Symbol of the unit of the physical value (`rpm`, `0.1 A`), as the source has it.
+    pub unit: CompactString,
+    /// The unit in other languages.
+    pub units: Vec<LocalText>,
+    /// How the raw number relates to the physical one.
+    pub scale: Option<Scale>,
+    /// Raw values that aren't numbers, with their meaning (0xFFFF = check off).
+    pub sentinels: Vec<(Value, CompactString)>,
+    /// Number of raw steps in which the device rounds.
+    pub step: Option<Value>,
+}
+
+/// Storage, side effects and conditions of writing.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Behaviour {
+    /// Where the value is kept over power-off.
+    pub storage: Storage,
+    /// When a write takes effect, where not at once.
+    pub effective: Option<CompactString>,
+    /// States, modes or orders in which writing is allowed.
+    pub write_when: Vec<Condition>,
+    /// The only values that may be written, where they aren't those that can be read.
+    pub writable_values: Vec<Value>,
+    /// What else writing does.
+    pub side_effects: Vec<CompactString>,
+    /// Whether the device clears the value by itself.
+    pub self_clearing: bool,
+    /// Whether it can be written only once.
+    pub write_once: bool,
+    /// Communication states in which reading is allowed (ETG.2000 ReadRestrictions); empty = all.
+    pub read_states: Vec<CompactString>,
+    /// Communication states in which writing is allowed (ETG.2000 WriteRestrictions); empty = all.
+    pub write_states: Vec<CompactString>,
+}
+
+/// Where a value is kept over power-off.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Storage {
+    /// The source doesn't say.
+    #[default]
+    Unknown,
+    /// Lost.
+    Volatile,
+    /// Kept as soon as it is written.
+    Immediate,
+    /// Kept once this command was given.
+    OnCommand(CompactString),
+}
+
+/// Models, firmware versions, options and buses that have an item.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Availability {
+    /// Models; empty = all.
+    pub models: Vec<CompactString>,
+    /// First firmware version that has it.
+    pub since: Option<CompactString>,
+    /// First firmware version that doesn't have it any more.
+    pub until: Option<CompactString>,
+    /// What replaces it from then on.
+    pub replaced_by: Option<CompactString>,
+    /// Options that have to be fitted.
+    pub options: Vec<CompactString>,
+}

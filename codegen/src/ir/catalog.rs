@@ -1,0 +1,106 @@
+//! The top of the IR: a catalogue, the files it came from, and what every element shares.
+
+use serde::{Deserialize, Serialize};
+
+use super::{CompactString, Device};
+use crate::source::{Encoding, Origin, Span};
+
+/// The devices of one vendor, as one or more files describe them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Catalog {
+    /// The files that were read; spans refer to them by position.
+    pub files: Vec<FileInfo>,
+    /// The devices, in the order of the source.
+    pub devices: Vec<Device>,
+}
+
+/// The formats that Lexibus reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Format {
+    /// CANopen electronic data sheet (CiA 306).
+    Eds,
+    /// CANopen device configuration file (CiA 306).
+    Dcf,
+    /// CANopen device description or configuration in XML (CiA 311).
+    Xdd,
+    /// EtherCAT slave information (ETG.2000).
+    Esi,
+    /// PROFINET device description (GSDML).
+    Gsdml,
+    /// A register table of Lexibus.
+    Table,
+}
+
+impl Format {
+    /// The name that `lexibus info` prints.
+    pub fn name(self) -> &'static str {
+        match self {
+            Format::Eds => "eds",
+            Format::Dcf => "dcf",
+            Format::Xdd => "xdd",
+            Format::Esi => "esi",
+            Format::Gsdml => "gsdml",
+            Format::Table => "table",
+        }
+    }
+}
+
+/// One file of a catalogue.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FileInfo {
+    /// Its name, as the caller gave it.
+    pub name: String,
+    /// Its format.
+    pub format: Format,
+    /// How its bytes were decoded.
+    pub encoding: Encoding,
+    /// SHA-256 of its bytes.
+    pub sha256: String,
+}
+
+/// A text in one language.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct LocalText {
+    /// BCP 47 tag (`en`, `de-DE`), or the source's own number of the language (`lcid:1033`).
+    pub language: CompactString,
+    /// The text.
+    pub text: CompactString,
+}
+
+/// A name with its value that the source has and the IR has no field for.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Extension {
+    /// The key, element or attribute, as the source spells it. A comment with content is kept under `;`.
+    pub key: CompactString,
+    /// Its value.
+    pub value: CompactString,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// A place where the source contradicts itself or leaves something open, and what was made of it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Doubt {
+    /// What the source says, the contradicting statements side by side.
+    pub says: String,
+    /// What was chosen.
+    pub chosen: String,
+    /// Why.
+    pub why: String,
+    /// Where the source says it: file position, and for a manual also its page or line in `cite`.
+    pub origin: Origin,
+    /// Page, line or clause of a manual.
+    pub cite: Option<CompactString>,
+}
+
+/// What a source or a manual says about an element in words.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Documentation {
+    /// A description in English, or in the source's only language.
+    pub text: String,
+    /// The same in other languages.
+    pub translations: Vec<LocalText>,
+    /// Page, line or clause of the manual that the element was taken from.
+    pub cite: Option<CompactString>,
+}

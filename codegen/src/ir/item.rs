@@ -1,0 +1,294 @@
+//! Items and the groups that hold them.
+
+use serde::{Deserialize, Serialize};
+use smallvec::SmallVec;
+
+use super::{
+    Access, Availability, Behaviour, Binding, CompactString, Documentation, Doubt, Extension, Limits, LocalText, Mappable,
+    Quantity, Type, Value,
+};
+use crate::source::{Origin, Span};
+
+/// One value of the device.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Item {
+    /// Its name as the source spells it (ParameterName in CiA 306); may be empty.
+    pub name: CompactString,
+    /// The name in other languages.
+    pub names: Vec<LocalText>,
+    /// Where it is found on each bus.
+    pub bindings: SmallVec<[Binding; 1]>,
+    /// Its type.
+    pub ty: Type,
+    /// Who may do what with it.
+    pub access: Access,
+    /// Into which PDOs it may be mapped.
+    pub mappable: Mappable,
+    /// Its value before anybody wrote it.
+    pub default: Option<Value>,
+    /// The values it may have, where the source says so; else all of its type.
+    pub limits: Limits,
+    /// What a DCF or XDC sets for this one device.
+    pub configured: Option<Box<Configured>>,
+    /// Unit and scale.
+    pub quantity: Option<Box<Quantity>>,
+    /// Storage, side effects and conditions of writing.
+    pub behaviour: Option<Box<Behaviour>>,
+    /// Models, firmware versions and options that have it.
+    pub availability: Option<Box<Availability>>,
+    /// ObjFlags of CiA 306: bit 0 refuse write on download, bit 1 refuse read on scan; further bits are kept.
+    pub flags: u32,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+    /// Contradictions of the source.
+    pub doubts: Vec<Doubt>,
+    /// What the source says beyond that.
+    pub extensions: Vec<Extension>,
+    /// Where it is declared.
+    pub origin: Origin,
+    /// Where its facts stand.
+    pub at: ItemSpans,
+}
+
+impl Item {
+    /// An item with nothing but an address: read-only, type unknown.
+    pub fn new(binding: Binding) -> Self {
+        Item {
+            name: CompactString::default(),
+            names: Vec::new(),
+            bindings: SmallVec::from_buf([binding]),
+            ty: Type::Opaque(None),
+            access: Access::ReadOnly,
+            mappable: Mappable::default(),
+            default: None,
+            limits: Limits::default(),
+            configured: None,
+            quantity: None,
+            behaviour: None,
+            availability: None,
+            flags: 0,
+            documentation: None,
+            doubts: Vec::new(),
+            extensions: Vec::new(),
+            origin: Origin::default(),
+            at: ItemSpans::default(),
+        }
+    }
+
+    /// Index and sub-index, where the item is an entry of an object dictionary.
+    pub fn object(&self) -> Option<(u16, u8)> {
+        self.bindings.iter().find_map(|binding| match binding {
+            Binding::Object { index, sub_index, .. } => Some((*index, *sub_index)),
+            _ => None,
+        })
+    }
+
+    /// The value a device starts with: the configured one of a DCF, else the default.
+    pub fn initial(&self) -> Option<&Value> {
+        self.configured.as_ref().and_then(|configured| configured.value.as_ref()).or(self.default.as_ref())
+    }
+}
+
+/// Where the facts of an item stand in the source; an empty span for what the source doesn't say.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ItemSpans {
+    /// The name.
+    pub name: Span,
+    /// The data type.
+    pub ty: Span,
+    /// The access type.
+    pub access: Span,
+    /// The PDO mapping flag.
+    pub mappable: Span,
+    /// The default value.
+    pub default: Span,
+    /// The lower limit.
+    pub low: Span,
+    /// The upper limit.
+    pub high: Span,
+    /// The configured value.
+    pub configured: Span,
+}
+
+/// What a configuration file (DCF, XDC) sets for one device.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Configured {
+    /// ParameterValue: the value of this device.
+    pub value: Option<Value>,
+    /// Denotation: the name of the item in this application.
+    pub denotation: Option<CompactString>,
+    /// UploadFile: where a domain that was read is kept.
+    pub upload_file: Option<CompactString>,
+    /// DownloadFile: what is written into a domain.
+    pub download_file: Option<CompactString>,
+}
+
+/// Items that the source keeps together.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Group {
+    /// Its name as the source spells it; may be empty.
+    pub name: CompactString,
+    /// The name in other languages.
+    pub names: Vec<LocalText>,
+    /// What it is.
+    pub kind: GroupKind,
+    /// Its items, by sub-index or in the order of the source.
+    pub items: Vec<Item>,
+    /// Items that name further objects or parameters of interest (ObjectLinks of CiA 306), by index.
+    pub links: Vec<u16>,
+    /// ObjFlags of the object itself.
+    pub flags: u32,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+    /// Contradictions of the source.
+    pub doubts: Vec<Doubt>,
+    /// What the source says beyond that.
+    pub extensions: Vec<Extension>,
+    /// Where it is declared.
+    pub origin: Origin,
+    /// Where its name stands.
+    pub name_at: Span,
+}
+
+impl Group {
+    /// An object without items.
+    pub fn object(index: u16, code: ObjectCode) -> Self {
+        Group {
+            name: CompactString::default(),
+            names: Vec::new(),
+            kind: GroupKind::Object { index, code, category: None },
+            items: Vec::new(),
+            links: Vec::new(),
+            flags: 0,
+            documentation: None,
+            doubts: Vec::new(),
+            extensions: Vec::new(),
+            origin: Origin::default(),
+            name_at: Span::default(),
+        }
+    }
+
+    /// The index, where the group is an object.
+    pub fn index(&self) -> Option<u16> {
+        match self.kind {
+            GroupKind::Object { index, .. } => Some(index),
+            _ => None,
+        }
+    }
+
+    /// The object code, where the group is an object.
+    pub fn object_code(&self) -> Option<ObjectCode> {
+        match self.kind {
+            GroupKind::Object { code, .. } => Some(code),
+            _ => None,
+        }
+    }
+
+    /// The item at a sub-index.
+    pub fn sub(&self, sub_index: u8) -> Option<&Item> {
+        let at = |item: &Item| item.object().map(|(_, sub)| sub);
+        match self.items.binary_search_by_key(&Some(sub_index), at) {
+            Ok(position) => self.items.get(position),
+            Err(_) => self.items.iter().find(|item| at(item) == Some(sub_index)),
+        }
+    }
+}
+
+/// What a group is.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GroupKind {
+    /// An object of an object dictionary (CiA 301 7.4, ETG.1000.6 5.6).
+    Object {
+        /// Its index.
+        index: u16,
+        /// Its object code.
+        code: ObjectCode,
+        /// Mandatory, optional or conditional, where the source says so.
+        category: Option<Category>,
+    },
+    /// A chapter of a register table.
+    Chapter,
+    /// A parameter record (GSDML), by API, slot and subslot of the submodule that holds it.
+    Record {
+        /// Record index.
+        index: u16,
+        /// Length in bytes.
+        length: u32,
+        /// Order of transfer at start-up.
+        transfer_sequence: u16,
+    },
+    /// A fixed process image.
+    Image {
+        /// Length in bytes.
+        length: u32,
+    },
+}
+
+/// Whether an object has to exist.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Category {
+    /// It has to.
+    Mandatory,
+    /// It may.
+    Optional,
+    /// It has to under a condition.
+    Conditional,
+    /// The vendor's own.
+    Manufacturer,
+}
+
+/// Object codes of CiA 301 7.4.3.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ObjectCode {
+    /// 0: no data.
+    Null,
+    /// 2: a block of data of any length.
+    Domain,
+    /// 5: the definition of a basic type.
+    DefType,
+    /// 6: the definition of a record type.
+    DefStruct,
+    /// 7: one value.
+    Var,
+    /// 8: equal elements.
+    Array,
+    /// 9: different elements.
+    Record,
+}
+
+impl ObjectCode {
+    /// The object code with this number.
+    pub fn from_number(number: i128) -> Option<Self> {
+        Some(match number {
+            0 => ObjectCode::Null,
+            2 => ObjectCode::Domain,
+            5 => ObjectCode::DefType,
+            6 => ObjectCode::DefStruct,
+            7 => ObjectCode::Var,
+            8 => ObjectCode::Array,
+            9 => ObjectCode::Record,
+            _ => return None,
+        })
+    }
+
+    /// The name in CiA 301.
+    pub fn name(self) -> &'static str {
+        match self {
+            ObjectCode::Null => "NULL",
+            ObjectCode::Domain => "DOMAIN",
+            ObjectCode::DefType => "DEFTYPE",
+            ObjectCode::DefStruct => "DEFSTRUCT",
+            ObjectCode::Var => "VAR",
+            ObjectCode::Array => "ARRAY",
+            ObjectCode::Record => "RECORD",
+        }
+    }
+
+    /// Whether an object of this code has sub-indices.
+    pub fn has_subs(self) -> bool {
+        matches!(self, ObjectCode::Array | ObjectCode::Record | ObjectCode::DefStruct)
+    }
+}

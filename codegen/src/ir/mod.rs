@@ -1,0 +1,41 @@
+//! The intermediate representation: plain data that every front end produces and every back end reads.
+//!
+//! A [`Catalog`] holds the [`Device`]s of one vendor. What a device has falls into a few ideas:
+//!
+//! - An [`Item`] is *one value* of the device: an object's sub-entry, a register, a parameter, a field of a record or of
+//!   a process image. It has a [`Type`], an [`Access`], a default, limits, and **bindings**: where it is found on each
+//!   bus. One item may have several addresses.
+//! - A [`Group`] keeps together the items that the source keeps together: the sub-entries of an object, the registers
+//!   of a chapter, the fields of a parameter record. On CANopen and EtherCAT a group is an object.
+//! - A [`Type`] is either basic or names a [`TypeDef`]: a bit field, an enumeration, an array, a record.
+//! - [`ProcessData`] is what is exchanged cyclically: PDOs with exact bit positions, sync managers, submodule data.
+//! - A [`Message`] is a request or reply frame of a drive that speaks a command protocol.
+//! - [`Module`]s extend a modular device; [`CodeTable`]s, [`StateMachine`]s and [`Procedure`]s are what a manual tells
+//!   beside the dictionary.
+//!
+//! Every element knows its [`Origin`](crate::source::Origin), and where the source contradicts itself a [`Doubt`] says
+//! what it says, what was chosen and why. What a source says and the IR has no place for is kept as an [`Extension`].
+//!
+//! The IR is never wrong by construction: it holds what a source says, even where that makes no sense. Passes check it.
+
+mod behaviour;
+mod catalog;
+mod device;
+mod item;
+mod message;
+mod module;
+mod process_data;
+mod types;
+mod value;
+
+pub use behaviour::*;
+pub use catalog::*;
+pub use device::*;
+pub use item::*;
+pub use message::*;
+pub use module::*;
+pub use process_data::*;
+pub use types::*;
+pub use value::*;
+
+pub use compact_str::CompactString;

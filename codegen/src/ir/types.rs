@@ -1,0 +1,325 @@
+//! Types of values.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::{CompactString, Documentation, LocalText, Value};
+use crate::source::Origin;
+
+/// The type of an item: basic, or the position of a [`TypeDef`] in its device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Type {
+    /// BOOLEAN (CiA 301 code 0x01): one bit in a PDO, one byte in an SDO.
+    Boolean,
+    /// INTEGER8 … INTEGER64, of any number of bits up to 64.
+    Integer(u8),
+    /// UNSIGNED8 … UNSIGNED64, of any number of bits up to 64.
+    Unsigned(u8),
+    /// REAL32 (0x08).
+    Real32,
+    /// REAL64 (0x11).
+    Real64,
+    /// VISIBLE_STRING (0x09), at most so many bytes where known.
+    VisibleString(Option<u32>),
+    /// OCTET_STRING (0x0A), at most so many bytes where known.
+    OctetString(Option<u32>),
+    /// UNICODE_STRING (0x0B), at most so many UTF-16 units where known.
+    UnicodeString(Option<u32>),
+    /// TIME_OF_DAY (0x0C).
+    TimeOfDay,
+    /// TIME_DIFFERENCE (0x0D).
+    TimeDifference,
+    /// DOMAIN (0x0F): a block of data of any length.
+    Domain,
+    /// A type that the source names or numbers and nobody defines: raw bytes. The number is the source's code, if any.
+    Opaque(Option<u32>),
+    /// A type of the device, by its position in [`Device::types`](super::Device::types).
+    Named(TypeId),
+}
+
+/// Position of a [`TypeDef`] in its device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct TypeId(pub u32);
+
+impl Type {
+    /// Length in bits, where the type has a fixed one and needs no [`TypeDef`] to know it.
+    pub fn bits(self) -> Option<u32> {
+        match self {
+            Type::Boolean => Some(1),
+            Type::Integer(bits) | Type::Unsigned(bits) => Some(u32::from(bits)),
+            Type::Real32 => Some(32),
+            Type::Real64 => Some(64),
+            Type::TimeOfDay | Type::TimeDifference => Some(48),
+            _ => None,
+        }
+    }
+
+    /// The basic type with this code in CiA 301 (7.4.7, table of the data type area); `None` for every other code.
+    pub fn from_cia301(code: u32) -> Option<Type> {
+        Some(match code {
+            0x01 => Type::Boolean,
+            0x02 => Type::Integer(8),
+            0x03 => Type::Integer(16),
+            0x04 => Type::Integer(32),
+            0x05 => Type::Unsigned(8),
+            0x06 => Type::Unsigned(16),
+            0x07 => Type::Unsigned(32),
+            0x08 => Type::Real32,
+            0x09 => Type::VisibleString(None),
+            0x0A => Type::OctetString(None),
+            0x0B => Type::UnicodeString(None),
+            0x0C => Type::TimeOfDay,
+            0x0D => Type::TimeDifference,
+            0x0F => Type::Domain,
+            0x10 => Type::Integer(24),
+            0x11 => Type::Real64,
+            0x12 => Type::Integer(40),
+            0x13 => Type::Integer(48),
+            0x14 => Type::Integer(56),
+            0x15 => Type::Integer(64),
+            0x16 => Type::Unsigned(24),
+            0x18 => Type::Unsigned(40),
+            0x19 => Type::Unsigned(48),
+            0x1A => Type::Unsigned(56),
+            0x1B => Type::Unsigned(64),
+            _ => return None,
+        })
+    }
+
+    /// The least and greatest value of an integer type.
+    pub fn integer_range(self) -> Option<(i128, i128)> {
+        match self {
+            Type::Boolean => Some((0, 1)),
+            Type::Integer(bits @ 1..=64) => Some((-(1 << (bits - 1)), (1 << (bits - 1)) - 1)),
+            Type::Unsigned(bits @ 1..=64) => Some((0, (1 << bits) - 1)),
+            _ => None,
+        }
+    }
+
+    /// Whether the value is a number with a sign.
+    pub fn is_signed(self) -> bool {
+        matches!(self, Type::Integer(_))
+    }
+}
+
+impl fmt::Display for Type {
+    /// The name in CiA 301.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Type::Boolean => f.write_str("BOOLEAN"),
+            Type::Integer(bits) => write!(f, "INTEGER{bits}"),
+            Type::Unsigned(bits) => write!(f, "UNSIGNED{bits}"),
+            Type::Real32 => f.write_str("REAL32"),
+            Type::Real64 => f.write_str("REAL64"),
+            Type::VisibleString(_) => f.write_str("VISIBLE_STRING"),
+            Type::OctetString(_) => f.write_str("OCTET_STRING"),
+            Type::UnicodeString(_) => f.write_str("UNICODE_STRING"),
+            Type::TimeOfDay => f.write_str("TIME_OF_DAY"),
+            Type::TimeDifference => f.write_str("TIME_DIFFERENCE"),
+            Type::Domain => f.write_str("DOMAIN"),
+            Type::Opaque(Some(code)) => write!(f, "type {code:#06X}"),
+            Type::Opaque(None) => f.write_str("unknown type"),
+            Type::Named(TypeId(id)) => write!(f, "type #{id}"),
+        }
+    }
+}
+
+/// A type that a device defines.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TypeDef {
+    /// Its name in the source.
+    pub name: CompactString,
+    /// Its number in the source (a DEFTYPE or DEFSTRUCT's index), if it has one.
+    pub code: Option<u32>,
+    /// What it is made of.
+    pub shape: Shape,
+    /// Its length in bits, where fixed.
+    pub bits: Option<u32>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+    /// Where it is defined.
+    pub origin: Origin,
+}
+
+/// What a defined type is made of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// Another name of a type.
+    Alias(Type),
+    /// Equal elements, in up to three dimensions, the outermost first.
+    Array {
+        /// Type of an element.
+        element: Type,
+        /// Lower bound and number of elements of each dimension.
+        dimensions: Vec<(i32, u32)>,
+    },
+    /// Fields at bit offsets (ETG.2000 SubItem, a parameter record of GSDML).
+    Record(Vec<Field>),
+    /// Named bits of an integer.
+    BitField {
+        /// The integer below.
+        base: Type,
+        /// The fields, by offset.
+        fields: Vec<BitFieldEntry>,
+    },
+    /// Named values of an integer.
+    Enumeration {
+        /// The integer below.
+        base: Type,
+        /// The values, in the order of the source.
+        values: Vec<EnumValue>,
+        /// Whether a device never has a value that isn't listed.
+        closed: bool,
+    },
+    /// An integer that stands for a physical number.
+    Scaled {
+        /// The integer below.
+        base: Type,
+        /// How the two relate.
+        scale: Scale,
+    },
+}
+
+/// A field of a record.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Field {
+    /// Its name.
+    pub name: CompactString,
+    /// Its sub-index, where records are addressed by sub-index.
+    pub sub_index: Option<u16>,
+    /// Its type.
+    pub ty: Type,
+    /// Its length in bits.
+    pub bits: u32,
+    /// Its first bit, counted from the record's first.
+    pub bit_offset: u32,
+}
+
+/// A field of a bit field.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BitFieldEntry {
+    /// Its name.
+    pub name: CompactString,
+    /// Its first bit.
+    pub offset: u8,
+    /// Its length in bits.
+    pub bits: u8,
+    /// What the bits mean.
+    pub meaning: BitMeaning,
+    /// The value of another item that gives the bits this meaning (the mode of operation, say).
+    pub when: Option<Condition>,
+    /// Whether the field acts on an edge, clears itself, or toggles.
+    pub trigger: Option<Trigger>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+}
+
+/// What the bits of a field mean.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BitMeaning {
+    /// One bit that is set or not.
+    Flag {
+        /// Whether 0 means "set".
+        inverted: bool,
+    },
+    /// An unsigned number.
+    Number,
+    /// Named values; the type is an enumeration.
+    Enumeration(TypeId),
+    /// Reserved: what a writer has to put there, where known.
+    Reserved {
+        /// 0, 1, or `None` for "as it was read".
+        write: Option<bool>,
+    },
+}
+
+/// When a bit acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Trigger {
+    /// On the change from 0 to 1.
+    Rising,
+    /// On the change from 1 to 0.
+    Falling,
+    /// On every change.
+    Toggle,
+    /// While set; the device clears it by itself.
+    SelfClearing,
+}
+
+/// One value, or a range of values, of an enumeration.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EnumValue {
+    /// Its name.
+    pub name: CompactString,
+    /// The value; the first of a range.
+    pub value: i128,
+    /// The last value of a range.
+    pub last: Option<i128>,
+    /// Whether the value, or the range, is reserved or left to the vendor.
+    pub zone: Option<Zone>,
+    /// The name in other languages.
+    pub names: Vec<LocalText>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+}
+
+/// A zone of an enumeration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Zone {
+    /// Must not be used.
+    Reserved,
+    /// Left to the vendor.
+    Vendor,
+}
+
+/// How a raw number relates to a physical one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Scale {
+    /// physical = raw × factor + offset.
+    Linear {
+        /// Physical units per count.
+        factor: f64,
+        /// The physical value of raw 0.
+        offset: f64,
+    },
+    /// physical = numerator / raw.
+    Reciprocal {
+        /// The numerator.
+        numerator: f64,
+    },
+    /// A fraction of a base value: physical = raw / 2^bits × base.
+    Fraction {
+        /// Number of fractional bits (15 for Q15).
+        bits: u8,
+        /// The name of the base value, a constant of the variant.
+        base: CompactString,
+    },
+    /// physical = mantissa × 10^exponent, in two items or two halves of one.
+    Exponent {
+        /// The item that holds the exponent.
+        exponent: CompactString,
+    },
+    /// physical = raw × factor / value of another item.
+    ByItem {
+        /// The other item.
+        item: CompactString,
+        /// The constant part.
+        factor: f64,
+    },
+}
+
+/// "While the item `item` has one of these values."
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Condition {
+    /// Name of the other item.
+    pub item: CompactString,
+    /// Its values.
+    pub values: Vec<Value>,
+}

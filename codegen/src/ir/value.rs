@@ -1,0 +1,93 @@
+//! Values: defaults, limits, configured values, labels of enumerations.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::CompactString;
+
+/// A value as its source means it, converted to its type.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Value {
+    /// A BOOLEAN.
+    Bool(bool),
+    /// An integer of any width and sign.
+    Int(i128),
+    /// A real number; also the value of an integer type's limit where the source gives a fraction.
+    Real(f64),
+    /// A text.
+    Text(CompactString),
+    /// An octet string.
+    Bytes(Vec<u8>),
+    /// `$NODEID + offset`: known only once the device has its node-ID (CiA 306, formulas).
+    NodeId(i128),
+    /// A time of day or a difference: milliseconds and days (CiA 301 7.1.6.5, 7.1.6.6).
+    Time {
+        /// Milliseconds after midnight.
+        milliseconds: u32,
+        /// Days since 1984-01-01, or days of a difference.
+        days: u16,
+    },
+    /// Text that could not be converted to the item's type; a diagnostic said so.
+    Raw(CompactString),
+}
+
+impl Value {
+    /// The number, where the value is an integer or a boolean.
+    pub fn as_int(&self) -> Option<i128> {
+        match self {
+            Value::Int(value) => Some(*value),
+            Value::Bool(value) => Some(i128::from(*value)),
+            _ => None,
+        }
+    }
+
+    /// The value with `$NODEID` resolved.
+    pub fn resolved(&self, node_id: u8) -> Value {
+        match self {
+            Value::NodeId(offset) => Value::Int(offset + i128::from(node_id)),
+            other => other.clone(),
+        }
+    }
+
+    /// The number as a real, for comparisons across integer and real values.
+    pub fn as_real(&self) -> Option<f64> {
+        match self {
+            Value::Real(value) => Some(*value),
+            other => other.as_int().map(|value| value as f64),
+        }
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Value::Bool(value) => write!(f, "{value}"),
+            Value::Int(value) => write!(f, "{value}"),
+            Value::Real(value) => write!(f, "{value}"),
+            Value::Text(value) => write!(f, "{value:?}"),
+            Value::Bytes(bytes) => bytes.iter().try_for_each(|byte| write!(f, "{byte:02X}")),
+            Value::NodeId(0) => write!(f, "$NODEID"),
+            Value::NodeId(offset) => write!(f, "$NODEID+{offset:#X}"),
+            Value::Time { milliseconds, days } => write!(f, "{days} d {milliseconds} ms"),
+            Value::Raw(text) => write!(f, "`{text}`"),
+        }
+    }
+}
+
+/// Inclusive limits of a value.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Limits {
+    /// The least value.
+    pub low: Option<Value>,
+    /// The greatest value.
+    pub high: Option<Value>,
+}
+
+impl Limits {
+    /// Whether neither limit is given.
+    pub fn is_empty(&self) -> bool {
+        self.low.is_none() && self.high.is_none()
+    }
+}

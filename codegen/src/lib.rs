@@ -1,0 +1,52 @@
+//! The Lexibus compiler: reads the description of a CANopen device, checks it, and generates typed Rust.
+//!
+//! From a build script, one line does it:
+//!
+//! ```no_run
+//! // build.rs
+//! fn main() -> Result<(), lexibus_codegen::BuildError> {
+//!     lexibus_codegen::Builder::new().compile("drive.eds")
+//! }
+//! ```
+//!
+//! Underneath is a pipeline in which data flows one way:
+//!
+//! ```text
+//! source -> syntax -> frontend/{eds, xdd} -> ir -> passes -> backend/{rust, json}
+//! ```
+//!
+//! Each stage can be used by itself:
+//!
+//! ```
+//! use lexibus_codegen::compile::{check, Options};
+//! use lexibus_codegen::source::Source;
+//!
+//! let eds = "[DeviceInfo]\nProductName=Pump\n[2000]\nParameterName=Speed\nDataType=0x0006\nAccessType=rw\n";
+//! let options = Options::default();
+//! let compilation = check(Source::new("pump.eds", eds.into()), &options);
+//! let device = &compilation.catalog.as_ref().unwrap().devices[0];
+//! assert_eq!(device.entry(0x2000, 0).unwrap().name, "Speed");
+//! assert!(compilation.rust(&options.rust).unwrap().contains("pub struct Pump"));
+//! for finding in compilation.diagnostics.list() {
+//!     // EDS042: 0x2000 is in none of the object lists, and more
+//!     println!("{}: {}", finding.code.id, finding.message);
+//! }
+//! ```
+
+pub mod backend;
+pub mod builder;
+#[cfg(feature = "cli")]
+pub mod cli;
+pub mod compile;
+pub mod diagnostics;
+pub mod frontend;
+pub mod ir;
+pub mod limits;
+pub mod passes;
+pub mod source;
+pub mod syntax;
+mod text;
+
+pub use backend::rust::{Presence, RustOptions};
+pub use builder::{BuildError, Builder};
+pub use diagnostics::Level;

@@ -1,0 +1,18 @@
+//! Bounds on what a description may make the compiler do.
+//!
+//! Reading takes time and memory in proportion to the input. Where a short line stands for many elements, these limits
+//! keep it so. They lie far above anything a real device has.
+
+pub use crate::source::MAX_INPUT_BYTES;
+
+/// Sub-indices that a file may declare through CompactSubObj, in total.
+pub const MAX_DERIVED_ITEMS: usize = 200_000;
+
+/// Implicit PDOs that a file may declare through CompactPDO, per direction (CiA 301 knows 512).
+pub const MAX_IMPLICIT_PDOS: u16 = 512;
+
+/// How many unknown keys of a section a further one is compared with to find a repeated one.
+pub const MAX_COMPARED_EXTENSIONS: usize = 64;
+
+/// Depth to which XML elements may be nested.
+pub const MAX_XML_DEPTH: usize = 128;

@@ -1,0 +1,160 @@
+//! Files, encodings and spans: what every later stage points back to.
+//!
+//! A [`Source`] is one description file, decoded to UTF-8. A [`Span`] is a range of bytes of that decoded text, so
+//! that a diagnostic, however late it is raised, can quote the line that caused it.
+
+mod decode;
+mod span;
+
+pub use decode::Encoding;
+pub use span::{FileId, Origin, Position, Span};
+
+use std::borrow::Cow;
+use std::path::Path;
+use std::sync::OnceLock;
+
+use sha2::{Digest, Sha256};
+
+/// One input file, decoded to UTF-8 with its byte order mark removed.
+#[derive(Debug)]
+pub struct Source {
+    name: String,
+    text: String,
+    encoding: Encoding,
+    /// The bytes as read, kept only where decoding changed them.
+    original: Option<Vec<u8>>,
+    line_starts: OnceLock<Vec<u32>>,
+    digest: OnceLock<String>,
+}
+
+/// The largest input that is read: spans are 32-bit offsets.
+pub const MAX_INPUT_BYTES: usize = u32::MAX as usize / 4;
+
+impl Source {
+    /// Decodes `bytes`; `name` is what diagnostics call the file.
+    ///
+    /// Nothing is ever refused here: a byte sequence that isn't UTF-8 is read as Windows-1252, in which every byte
+    /// has a meaning, and [`Source::encoding`] tells so.
+    pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Self {
+        let (text, encoding, original) = decode::decode(bytes);
+        Source { name: name.into(), text, encoding, original, line_starts: OnceLock::new(), digest: OnceLock::new() }
+    }
+
+    /// Reads the file at `path`.
+    ///
+    /// # Errors
+    ///
+    /// What the operating system says, or `FileTooLarge` above [`MAX_INPUT_BYTES`].
+    pub fn read(path: &Path) -> std::io::Result<Self> {
+        let bytes = std::fs::read(path)?;
+        if bytes.len() > MAX_INPUT_BYTES {
+            return Err(std::io::Error::new(
+                std::io::ErrorKind::FileTooLarge,
+                format!("the file has {} bytes; at most {MAX_INPUT_BYTES} are read", bytes.len()),
+            ));
+        }
+        Ok(Source::new(path.to_string_lossy(), bytes))
+    }
+
+    /// The name that diagnostics show.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The decoded text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// How the bytes were decoded.
+    pub fn encoding(&self) -> Encoding {
+        self.encoding
+    }
+
+    /// The bytes as they were read.
+    pub fn bytes(&self) -> Cow<'_, [u8]> {
+        match &self.original {
+            Some(bytes) => Cow::Borrowed(bytes),
+            None => Cow::Borrowed(self.text.as_bytes()),
+        }
+    }
+
+    /// SHA-256 of the bytes as they were read, in lower-case hexadecimal.
+    pub fn sha256(&self) -> &str {
+        self.digest.get_or_init(|| {
+            let mut hex = String::with_capacity(64);
+            for byte in Sha256::digest(self.bytes()) {
+                use std::fmt::Write;
+                let _ = write!(hex, "{byte:02x}");
+            }
+            hex
+        })
+    }
+
+    /// The text of `span`, empty where the span lies outside of this source.
+    pub fn slice(&self, span: Span) -> &str {
+        self.text.get(span.range()).unwrap_or("")
+    }
+
+    /// Line and column of a byte offset into the text.
+    ///
+    /// CR LF, LF and a CR on its own each end a line.
+    pub fn position(&self, offset: u32) -> Position {
+        let starts = self.line_starts();
+        let line = starts.partition_point(|&start| start <= offset).max(1);
+        let start = starts[line - 1] as usize;
+        let end = (offset as usize).clamp(start, self.text.len());
+        let column = self.text.get(start..end).map_or(end - start, |before| before.chars().count());
+        Position { line: line as u32, column: column as u32 + 1 }
+    }
+
+    /// The text of line `line` (counted from 1) without its line end.
+    pub fn line(&self, line: u32) -> &str {
+        let starts = self.line_starts();
+        let index = (line as usize).saturating_sub(1);
+        let Some(&start) = starts.get(index) else { return "" };
+        let end = starts.get(index + 1).map_or(self.text.len(), |&next| next as usize);
+        self.text[start as usize..end].trim_end_matches(['\r', '\n'])
+    }
+
+    fn line_starts(&self) -> &[u32] {
+        self.line_starts.get_or_init(|| {
+            let bytes = self.text.as_bytes();
+            let mut starts = vec![0];
+            for at in memchr::memchr2_iter(b'\n', b'\r', bytes) {
+                let crlf = bytes[at] == b'\r' && bytes.get(at + 1) == Some(&b'\n');
+                if !crlf {
+                    starts.push(at as u32 + 1);
+                }
+            }
+            starts
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_characters_and_every_kind_of_line_end() {
+        let source = Source::new("x.eds", "a\r\nb\rGerät=1\nz".as_bytes().to_vec());
+        assert_eq!(source.position(0), Position { line: 1, column: 1 });
+        assert_eq!(source.position(3), Position { line: 2, column: 1 });
+        assert_eq!(source.position(5), Position { line: 3, column: 1 });
+        let equals = source.text().find('=').unwrap() as u32;
+        assert_eq!(source.position(equals), Position { line: 3, column: 6 });
+        assert_eq!(source.line(3), "Gerät=1");
+        assert_eq!(source.line(4), "z");
+        assert_eq!(source.line(9), "");
+    }
+
+    #[test]
+    fn digest_is_of_the_original_bytes() {
+        let utf8 = Source::new("a", b"abc".to_vec());
+        assert_eq!(utf8.sha256(), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+        let latin = Source::new("a", b"\xfc".to_vec());
+        assert_eq!(latin.text(), "ü");
+        assert_eq!(&*latin.bytes(), b"\xfc");
+    }
+}

@@ -1,0 +1,46 @@
+//! Small helpers on text.
+
+/// The Levenshtein distance: how many characters to insert, delete or replace to get from `a` to `b`.
+pub(crate) fn edit_distance(a: &str, b: &str) -> usize {
+    // One row of the usual table: `row[j]` is the distance of the part of `a` read so far to the first `j` of `b`.
+    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
+    for (i, from) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, to) in b.chars().enumerate() {
+            let replaced = diagonal + usize::from(from != to);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[row.len() - 1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::edit_distance;
+
+    #[test]
+    fn insertions_deletions_and_replacements_count_one_each() {
+        assert_eq!(edit_distance("", ""), 0);
+        assert_eq!(edit_distance("", "abc"), 3);
+        assert_eq!(edit_distance("abc", ""), 3);
+        assert_eq!(edit_distance("abc", "abc"), 0);
+        assert_eq!(edit_distance("octal-numer", "octal-number"), 1);
+        assert_eq!(edit_distance("kitten", "sitting"), 3);
+        assert_eq!(edit_distance("ab", "ba"), 2);
+    }
+
+    #[test]
+    fn characters_count_not_bytes() {
+        assert_eq!(edit_distance("Gerät", "Gerat"), 1);
+        assert_eq!(edit_distance("€", "µ"), 1);
+    }
+
+    #[test]
+    fn the_distance_is_symmetric() {
+        for (a, b) in [("saturday", "sunday"), ("a", "abcd"), ("xyz", "")] {
+            assert_eq!(edit_distance(a, b), edit_distance(b, a));
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! The door for build scripts.
+
+use std::path::{Path, PathBuf};
+
+use lexibus_codegen::{Builder, Level, Presence};
+
+const EDS: &str = "[DeviceInfo]\nProductName=Valve\n[2000]\nParameterName=Opening\nDataType=0x0005\nAccessType=rw\n\
+                   DefaultValue=012\n";
+
+fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("builder-{name}"));
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).expect("a folder for temporary files");
+    path
+}
+
+#[test]
+fn output_is_named_after_the_input_and_written_once() {
+    let folder = folder("once");
+    let input = folder.join("valve.eds");
+    std::fs::write(&input, EDS).expect("the input");
+    let builder = Builder::new().quiet().out_dir(&folder);
+    builder.compile(&input).expect("bindings");
+    let output = folder.join("valve.rs");
+    let old = std::time::SystemTime::UNIX_EPOCH;
+    std::fs::File::options().write(true).open(&output).and_then(|file| file.set_modified(old)).expect("an old file");
+    builder.compile(&input).expect("bindings");
+    assert_eq!(std::fs::metadata(&output).and_then(|data| data.modified()).expect("a time"), old, "not written again");
+    builder.clone().table(Presence::Always).compile(&input).expect("bindings");
+    assert_ne!(std::fs::metadata(&output).and_then(|data| data.modified()).expect("a time"), old, "other bytes");
+    builder.compile_as(&input, "other.rs").expect("bindings");
+    assert!(folder.join("other.rs").is_file());
+}
+
+#[test]
+fn errors_are_for_people() {
+    let folder = folder("errors");
+    let input = folder.join("valve.eds");
+    std::fs::write(&input, EDS).expect("the input");
+    let builder = Builder::new().quiet().out_dir(&folder);
+    let error = builder.clone().strict().compile(&input).expect_err("a repair");
+    let text = format!("{error:?}");
+    assert!(text.contains("error[EDS020]") && text.contains("valve.eds:7:14"), "{text}");
+    builder.clone().strict().level("octal-number", Level::Allow).compile(&input).expect("no repair that counts");
+    let error = builder.clone().level("octal-numbr", Level::Deny).compile(&input).expect_err("no such code");
+    assert!(error.to_string().contains("did you mean `octal-number`?"), "{error}");
+    let error = builder.compile(folder.join("missing.eds")).expect_err("no such file");
+    assert!(error.to_string().contains("missing.eds"), "{error}");
+}
+
+#[test]
+fn what_is_chosen_is_what_is_there() {
+    let folder = folder("options");
+    let input = folder.join("valve.eds");
+    std::fs::write(&input, EDS).expect("the input");
+    let builder = Builder::new().quiet();
+    let plain = builder.generate(&input).expect("bindings");
+    assert!(plain.contains("pub struct Valve<C>") && !plain.contains("ENTRIES"));
+    let chosen = builder.device_name("Tap").runtime("crate::rt").table(Presence::Feature("table".into()));
+    let text = chosen.clone().generate(&input).expect("bindings");
+    assert!(text.contains("pub struct Tap<C>") && text.contains("use crate::rt as rt;"));
+    assert!(text.contains("#[cfg(feature = \"table\")]"));
+    let bare = chosen.accessors(false).generate(&input).expect("bindings");
+    assert!(!bare.contains("pub struct Tap") && bare.contains("pub const OPENING"));
+}

@@ -1,0 +1,189 @@
+//! The command line, as its user calls it.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const DEMO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../dictionaries/demo-drive.eds");
+
+const QUIRKY: &str = "[DeviceInfo]\nProductName=Quirky\n[ManufacturerObjects]\nSupportedObjects=1\n1=0x2000\n\
+                      [2000]\nParameterName=Gain\nDataType=0x0006\nAccessType=rw\nDefaultValue=012\n";
+
+/// A folder of this test's own.
+fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).expect("a folder for temporary files");
+    path
+}
+
+fn file(folder: &Path, name: &str, text: &str) -> String {
+    let path = folder.join(name);
+    std::fs::write(&path, text).expect("a temporary file");
+    path.to_string_lossy().into_owned()
+}
+
+fn lexibus(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_lexibus")).args(arguments).output().expect("lexibus runs")
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().expect("an exit code")
+}
+
+fn out(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).expect("UTF-8")
+}
+
+fn err(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).expect("UTF-8")
+}
+
+#[test]
+fn generate_writes_bindings_and_checks_them() {
+    let folder = folder("generate");
+    let path = folder.join("drive.rs").to_string_lossy().into_owned();
+    let made = lexibus(&["generate", DEMO, "--out", &path]);
+    assert_eq!(code(&made), 0, "{}", err(&made));
+    let text = std::fs::read_to_string(&path).expect("the bindings");
+    assert!(text.contains("pub struct DemoDrive<C>"));
+    assert_eq!(out(&lexibus(&["generate", DEMO])), text, "standard output gets the same bytes");
+
+    assert_eq!(code(&lexibus(&["generate", DEMO, "--out", &path, "--check"])), 0);
+    std::fs::write(&path, text + "\n").expect("a stale file");
+    let stale = lexibus(&["generate", DEMO, "--out", &path, "--check"]);
+    assert_eq!(code(&stale), 1);
+    assert!(err(&stale).contains("is stale"), "{}", err(&stale));
+    std::fs::remove_file(&path).expect("no file");
+    assert_eq!(code(&lexibus(&["generate", DEMO, "--out", &path, "--check"])), 1);
+}
+
+#[test]
+fn generate_keeps_a_file_whose_bytes_do_not_change() {
+    let folder = folder("unchanged");
+    let path = folder.join("drive.rs");
+    let call = ["generate", DEMO, "--out", path.to_str().expect("UTF-8")];
+    lexibus(&call);
+    let old = std::time::SystemTime::UNIX_EPOCH;
+    std::fs::File::options().write(true).open(&path).and_then(|file| file.set_modified(old)).expect("an old file");
+    lexibus(&call);
+    assert_eq!(std::fs::metadata(&path).and_then(|data| data.modified()).expect("a time"), old);
+}
+
+#[test]
+fn many_files_and_folders_go_to_a_folder() {
+    let folder = folder("many");
+    std::fs::create_dir_all(folder.join("in/deeper")).expect("folders");
+    for name in ["in/a.eds", "in/deeper/B C.EDS", "in/deeper/a.dcf"] {
+        file(&folder, name, QUIRKY);
+    }
+    file(&folder, "in/readme.txt", "no description");
+    let (input, output) = (folder.join("in"), folder.join("out"));
+    let made = lexibus(&["generate", input.to_str().expect("UTF-8"), "--out", output.to_str().expect("UTF-8")]);
+    assert_eq!(code(&made), 0, "{}", err(&made));
+    let mut names: Vec<_> = std::fs::read_dir(&output)
+        .expect("the output")
+        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    assert_eq!(names, ["a.rs", "a_2.rs", "b_c.rs"]);
+}
+
+#[test]
+fn findings_show_the_line_and_decide_the_exit_code() {
+    let folder = folder("check");
+    let path = file(&folder, "quirky.eds", QUIRKY);
+    let lenient = lexibus(&["check", &path, "-A", "missing-mandatory-object"]);
+    assert_eq!(code(&lenient), 0);
+    let text = err(&lenient);
+    assert!(text.contains("warning[EDS020]") && text.contains("quirky.eds:10:14"), "{text}");
+    assert!(text.contains("DefaultValue=012") && !text.contains('\u{1b}'), "{text}");
+    assert_eq!(code(&lexibus(&["check", &path, "--strict"])), 1);
+    assert_eq!(code(&lexibus(&["check", &path, "-D", "octal-number"])), 1);
+    assert_eq!(code(&lexibus(&["check", &path, "--strict", "-A", "EDS020"])), 0);
+    let coloured = lexibus(&["check", &path, "--color", "always"]);
+    assert!(err(&coloured).contains('\u{1b}'));
+}
+
+#[test]
+fn findings_for_machines() {
+    let folder = folder("machines");
+    let path = file(&folder, "quirky.eds", QUIRKY);
+    let json = lexibus(&["check", &path, "--message-format", "json"]);
+    let lines: Vec<serde_json::Value> =
+        out(&json).lines().map(|line| serde_json::from_str(line).expect("a JSON line")).collect();
+    let octal = lines.iter().find(|line| line["code"] == "EDS020").expect("the finding");
+    assert_eq!((octal["line"].as_u64(), octal["column"].as_u64()), (Some(10), Some(14)));
+    let sarif = lexibus(&["check", &path, DEMO, "--message-format", "sarif"]);
+    let log: serde_json::Value = serde_json::from_str(&out(&sarif)).expect("a JSON document");
+    assert_eq!(log["version"], "2.1.0");
+    assert!(log["runs"][0]["results"].as_array().is_some_and(|results| !results.is_empty()));
+}
+
+#[test]
+fn info_prints_a_json_object_a_line() {
+    let folder = folder("info");
+    let path = file(&folder, "cip.eds", "[File]\nDescText = \"x\";\n[Device]\nVendCode = 1;\n");
+    let info = lexibus(&["info", "--format", "json", DEMO, &path, "no such file.eds"]);
+    assert_eq!(code(&info), 1, "two of the files are errors");
+    let lines: Vec<serde_json::Value> =
+        out(&info).lines().map(|line| serde_json::from_str(line).expect("a JSON line")).collect();
+    assert_eq!(lines.len(), 3);
+    let device = &lines[0]["devices"][0];
+    assert_eq!((lines[0]["format"].as_str(), lines[0]["encoding"].as_str()), (Some("eds"), Some("utf-8")));
+    assert_eq!((device["name"].as_str(), device["product_code"].as_u64()), (Some("Demo Drive"), Some(0x4021)));
+    assert_eq!((device["objects"].as_u64(), device["entries"].as_u64()), (Some(32), Some(59)));
+    let pdo = serde_json::json!({"index": 0x1601, "entries": 2, "bits": 48});
+    assert_eq!(device["rx_pdos"][1], pdo);
+    assert_eq!(lines[1]["errors"], serde_json::json!({"EDS001": 1}));
+    assert_eq!(lines[1]["format"], serde_json::Value::Null);
+    assert_eq!(lines[2]["errors"], serde_json::json!({"IO001": 1}));
+}
+
+#[test]
+fn dump_is_the_ir_as_json() {
+    let dump = lexibus(&["dump", DEMO]);
+    let text = out(&dump);
+    let catalog: lexibus_codegen::ir::Catalog = serde_json::from_str(&text).expect("the IR");
+    assert_eq!(catalog.devices[0].entry(0x607A, 0).expect("an entry").name, "Target position");
+    assert_eq!(lexibus_codegen::backend::json::dump(&catalog) + "\n", text, "the IR survives the way there and back");
+}
+
+#[test]
+fn explain_and_completions() {
+    let explained = lexibus(&["explain", "octal-number"]);
+    assert!(out(&explained).contains("EDS020"));
+    assert!(out(&lexibus(&["explain"])).lines().count() > 60);
+    let unknown = lexibus(&["explain", "EDS999x"]);
+    assert_eq!(code(&unknown), 2);
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        assert!(out(&lexibus(&["completions", shell])).contains("lexibus"), "{shell}");
+    }
+}
+
+#[test]
+fn wrong_calls_have_exit_code_2() {
+    let folder = folder("usage");
+    for call in [
+        &["generate"][..],
+        &["frobnicate"],
+        &["check", DEMO, "-D", "no-such-code"],
+        &["check", folder.to_str().expect("UTF-8")],
+        &["generate", DEMO, DEMO],
+        &["generate", DEMO, "--check"],
+    ] {
+        assert_eq!(code(&lexibus(call)), 2, "{call:?}");
+    }
+}
+
+#[test]
+fn results_do_not_depend_on_the_number_of_jobs() {
+    let folder = folder("jobs");
+    for number in 0..20 {
+        file(&folder, &format!("{number}.eds"), QUIRKY);
+    }
+    let path = folder.to_str().expect("UTF-8");
+    let one = lexibus(&["check", path, "--message-format", "json", "--jobs", "1"]);
+    let many = lexibus(&["check", path, "--message-format", "json", "--jobs", "8"]);
+    assert_eq!(out(&one), out(&many));
+    assert!(out(&one).lines().count() >= 20);
+}

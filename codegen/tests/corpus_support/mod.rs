@@ -1,0 +1,118 @@
+//! The corpus of real device descriptions, for the tests that go through all of it.
+//!
+//! It stands beside the repository and is no part of it: without it these tests say so and pass. Everything here is
+//! written with the standard library alone, so that what a test expects doesn't come from the code under test.
+
+// Each test is a program of its own and uses its part of this module.
+#![allow(dead_code)]
+
+use std::path::{Path, PathBuf};
+
+/// One file of the corpus.
+pub struct File {
+    pub name: String,
+    pub bytes: Vec<u8>,
+}
+
+impl File {
+    /// The text, decoded here: UTF-8 without its byte order mark, else Windows-1252.
+    pub fn text(&self) -> String {
+        decode(&self.bytes)
+    }
+
+    /// Whether it is XML: an XDD, XDC or XPD.
+    pub fn is_xml(&self) -> bool {
+        self.text().trim_start().starts_with('<')
+    }
+}
+
+/// Where the corpus is, if it is there.
+pub fn folder() -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus/eds");
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    eprintln!("skipped: there is no corpus at {}", folder.display());
+    None
+}
+
+/// Every description of the corpus, sorted by name; `None`, with a message, where it isn't there.
+pub fn files() -> Option<Vec<File>> {
+    let mut paths: Vec<PathBuf> = std::fs::read_dir(folder()?)
+        .expect("the corpus is readable")
+        .map(|entry| entry.expect("an entry of the corpus").path())
+        .collect();
+    paths.sort();
+    let files: Vec<File> = paths
+        .iter()
+        .filter(|path| !path.ends_with("MANIFEST.tsv") && !path.ends_with("oracle.json"))
+        .map(|path| File { name: name(path), bytes: std::fs::read(path).expect("a file of the corpus") })
+        .collect();
+    assert!(files.len() >= 285, "only {} files are in the corpus", files.len());
+    Some(files)
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().expect("a file name").to_string_lossy().into_owned()
+}
+
+/// UTF-8 without a byte order mark; where the bytes are none, Windows-1252.
+pub fn decode(bytes: &[u8]) -> String {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    match std::str::from_utf8(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) => bytes.iter().map(|&byte| windows_1252(byte)).collect(),
+    }
+}
+
+/// What Windows-1252 has at 0x80 to 0x9F; the five holes are the control characters of the same number.
+const WINDOWS_1252: [u16; 32] = [
+    0x20AC, 0x81, 0x201A, 0x0192, 0x201E, 0x2026, 0x2020, 0x2021, 0x02C6, 0x2030, 0x0160, 0x2039, 0x0152, 0x8D, 0x017D,
+    0x8F, 0x90, 0x2018, 0x2019, 0x201C, 0x201D, 0x2022, 0x2013, 0x2014, 0x02DC, 0x2122, 0x0161, 0x203A, 0x0153, 0x9D,
+    0x017E, 0x0178,
+];
+
+fn windows_1252(byte: u8) -> char {
+    match byte {
+        0x80..=0x9F => char::from_u32(u32::from(WINDOWS_1252[usize::from(byte - 0x80)])).expect("a character"),
+        _ => char::from(byte),
+    }
+}
+
+/// The lines of a text, each with the offset of its first byte. CR LF, LF, and a CR on its own end a line.
+pub fn lines(text: &str) -> Vec<(usize, &str)> {
+    let mut lines = Vec::new();
+    let mut start = 0;
+    for (at, end) in text.match_indices(['\r', '\n']) {
+        if at < start {
+            continue;
+        }
+        lines.push((start, &text[start..at]));
+        let crlf = end == "\r" && text[at + 1..].starts_with('\n');
+        start = at + 1 + usize::from(crlf);
+    }
+    lines.push((start, &text[start..]));
+    lines
+}
+
+/// A text without the blanks and tabs around it.
+pub fn trimmed(text: &str) -> &str {
+    text.trim_matches([' ', '\t'])
+}
+
+/// `[name] …`: the name, and what stands behind the bracket.
+pub fn header(line: &str) -> Option<(&str, &str)> {
+    let rest = trimmed(line).strip_prefix('[')?;
+    let (name, rest) = rest.split_once(']').unwrap_or((rest, ""));
+    Some((trimmed(name), trimmed(rest)))
+}
+
+/// `Key=Value`; no comment, no header.
+pub fn entry(line: &str) -> Option<(&str, &str)> {
+    let line = trimmed(line);
+    if line.starts_with(['[', ';', '#']) {
+        return None;
+    }
+    let (key, value) = line.split_once('=')?;
+    Some((trimmed(key), trimmed(value)))
+}

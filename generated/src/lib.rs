@@ -1,0 +1,23 @@
+//! Typed bindings of the drives that Lexibus ships: a module and a feature a drive.
+//!
+//! The modules are generated from the descriptions in the repository's folder `dictionaries`, and checked in.
+//!
+//! | feature | module | drive |
+//! |---|---|---|
+//! | `demo-drive` | `demo_drive` | an imaginary CiA 402 drive, to try things on |
+//! | `table` | – | adds `ENTRIES`, a table of all entries, to each module |
+//!
+//! ```
+//! # #[cfg(feature = "demo-drive")] {
+//! use lexibus_drives::demo_drive::{objects, pdo};
+//!
+//! assert_eq!(objects::TARGET_POSITION.name(), "Target position");
+//! let frame = pdo::RxPdo2 { controlword: 0x000F, target_position: -2 }.pack();
+//! assert_eq!(frame, [0x0F, 0x00, 0xFE, 0xFF, 0xFF, 0xFF]);
+//! # }
+//! ```
+#![no_std]
+
+/// An imaginary CiA 402 drive (`dictionaries/demo-drive.eds`).
+#[cfg(feature = "demo-drive")]
+pub mod demo_drive;

@@ -1,0 +1,180 @@
+//! The macro of Lexibus: a device description becomes a typed Rust module while the crate is compiled.
+//!
+//! It is re-exported by the runtime crate under its feature `macros`, and used from there:
+//!
+//! ```ignore
+//! lexibus::dictionary! {
+//!     /// The drive of axis 1.
+//!     pub mod drive = "drive.eds";
+//! }
+//! ```
+
+use std::path::{Path, PathBuf};
+
+use lexibus_codegen::compile::{self, Compilation, Options};
+use lexibus_codegen::diagnostics::{render, Levels, Severity};
+use lexibus_codegen::source::Source;
+use lexibus_codegen::Level;
+use proc_macro2::{Span, TokenStream};
+use quote::{quote, quote_spanned};
+use syn::parse::{Parse, ParseStream};
+use syn::{Attribute, Ident, LitBool, LitStr, Token, Visibility};
+
+/// A module with the typed bindings of a device description.
+///
+/// ```ignore
+/// dictionary! {
+///     /// The drive of axis 1.
+///     pub mod drive = "drive.eds";
+/// }
+/// ```
+///
+/// The path is relative to the folder of the calling crate. Behind it, options may follow in braces:
+///
+/// ```ignore
+/// dictionary! {
+///     pub mod drive = "drive.eds" {
+///         device_name: "Axis",           // name of the device's type
+///         accessors: false,              // handles only
+///         pdos: false,                   // no PDO structs
+///         strict: true,                  // repairs of the description are errors
+///         deny: "EDS049",                // the level of a code; also allow and warn; may be repeated
+///         node_id_alias: "$MY_NODE_ID",  // another name of $NODEID
+///     }
+/// }
+/// ```
+///
+/// Errors of the description appear at the path, with the line that causes them, and so do its warnings, as uses of a
+/// deprecated constant: it is how a macro can warn. Cargo and editors track the file.
+#[proc_macro]
+pub fn dictionary(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
+    let call = syn::parse_macro_input!(input as Call);
+    expand(&call).unwrap_or_else(|error| error.to_compile_error()).into()
+}
+
+/// `#[…] pub mod name = "path" { option: value, … };`
+struct Call {
+    attributes: Vec<Attribute>,
+    visibility: Visibility,
+    name: Ident,
+    path: LitStr,
+    options: Options,
+}
+
+impl Parse for Call {
+    fn parse(input: ParseStream<'_>) -> syn::Result<Self> {
+        let attributes = input.call(Attribute::parse_outer)?;
+        let visibility = input.parse()?;
+        input.parse::<Token![mod]>()?;
+        let name = input.parse()?;
+        input.parse::<Token![=]>()?;
+        let path = input.parse()?;
+        let mut options = Options::default();
+        if input.peek(syn::token::Brace) {
+            let content;
+            syn::braced!(content in input);
+            parse_options(&content, &mut options)?;
+            input.parse::<Option<Token![;]>>()?;
+        } else {
+            input.parse::<Token![;]>()?;
+        }
+        Ok(Call { attributes, visibility, name, path, options })
+    }
+}
+
+fn parse_options(input: ParseStream<'_>, options: &mut Options) -> syn::Result<()> {
+    let mut levels = Vec::new();
+    let mut strict = false;
+    while !input.is_empty() {
+        let key: Ident = input.parse()?;
+        input.parse::<Token![:]>()?;
+        match key.to_string().as_str() {
+            "device_name" => options.rust.device_name = Some(input.parse::<LitStr>()?.value()),
+            "runtime" => options.rust.runtime = input.parse::<LitStr>()?.value(),
+            "accessors" => options.rust.accessors = input.parse::<LitBool>()?.value,
+            "pdos" => options.rust.pdos = input.parse::<LitBool>()?.value,
+            "strict" => strict = input.parse::<LitBool>()?.value,
+            "node_id_alias" => options.node_id_aliases.push(input.parse::<LitStr>()?.value()),
+            "allow" => levels.push((input.parse::<LitStr>()?, Level::Allow)),
+            "warn" => levels.push((input.parse::<LitStr>()?, Level::Warn)),
+            "deny" => levels.push((input.parse::<LitStr>()?, Level::Deny)),
+            other => {
+                let message = format!(
+                    "there is no option `{other}`; there are device_name, runtime, accessors, pdos, strict, allow, warn, \
+                     deny and node_id_alias"
+                );
+                return Err(syn::Error::new(key.span(), message));
+            }
+        }
+        if !input.is_empty() {
+            input.parse::<Token![,]>()?;
+        }
+    }
+    options.levels = if strict { Levels::strict() } else { Levels::lenient() };
+    for (code, level) in levels {
+        options.levels.set(&code.value(), level).map_err(|error| syn::Error::new(code.span(), error))?;
+    }
+    Ok(())
+}
+
+fn expand(call: &Call) -> syn::Result<TokenStream> {
+    let fail = |message: String| syn::Error::new(call.path.span(), message);
+    let path = absolute(&call.path.value());
+    let mut source = Source::read(&path).map_err(|error| fail(format!("can't read {}: {error}", path.display())))?;
+    // Diagnostics and the header name the file as the caller does, not where it lies on this machine.
+    source = Source::new(call.path.value(), source.bytes().into_owned());
+    let compilation = compile::check(source, &call.options);
+    let text = compilation.rust(&call.options.rust).ok_or_else(|| fail(errors(&compilation)))?;
+    let content: TokenStream = text.parse().map_err(|error| fail(format!("the generated code is no Rust: {error}")))?;
+    let warnings = warnings(&compilation, call.path.span());
+    let tracked = LitStr::new(&path.to_string_lossy(), Span::call_site());
+    let (attributes, visibility, name) = (&call.attributes, &call.visibility, &call.name);
+    // A module without a doc comment would fail `missing_docs` in the caller's crate.
+    let documented = attributes.iter().any(|attribute| attribute.path().is_ident("doc"));
+    let documentation = (!documented).then(|| format!(" Bindings generated from `{}`.", call.path.value()));
+    let documentation = documentation.map(|text| quote!(#[doc = #text]));
+    Ok(quote! {
+        #(#attributes)*
+        #documentation
+        #visibility mod #name {
+            #(#warnings)*
+            const _: &[u8] = ::core::include_bytes!(#tracked);
+            #content
+        }
+    })
+}
+
+/// A path that isn't absolute is relative to the folder of the calling crate.
+fn absolute(path: &str) -> PathBuf {
+    let folder = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from).unwrap_or_default();
+    folder.join(Path::new(path))
+}
+
+/// The greatest number of warnings that are shown one by one.
+const MAX_WARNINGS: usize = 16;
+
+/// A use of a deprecated constant for every warning: a macro of stable Rust has no other way to warn.
+fn warnings(compilation: &Compilation, span: Span) -> Vec<TokenStream> {
+    let list = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Warning);
+    let mut notes: Vec<String> = list.clone().take(MAX_WARNINGS).map(|warning| compilation.one_line(warning)).collect();
+    let hidden = list.count() - notes.len();
+    if hidden > 0 {
+        notes.push(format!("{hidden} more warnings; `lexibus check` shows all of them"));
+    }
+    let warning = |note: String| {
+        quote_spanned! {span=>
+            const _: () = {
+                #[deprecated(note = #note)]
+                const DESCRIPTION: () = ();
+                DESCRIPTION
+            };
+        }
+    };
+    notes.into_iter().map(warning).collect()
+}
+
+fn errors(compilation: &Compilation) -> String {
+    let errors = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
+    let rendered = errors.map(|error| render::terminal::render(error, &compilation.sources, false));
+    format!("the device description has errors\n\n{}", rendered.collect::<Vec<_>>().join("\n\n"))
+}

@@ -1,0 +1,63 @@
+//! Access rights as types: what a device refuses does not compile.
+
+/// Read-only (`ro`).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ro;
+
+/// Write-only (`wo`).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Wo;
+
+/// Read and write (`rw`, `rwr`, `rww`).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Rw;
+
+/// Read-only, and the value never changes (`const`).
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Const;
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for super::Ro {}
+    impl Sealed for super::Wo {}
+    impl Sealed for super::Rw {}
+    impl Sealed for super::Const {}
+}
+
+/// Access rights that allow reading: [`Ro`], [`Rw`] and [`Const`]. Sealed.
+#[diagnostic::on_unimplemented(
+    message = "this item can't be read: its access is `{Self}`",
+    label = "the device doesn't let this item be read"
+)]
+pub trait Readable: sealed::Sealed {}
+
+impl Readable for Ro {}
+impl Readable for Rw {}
+impl Readable for Const {}
+
+/// Access rights that allow writing: [`Wo`] and [`Rw`]. Sealed.
+#[diagnostic::on_unimplemented(
+    message = "this item can't be written: its access is `{Self}`",
+    label = "the device doesn't let this item be written"
+)]
+pub trait Writable: sealed::Sealed {}
+
+impl Writable for Wo {}
+impl Writable for Rw {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn readable<A: Readable>() {}
+    fn writable<A: Writable>() {}
+
+    #[test]
+    fn rights_are_what_their_names_say() {
+        readable::<Ro>();
+        readable::<Rw>();
+        readable::<Const>();
+        writable::<Wo>();
+        writable::<Rw>();
+    }
+}

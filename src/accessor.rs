@@ -1,0 +1,115 @@
+//! An item joined to a client.
+
+mod fixed;
+mod octets;
+mod text;
+
+use core::fmt;
+
+use crate::client::{AsyncClient, Client};
+use crate::error::{Error, LengthError};
+use crate::item::Item;
+use crate::location::On;
+use crate::value::Value;
+
+/// Reads and writes one [`Item`] through one client; made by [`Item::at`].
+///
+/// Which methods compile depends on the access rights `A`, on the location `L` and on the bus of the client `C`; their
+/// arguments depend on the type `V`. Those without a suffix ask for a [`Client`], those that end in `_async` for an
+/// [`AsyncClient`].
+///
+/// Every method fails with [`Error::Client`] where the client does; its own documentation names the other errors. An
+/// answer that doesn't fit is always [`Error::Length`], never a panic.
+pub struct Accessor<'c, C, V: Value, A, L> {
+    client: &'c mut C,
+    item: Item<V, A, L>,
+}
+
+impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
+    /// Joins `item` to `client`.
+    #[must_use]
+    pub fn new(client: &'c mut C, item: Item<V, A, L>) -> Self {
+        Self { client, item }
+    }
+
+    /// The item.
+    #[must_use]
+    pub const fn item(&self) -> &Item<V, A, L> {
+        &self.item
+    }
+
+    fn fetch<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
+    where
+        C: Client,
+        L: On<C::Bus>,
+    {
+        let address = self.item.location().address();
+        let length = self.client.read(address, buffer).map_err(Error::Client)?;
+        Ok(filled(buffer, length)?)
+    }
+
+    async fn fetch_async<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
+    where
+        C: AsyncClient,
+        L: On<C::Bus>,
+    {
+        let address = self.item.location().address();
+        let length = self.client.read(address, buffer).await.map_err(Error::Client)?;
+        Ok(filled(buffer, length)?)
+    }
+
+    fn send(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
+    where
+        C: Client,
+        L: On<C::Bus>,
+    {
+        self.client.write(self.item.location().address(), data).map_err(Error::Client)
+    }
+
+    async fn send_async(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
+    where
+        C: AsyncClient,
+        L: On<C::Bus>,
+    {
+        self.client.write(self.item.location().address(), data).await.map_err(Error::Client)
+    }
+}
+
+impl<C, V: Value, A, L: fmt::Debug> fmt::Debug for Accessor<'_, C, V, A, L>
+where
+    V::Native: fmt::Debug,
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Accessor").field("item", &self.item).finish_non_exhaustive()
+    }
+}
+
+/// The part of `buffer` that a client says it filled.
+fn filled(buffer: &[u8], length: usize) -> Result<&[u8], LengthError> {
+    buffer.get(..length).ok_or(LengthError { expected: buffer.len(), actual: length })
+}
+
+#[cfg(test)]
+mod testing;
+
+#[cfg(test)]
+mod tests {
+    use super::testing::{item, Device};
+    use super::*;
+    use crate::Rw;
+    use std::format;
+
+    #[test]
+    fn a_length_beyond_the_buffer_is_an_error() {
+        assert_eq!(filled(&[1, 2], 2), Ok([1, 2].as_slice()));
+        assert_eq!(filled(&[1, 2], 3), Err(LengthError { expected: 2, actual: 3 }));
+    }
+
+    #[test]
+    fn prints_its_item() {
+        let mut device = Device::default();
+        let accessor = item::<u8, Rw>().at(&mut device);
+        assert!(format!("{accessor:?}").contains("Test item"));
+        assert_eq!(accessor.item().name(), "Test item");
+    }
+}

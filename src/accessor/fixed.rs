@@ -1,0 +1,150 @@
+//! Access to values of a fixed size.
+
+use super::{filled, Accessor};
+use crate::access::{Readable, Writable};
+use crate::client::{AsyncClient, Client};
+use crate::error::{Error, OutOfRange};
+use crate::item::Item;
+use crate::location::On;
+use crate::value::{byte_len, Fixed};
+
+impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
+    /// Reads the value.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] where the device sends another number of bytes than the type takes.
+    pub fn read(&mut self) -> Result<V::Native, Error<C::Error>>
+    where
+        A: Readable,
+        C: Client,
+        L: On<C::Bus>,
+    {
+        let mut buffer = [0; 8];
+        let bytes = self.fetch(room::<V>(&mut buffer))?;
+        Ok(V::decode(bytes)?)
+    }
+
+    /// Reads the value without blocking.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] where the device sends another number of bytes than the type takes.
+    pub async fn read_async(&mut self) -> Result<V::Native, Error<C::Error>>
+    where
+        A: Readable,
+        C: AsyncClient,
+        L: On<C::Bus>,
+    {
+        let mut buffer = [0; 8];
+        let bytes = self.fetch_async(room::<V>(&mut buffer)).await?;
+        Ok(V::decode(bytes)?)
+    }
+
+    /// Writes the value.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutOfRange`] where the value is outside the item's range or doesn't fit its type; nothing is sent then.
+    pub fn write(&mut self, value: V::Native) -> Result<(), Error<C::Error>>
+    where
+        A: Writable,
+        C: Client,
+        L: On<C::Bus>,
+    {
+        let mut buffer = [0; 8];
+        let data = encode(&self.item, value, &mut buffer)?;
+        self.send(data)
+    }
+
+    /// Writes the value without blocking.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutOfRange`] where the value is outside the item's range or doesn't fit its type; nothing is sent then.
+    pub async fn write_async(&mut self, value: V::Native) -> Result<(), Error<C::Error>>
+    where
+        A: Writable,
+        C: AsyncClient,
+        L: On<C::Bus>,
+    {
+        let mut buffer = [0; 8];
+        let data = encode(&self.item, value, &mut buffer)?;
+        self.send_async(data).await
+    }
+}
+
+/// As many bytes as a value of type `V` takes.
+fn room<V: Fixed>(buffer: &mut [u8; 8]) -> &mut [u8] {
+    &mut buffer[..byte_len(V::BITS)]
+}
+
+fn encode<'b, V: Fixed, A, L, E>(
+    item: &Item<V, A, L>,
+    value: V::Native,
+    buffer: &'b mut [u8; 8],
+) -> Result<&'b [u8], Error<E>> {
+    if !V::in_range(value, item.range()) {
+        return Err(OutOfRange.into());
+    }
+    let length = V::encode(value, buffer)?;
+    Ok(filled(buffer, length)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{item, now, Device};
+    use crate::{Error, Flags, Initial, Int, Item, LengthError, OnCanOpen, OutOfRange, Range, Ro, Rw, Wo};
+
+    const LIMITED: Item<i16, Rw, OnCanOpen> = Item::new(
+        OnCanOpen::canopen(0x6071, 0),
+        "Target torque",
+        Range::Between(-1000, 1000),
+        Initial::Value(0),
+        "‰",
+        Flags::RPDO,
+    );
+
+    #[test]
+    fn reads() {
+        let mut device = Device::answering(&[0xFE, 0xFF]);
+        assert_eq!(item::<i16, Ro>().at(&mut device).read(), Ok(-2));
+        assert_eq!(now(item::<i16, Ro>().at(&mut device).read_async()), Ok(-2));
+    }
+
+    #[test]
+    fn another_length_is_an_error() {
+        let mut device = Device::answering(&[1, 2, 3]);
+        let short = Error::Length(LengthError { expected: 4, actual: 3 });
+        let long = Error::Length(LengthError { expected: 2, actual: 3 });
+        assert_eq!(item::<u32, Ro>().at(&mut device).read(), Err(short));
+        assert_eq!(item::<u16, Ro>().at(&mut device).read(), Err(long));
+        assert_eq!(now(item::<u16, Ro>().at(&mut device).read_async()), Err(long));
+    }
+
+    #[test]
+    fn a_client_that_claims_too_much_is_an_error() {
+        let mut device = Device { claimed: Some(usize::MAX), ..Device::default() };
+        let error = Error::Length(LengthError { expected: 8, actual: usize::MAX });
+        assert_eq!(item::<u64, Ro>().at(&mut device).read(), Err(error));
+    }
+
+    #[test]
+    fn writes() {
+        let mut device = Device::default();
+        assert_eq!(LIMITED.at(&mut device).write(-1000), Ok(()));
+        assert_eq!(device.written.take().as_deref(), Some([0x18, 0xFC].as_slice()));
+        assert_eq!(now(LIMITED.at(&mut device).write_async(1)), Ok(()));
+        assert_eq!(device.written.as_deref(), Some([1, 0].as_slice()));
+    }
+
+    #[test]
+    fn sends_nothing_that_is_out_of_range() {
+        let mut device = Device::default();
+        let refused = Err(Error::OutOfRange(OutOfRange));
+        assert_eq!(LIMITED.at(&mut device).write(1001), refused);
+        assert_eq!(now(LIMITED.at(&mut device).write_async(-1001)), refused);
+        assert_eq!(item::<Int<24>, Wo>().at(&mut device).write(1 << 23), refused);
+        assert_eq!(device.written, None);
+    }
+}

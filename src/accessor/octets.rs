@@ -1,0 +1,97 @@
+//! Access to byte strings.
+
+use super::Accessor;
+use crate::access::{Readable, Writable};
+use crate::client::{AsyncClient, Client};
+use crate::error::Error;
+use crate::location::On;
+use crate::text::{Domain, OctetString, Opaque};
+
+macro_rules! octets {
+    ($($marker:ident)*) => {$(
+        impl<C, A, L> Accessor<'_, C, $marker, A, L> {
+            /// Reads the bytes into `buffer` and returns the part of it that the device filled.
+            ///
+            /// # Errors
+            ///
+            /// [`Error::Length`] where the device sends more than `buffer` holds.
+            pub fn read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
+            where
+                A: Readable,
+                C: Client,
+                L: On<C::Bus>,
+            {
+                self.fetch(buffer)
+            }
+
+            /// Reads the bytes into `buffer` without blocking and returns the part of it that the device filled.
+            ///
+            /// # Errors
+            ///
+            /// [`Error::Length`] where the device sends more than `buffer` holds.
+            pub async fn read_into_async<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
+            where
+                A: Readable,
+                C: AsyncClient,
+                L: On<C::Bus>,
+            {
+                self.fetch_async(buffer).await
+            }
+
+            /// Writes the bytes.
+            ///
+            /// # Errors
+            ///
+            /// Only those of the client.
+            pub fn write(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
+            where
+                A: Writable,
+                C: Client,
+                L: On<C::Bus>,
+            {
+                self.send(data)
+            }
+
+            /// Writes the bytes without blocking.
+            ///
+            /// # Errors
+            ///
+            /// Only those of the client.
+            pub async fn write_async(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
+            where
+                A: Writable,
+                C: AsyncClient,
+                L: On<C::Bus>,
+            {
+                self.send_async(data).await
+            }
+        }
+    )*};
+}
+
+octets! { OctetString Domain Opaque }
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{item, now, Device};
+    use crate::{Domain, Error, LengthError, OctetString, Opaque, Rw};
+
+    #[test]
+    fn bytes_pass_unchanged() {
+        let mut device = Device::answering(&[0, 1, 0]);
+        let mut buffer = [0xAA; 8];
+        assert_eq!(item::<OctetString, Rw>().at(&mut device).read_into(&mut buffer), Ok([0, 1, 0].as_slice()));
+        assert_eq!(now(item::<Domain, Rw>().at(&mut device).read_into_async(&mut buffer)), Ok([0, 1, 0].as_slice()));
+        assert_eq!(item::<Opaque, Rw>().at(&mut device).write(&[7; 20]), Ok(()));
+        assert_eq!(device.written.take(), Some([7; 20].to_vec()));
+        assert_eq!(now(item::<Domain, Rw>().at(&mut device).write_async(&[])), Ok(()));
+        assert_eq!(device.written.as_deref(), Some([].as_slice()));
+    }
+
+    #[test]
+    fn more_than_the_buffer_is_an_error() {
+        let mut device = Device::answering(&[0; 9]);
+        let error = Error::Length(LengthError { expected: 8, actual: 9 });
+        assert_eq!(item::<Domain, Rw>().at(&mut device).read_into(&mut [0; 8]), Err(error));
+    }
+}

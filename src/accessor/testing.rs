@@ -1,0 +1,72 @@
+//! A device of one value, for the tests of the accessors.
+
+use core::convert::Infallible;
+use core::future::Future;
+use core::pin::pin;
+use core::task::{Context, Poll};
+use std::sync::Arc;
+use std::task::Wake;
+use std::vec::Vec;
+
+use crate::value::Value;
+use crate::{AsyncClient, CanOpen, Client, Flags, Initial, Item, Object, OnCanOpen, Range};
+
+/// Sends `answer`, keeps what was written, and says it sent `claimed` bytes where that is set.
+#[derive(Default)]
+pub(super) struct Device {
+    pub(super) answer: Vec<u8>,
+    pub(super) written: Option<Vec<u8>>,
+    pub(super) claimed: Option<usize>,
+}
+
+impl Device {
+    pub(super) fn answering(answer: &[u8]) -> Self {
+        Self { answer: answer.to_vec(), ..Self::default() }
+    }
+}
+
+impl Client for Device {
+    type Bus = CanOpen;
+    type Error = Infallible;
+
+    fn read(&mut self, _: Object, buffer: &mut [u8]) -> Result<usize, Infallible> {
+        buffer.iter_mut().zip(&self.answer).for_each(|(to, from)| *to = *from);
+        Ok(self.claimed.unwrap_or(self.answer.len()))
+    }
+
+    fn write(&mut self, _: Object, data: &[u8]) -> Result<(), Infallible> {
+        self.written = Some(data.to_vec());
+        Ok(())
+    }
+}
+
+impl AsyncClient for Device {
+    type Bus = CanOpen;
+    type Error = Infallible;
+
+    async fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Infallible> {
+        Client::read(self, address, buffer)
+    }
+
+    async fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Infallible> {
+        Client::write(self, address, data)
+    }
+}
+
+pub(super) fn item<V: Value, A>() -> Item<V, A, OnCanOpen> {
+    Item::new(OnCanOpen::canopen(0x2000, 1), "Test item", Range::Full, Initial::Unknown, "", Flags::NONE)
+}
+
+struct Silent;
+
+impl Wake for Silent {
+    fn wake(self: Arc<Self>) {}
+}
+
+/// The result of a future that never has to wait.
+pub(super) fn now<F: Future>(future: F) -> F::Output {
+    match pin!(future).poll(&mut Context::from_waker(&Arc::new(Silent).into())) {
+        Poll::Ready(output) => output,
+        Poll::Pending => panic!("the future waits"),
+    }
+}

@@ -1,0 +1,166 @@
+//! Access to text.
+
+use super::Accessor;
+use crate::access::{Readable, Writable};
+use crate::client::{AsyncClient, Client};
+use crate::error::Error;
+use crate::location::On;
+use crate::text::{decode_visible, encode_utf16, encode_visible, UnicodeString, Utf16, VisibleString};
+
+impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
+    /// Reads the text into `buffer`. It ends at the first NUL, with which devices fill up to a fixed length.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] where the text is longer than `buffer`, [`Error::Text`] where it isn't ASCII or UTF-8.
+    pub fn read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b str, Error<C::Error>>
+    where
+        A: Readable,
+        C: Client,
+        L: On<C::Bus>,
+    {
+        Ok(decode_visible(self.fetch(buffer)?)?)
+    }
+
+    /// Reads the text into `buffer` without blocking.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] where the text is longer than `buffer`, [`Error::Text`] where it isn't ASCII or UTF-8.
+    pub async fn read_into_async<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b str, Error<C::Error>>
+    where
+        A: Readable,
+        C: AsyncClient,
+        L: On<C::Bus>,
+    {
+        Ok(decode_visible(self.fetch_async(buffer).await?)?)
+    }
+
+    /// Writes the text.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Text`] where a character isn't in 0x20 to 0x7E; nothing is sent then.
+    pub fn write(&mut self, text: &str) -> Result<(), Error<C::Error>>
+    where
+        A: Writable,
+        C: Client,
+        L: On<C::Bus>,
+    {
+        self.send(encode_visible(text)?)
+    }
+
+    /// Writes the text without blocking.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Text`] where a character isn't in 0x20 to 0x7E; nothing is sent then.
+    pub async fn write_async(&mut self, text: &str) -> Result<(), Error<C::Error>>
+    where
+        A: Writable,
+        C: AsyncClient,
+        L: On<C::Bus>,
+    {
+        self.send_async(encode_visible(text)?).await
+    }
+}
+
+impl<C, A, L> Accessor<'_, C, UnicodeString, A, L> {
+    /// Reads the text into `buffer`, two bytes a unit. It ends at the first NUL.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] where the text is longer than `buffer`, [`Error::Text`] where it isn't UTF-16.
+    pub fn read_into<'b>(&mut self, buffer: &'b mut [u8]) -> Result<Utf16<'b>, Error<C::Error>>
+    where
+        A: Readable,
+        C: Client,
+        L: On<C::Bus>,
+    {
+        Ok(Utf16::new(self.fetch(buffer)?)?)
+    }
+
+    /// Reads the text into `buffer` without blocking, two bytes a unit.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] where the text is longer than `buffer`, [`Error::Text`] where it isn't UTF-16.
+    pub async fn read_into_async<'b>(&mut self, buffer: &'b mut [u8]) -> Result<Utf16<'b>, Error<C::Error>>
+    where
+        A: Readable,
+        C: AsyncClient,
+        L: On<C::Bus>,
+    {
+        Ok(Utf16::new(self.fetch_async(buffer).await?)?)
+    }
+
+    /// Writes the text, which is put together in `scratch`: two bytes a unit.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] where `scratch` is too short; nothing is sent then.
+    pub fn write(&mut self, text: &str, scratch: &mut [u8]) -> Result<(), Error<C::Error>>
+    where
+        A: Writable,
+        C: Client,
+        L: On<C::Bus>,
+    {
+        self.send(encode_utf16(text, scratch)?)
+    }
+
+    /// Writes the text without blocking; it is put together in `scratch`: two bytes a unit.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] where `scratch` is too short; nothing is sent then.
+    pub async fn write_async(&mut self, text: &str, scratch: &mut [u8]) -> Result<(), Error<C::Error>>
+    where
+        A: Writable,
+        C: AsyncClient,
+        L: On<C::Bus>,
+    {
+        self.send_async(encode_utf16(text, scratch)?).await
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{item, now, Device};
+    use crate::{Error, LengthError, Rw, TextError, UnicodeString, VisibleString};
+
+    #[test]
+    fn visible_text() {
+        let mut device = Device::answering(b"Drive\0");
+        let name = item::<VisibleString, Rw>();
+        let mut buffer = [0; 6];
+        assert_eq!(name.at(&mut device).read_into(&mut buffer), Ok("Drive"));
+        assert_eq!(now(name.at(&mut device).read_into_async(&mut buffer)), Ok("Drive"));
+        let long = Error::Length(LengthError { expected: 5, actual: 6 });
+        assert_eq!(name.at(&mut device).read_into(&mut buffer[..5]), Err(long));
+        assert_eq!(name.at(&mut device).write("save"), Ok(()));
+        assert_eq!(device.written.as_deref(), Some(b"save".as_slice()));
+    }
+
+    #[test]
+    fn invalid_visible_text_is_not_sent() {
+        let mut device = Device::default();
+        let name = item::<VisibleString, Rw>();
+        assert_eq!(name.at(&mut device).write("5°"), Err(Error::Text(TextError)));
+        assert_eq!(now(name.at(&mut device).write_async("5°")), Err(Error::Text(TextError)));
+        assert_eq!(device.written, None);
+    }
+
+    #[test]
+    fn unicode_text() {
+        let mut device = Device::answering(&[b'5', 0, 0xB0, 0]);
+        let label = item::<UnicodeString, Rw>();
+        let mut buffer = [0; 4];
+        assert_eq!(label.at(&mut device).read_into(&mut buffer).unwrap(), "5°");
+        assert_eq!(now(label.at(&mut device).read_into_async(&mut buffer)).unwrap(), "5°");
+        assert_eq!(label.at(&mut device).write("°", &mut buffer), Ok(()));
+        assert_eq!(device.written.take().as_deref(), Some([0xB0, 0].as_slice()));
+        let short = Error::Length(LengthError { expected: 6, actual: 4 });
+        assert_eq!(now(label.at(&mut device).write_async("abc", &mut buffer)), Err(short));
+        assert_eq!(device.written, None);
+    }
+}

@@ -1,0 +1,173 @@
+//! Fields at any bit offset of a byte string, moved by shifts of whole words.
+//!
+//! Bit 0 is the lowest bit of the first byte, bit 8 the lowest of the second: the order of a PDO (CiA 301 7.1.4).
+
+use crate::pdo::{from_bytes, mask};
+
+/// The field of `width` bits at `bit`. Bits beyond `data` are 0, and so are those beyond the 64th of the field.
+#[must_use]
+#[inline]
+pub const fn get(data: &[u8], bit: usize, width: u32) -> u64 {
+    let rest = skip(data, bit / 8);
+    let shift = (bit % 8) as u32;
+    let low = from_bytes(rest) >> shift;
+    let high = if rest.len() > 8 { above(rest[8] as u64, shift) } else { 0 };
+    (low | high) & mask(width)
+}
+
+/// `buffer` with the low `width` bits of `value` at `bit`. Bits that would fall beyond `buffer`, and those beyond the
+/// 64th of the field, are dropped.
+#[must_use]
+#[inline]
+pub const fn put<const N: usize>(buffer: [u8; N], bit: usize, width: u32, value: u64) -> [u8; N] {
+    let (first, shift) = (bit / 8, (bit % 8) as u32);
+    let field = mask(width);
+    let value = value & field;
+    let word = from_bytes(skip(&buffer, first)) & !(field << shift) | value << shift;
+    let mut out = put_word(buffer, first, word);
+    if first < N && N - first > 8 {
+        out[first + 8] = (out[first + 8] as u64 & !beyond(field, shift) | beyond(value, shift)) as u8;
+    }
+    out
+}
+
+/// The `N` bytes at `bit`. Bits beyond `data` are 0.
+#[must_use]
+#[inline]
+pub const fn get_bytes<const N: usize>(data: &[u8], bit: usize) -> [u8; N] {
+    let mut out = [0; N];
+    let (mut at, mut from) = (0, bit);
+    while at < N && from / 8 < data.len() {
+        out = put_word(out, at, get(data, from, 64));
+        at += 8;
+        from += 64;
+    }
+    out
+}
+
+/// `buffer` with `bytes` at `bit`. Bits that would fall beyond `buffer` are dropped.
+#[must_use]
+#[inline]
+pub const fn put_bytes<const N: usize>(buffer: [u8; N], bit: usize, bytes: &[u8]) -> [u8; N] {
+    let mut out = buffer;
+    let mut rest = bytes;
+    let mut to = bit;
+    while !rest.is_empty() && to / 8 < N {
+        let width = if rest.len() < 8 { 8 * rest.len() as u32 } else { 64 };
+        out = put(out, to, width, from_bytes(rest));
+        rest = skip(rest, 8);
+        to += 64;
+    }
+    out
+}
+
+/// `data` without its first `count` bytes.
+#[inline]
+const fn skip(data: &[u8], count: usize) -> &[u8] {
+    if count < data.len() {
+        data.split_at(count).1
+    } else {
+        &[]
+    }
+}
+
+/// `buffer` with the bytes of `word` from byte `first` on, as far as they fit.
+#[inline]
+const fn put_word<const N: usize>(buffer: [u8; N], first: usize, word: u64) -> [u8; N] {
+    let bytes = word.to_le_bytes();
+    let mut out = buffer;
+    let mut at = 0;
+    while at < 8 && first < N && at < N - first {
+        out[first + at] = bytes[at];
+        at += 1;
+    }
+    out
+}
+
+/// `byte` put above a word that was shifted down by `shift` bits, 0 to 7.
+#[inline]
+const fn above(byte: u64, shift: u32) -> u64 {
+    byte << 1 << (63 - shift)
+}
+
+/// What leaves the top of `word` when it is shifted up by `shift` bits, 0 to 7.
+#[inline]
+const fn beyond(word: u64, shift: u32) -> u64 {
+    word >> 1 >> (63 - shift)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LEN: usize = 11;
+
+    fn bit_of(data: &[u8], bit: usize) -> bool {
+        data.get(bit / 8).is_some_and(|byte| byte >> (bit % 8) & 1 == 1)
+    }
+
+    fn slow_get(data: &[u8], bit: usize, width: u32) -> u64 {
+        (0..width.min(64)).fold(0, |word, at| word | u64::from(bit_of(data, bit + at as usize)) << at)
+    }
+
+    fn set_bit(data: &mut [u8], bit: usize, value: bool) {
+        if let Some(byte) = data.get_mut(bit / 8) {
+            *byte = *byte & !(1 << (bit % 8)) | u8::from(value) << (bit % 8);
+        }
+    }
+
+    fn slow_put(mut buffer: [u8; LEN], bit: usize, width: u32, value: u64) -> [u8; LEN] {
+        (0..width.min(64)).for_each(|at| set_bit(&mut buffer, bit + at as usize, value >> at & 1 == 1));
+        buffer
+    }
+
+    /// Bytes and words that look random and are the same each time.
+    fn noise(seed: u64) -> u64 {
+        let mixed = (seed ^ 0x9E37_79B9_7F4A_7C15).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        (mixed ^ mixed >> 31).wrapping_mul(0x94D0_49BB_1331_11EB)
+    }
+
+    fn noisy_bytes(seed: u64) -> [u8; LEN] {
+        core::array::from_fn(|at| noise(seed + at as u64) as u8)
+    }
+
+    #[test]
+    fn agrees_with_bit_by_bit() {
+        for bit in 0..LEN * 8 + 20 {
+            for width in 0..=66 {
+                let seed = (bit * 100 + width as usize) as u64;
+                let (data, value) = (noisy_bytes(seed), noise(!seed));
+                assert_eq!(get(&data, bit, width), slow_get(&data, bit, width), "get {bit} {width}");
+                assert_eq!(put(data, bit, width, value), slow_put(data, bit, width, value), "put {bit} {width}");
+            }
+        }
+    }
+
+    #[test]
+    fn byte_strings_agree_with_bit_by_bit() {
+        let data = noisy_bytes(7);
+        for bit in 0..LEN * 8 + 20 {
+            let got: [u8; 10] = get_bytes(&data, bit);
+            assert!((0..80).all(|at| bit_of(&got, at) == bit_of(&data, bit + at)), "get {bit}");
+            let mut expected = [0xFF; LEN];
+            (0..80).for_each(|at| set_bit(&mut expected, bit + at, bit_of(&data, at)));
+            assert_eq!(put_bytes([0xFF; LEN], bit, &data[..10]), expected, "put {bit}");
+        }
+    }
+
+    #[test]
+    fn far_beyond_the_end() {
+        assert_eq!(get(&[0xFF; 3], usize::MAX, 64), 0);
+        assert_eq!(put([0; 3], usize::MAX, 64, u64::MAX), [0; 3]);
+        assert_eq!(get_bytes::<20>(&[0xFF; 3], usize::MAX - 70), [0; 20]);
+        assert_eq!(put_bytes([0; 3], usize::MAX, &[0xFF; 20]), [0; 3]);
+        assert_eq!(put_bytes([0; 0], 0, &[1]), []);
+    }
+
+    #[test]
+    fn works_in_constants() {
+        const FRAME: [u8; 2] = put([0; 2], 4, 8, 0xAB);
+        const FIELD: u64 = get(&FRAME, 4, 8);
+        assert_eq!((FRAME, FIELD), ([0xB0, 0x0A], 0xAB));
+    }
+}

@@ -1,0 +1,119 @@
+//! The buses, and how each of them addresses a value.
+
+use core::fmt;
+
+/// A bus, or a protocol that runs over one: which form its addresses have.
+pub trait Bus {
+    /// Where a value is found on this bus.
+    type Address: Copy + fmt::Debug;
+
+    /// The bus's name, for messages.
+    const NAME: &'static str;
+}
+
+/// CANopen: SDO transfers over CAN (CiA 301 7.2.4).
+#[derive(Clone, Copy, Debug)]
+pub enum CanOpen {}
+
+/// CANopen over EtherCAT: SDO transfers in the mailbox.
+#[derive(Clone, Copy, Debug)]
+pub enum CoE {}
+
+/// Modbus RTU or TCP: holding registers.
+#[derive(Clone, Copy, Debug)]
+pub enum Modbus {}
+
+/// PROFINET: acyclic records.
+#[derive(Clone, Copy, Debug)]
+pub enum Profinet {}
+
+/// A serial protocol that numbers its parameters.
+#[derive(Clone, Copy, Debug)]
+pub enum Serial {}
+
+impl Bus for CanOpen {
+    type Address = Object;
+    const NAME: &'static str = "CANopen";
+}
+
+impl Bus for CoE {
+    type Address = Object;
+    const NAME: &'static str = "CANopen over EtherCAT";
+}
+
+impl Bus for Modbus {
+    type Address = Register;
+    const NAME: &'static str = "Modbus";
+}
+
+impl Bus for Profinet {
+    type Address = Record;
+    const NAME: &'static str = "PROFINET";
+}
+
+impl Bus for Serial {
+    type Address = Parameter;
+    const NAME: &'static str = "serial";
+}
+
+/// An entry of an object dictionary. `Display` writes it as `0x6040:00`, both parts in hexadecimal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Object {
+    /// The object's index.
+    pub index: u16,
+    /// The entry's sub-index; 0 for an object that is one variable.
+    pub sub_index: u8,
+}
+
+impl fmt::Display for Object {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:#06X}:{:02X}", self.index, self.sub_index)
+    }
+}
+
+/// One or more consecutive Modbus holding registers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Register {
+    /// The first register's address as it is on the wire, counted from 0.
+    pub address: u16,
+    /// How many registers of 16 bits the value takes.
+    pub words: u8,
+    /// Whether the register with the lowest address holds the least significant word.
+    pub low_word_first: bool,
+}
+
+/// A value inside a PROFINET record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Record {
+    /// The application process identifier.
+    pub api: u32,
+    /// The slot number.
+    pub slot: u16,
+    /// The subslot number.
+    pub subslot: u16,
+    /// The record's index.
+    pub index: u16,
+    /// The value's offset in the record, in bytes.
+    pub offset: u16,
+}
+
+/// The number of a parameter of a serial protocol.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Parameter(pub u16);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::string::ToString;
+
+    #[test]
+    fn object_is_written_in_hexadecimal() {
+        assert_eq!(Object { index: 0x6040, sub_index: 0 }.to_string(), "0x6040:00");
+        assert_eq!(Object { index: 0xA0, sub_index: 0xFE }.to_string(), "0x00A0:FE");
+    }
+
+    #[test]
+    fn objects_sort_by_index_first() {
+        assert!(Object { index: 0x1000, sub_index: 9 } < Object { index: 0x1001, sub_index: 0 });
+    }
+}

@@ -1,0 +1,46 @@
+//! What else is known about an item.
+
+/// Facts about an item that constants can test.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Flags(u8);
+
+impl Flags {
+    /// None.
+    pub const NONE: Self = Self(0);
+
+    /// Can be mapped into an RPDO, which the device receives (CiA 301 7.5.2.36).
+    pub const RPDO: Self = Self(1);
+
+    /// Can be mapped into a TPDO, which the device transmits (CiA 301 7.5.2.38).
+    pub const TPDO: Self = Self(1 << 1);
+
+    /// The item can be mapped into both.
+    pub const PDO: Self = Self(1 | 1 << 1);
+
+    /// The flags that are in `self`, in `other` or in both.
+    #[must_use]
+    pub const fn union(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Whether all flags of `other` are in `self`.
+    #[must_use]
+    pub const fn contains(self, other: Self) -> bool {
+        self.0 & other.0 == other.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOTH: Flags = Flags::RPDO.union(Flags::TPDO);
+    const _: () = assert!(BOTH.contains(Flags::RPDO));
+
+    #[test]
+    fn sets() {
+        assert!(BOTH.contains(Flags::TPDO) && BOTH.contains(BOTH) && BOTH.contains(Flags::NONE));
+        assert!(!Flags::RPDO.contains(BOTH));
+        assert!(!Flags::NONE.contains(Flags::TPDO));
+    }
+}

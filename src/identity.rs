@@ -1,0 +1,37 @@
+//! Who made a device, and which one it is.
+
+/// The identity of a device as its description gives it (object 0x1018 holds its numbers).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Identity {
+    /// The vendor-ID (0x1018:01).
+    pub vendor_id: Option<u32>,
+    /// The product code (0x1018:02).
+    pub product_code: Option<u32>,
+    /// The revision number (0x1018:03).
+    pub revision_number: Option<u32>,
+    /// The vendor's name; empty where the description has none.
+    pub vendor_name: &'static str,
+    /// The product's name; empty where the description has none.
+    pub product_name: &'static str,
+    /// The order code; empty where the description has none.
+    pub order_code: &'static str,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn identities_compare() {
+        let one = Identity {
+            vendor_id: Some(0x1234),
+            product_code: None,
+            revision_number: None,
+            vendor_name: "Example",
+            product_name: "Drive",
+            order_code: "",
+        };
+        assert_eq!(one, one);
+        assert_ne!(one, Identity { product_code: Some(1), ..one });
+    }
+}

@@ -1,0 +1,77 @@
+//! The value that an item has after power-on.
+
+use crate::node_id::NodeId;
+
+/// The value after power-on, as the description of the device gives it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Initial<T> {
+    /// The description gives none.
+    #[default]
+    Unknown,
+    /// This value.
+    Value(T),
+    /// The device's node-ID plus this value (`$NODEID+0x600` in an EDS; CiA 306).
+    NodeId(T),
+}
+
+impl Initial<&'static [u8]> {
+    /// These bytes: a byte string literal, whose type has its length, as the slice that it is.
+    #[must_use]
+    pub const fn bytes(bytes: &'static [u8]) -> Self {
+        Self::Value(bytes)
+    }
+}
+
+impl<T: AddNodeId> Initial<T> {
+    /// The value on the device with the given node-ID; `None` where it is unknown or doesn't fit its type.
+    #[must_use]
+    pub fn resolve(&self, node: NodeId) -> Option<T> {
+        match *self {
+            Self::Unknown => None,
+            Self::Value(value) => Some(value),
+            Self::NodeId(value) => value.add_node_id(node),
+        }
+    }
+}
+
+/// Integers to which a node-ID can be added, for [`Initial::resolve`]. A newtype over one may implement it as well.
+pub trait AddNodeId: Copy {
+    /// The sum, or `None` where it doesn't fit.
+    #[must_use]
+    fn add_node_id(self, node: NodeId) -> Option<Self>;
+}
+
+macro_rules! add_node_id {
+    ($($integer:ty)*) => {$(
+        impl AddNodeId for $integer {
+            fn add_node_id(self, node: NodeId) -> Option<Self> {
+                // 127 at most, which every integer type can hold.
+                self.checked_add(node.get() as $integer)
+            }
+        }
+    )*};
+}
+
+add_node_id! { u8 u16 u32 u64 i8 i16 i32 i64 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn resolves() {
+        let node = NodeId::new(5).unwrap();
+        assert_eq!(Initial::<u32>::Unknown.resolve(node), None);
+        assert_eq!(Initial::Value(7_u32).resolve(node), Some(7));
+        assert_eq!(Initial::NodeId(0x600_u32).resolve(node), Some(0x605));
+        assert_eq!(Initial::NodeId(-5_i8).resolve(node), Some(0));
+    }
+
+    #[test]
+    fn overflow_is_none() {
+        let node = NodeId::new(127).unwrap();
+        assert_eq!(Initial::NodeId(129_u8).resolve(node), None);
+        assert_eq!(Initial::NodeId(1_i8).resolve(node), None);
+        assert_eq!(Initial::NodeId(0_i8).resolve(node), Some(127));
+    }
+}

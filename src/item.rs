@@ -1,0 +1,143 @@
+//! The handle of one value of a device.
+
+use core::fmt;
+use core::marker::PhantomData;
+
+use crate::accessor::Accessor;
+use crate::flags::Flags;
+use crate::initial::Initial;
+use crate::range::Range;
+use crate::value::Value;
+
+/// One value of a device: an entry of its object dictionary, a register, a parameter.
+///
+/// `V` is the type of the value, `A` the access rights ([`Ro`](crate::Ro), [`Wo`](crate::Wo), [`Rw`](crate::Rw) or
+/// [`Const`](crate::Const)) and `L` the [`Location`](crate::Location), whose type says on which buses the item exists.
+pub struct Item<V: Value, A, L> {
+    location: L,
+    name: &'static str,
+    range: Range<V::Native>,
+    initial: Initial<V::Native>,
+    unit: &'static str,
+    flags: Flags,
+    types: PhantomData<fn() -> (V, A)>,
+}
+
+impl<V: Value, A, L> Item<V, A, L> {
+    /// An item. `name` is the one in the source, `range` the values that a write accepts, and `unit` is empty where
+    /// there is none.
+    #[must_use]
+    pub const fn new(
+        location: L,
+        name: &'static str,
+        range: Range<V::Native>,
+        initial: Initial<V::Native>,
+        unit: &'static str,
+        flags: Flags,
+    ) -> Self {
+        Self { location, name, range, initial, unit, flags, types: PhantomData }
+    }
+
+    /// Where the item is found.
+    #[must_use]
+    pub const fn location(&self) -> &L {
+        &self.location
+    }
+
+    /// The name in the source.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        self.name
+    }
+
+    /// The values that a write accepts, in raw counts.
+    #[must_use]
+    pub const fn range(&self) -> &Range<V::Native> {
+        &self.range
+    }
+
+    /// The value after power-on.
+    #[must_use]
+    pub const fn initial(&self) -> &Initial<V::Native> {
+        &self.initial
+    }
+
+    /// The unit of the value; empty where there is none.
+    #[must_use]
+    pub const fn unit(&self) -> &'static str {
+        self.unit
+    }
+
+    /// What else is known about the item.
+    #[must_use]
+    pub const fn flags(&self) -> Flags {
+        self.flags
+    }
+
+    /// Joins the item to a client of one device.
+    pub fn at<C>(self, client: &mut C) -> Accessor<'_, C, V, A, L> {
+        Accessor::new(client, self)
+    }
+}
+
+// Derived, these would ask for `V: Copy` and `A: Copy`.
+impl<V: Value, A, L: Copy> Copy for Item<V, A, L> {}
+
+impl<V: Value, A, L: Copy> Clone for Item<V, A, L> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<V: Value, A, L: fmt::Debug> fmt::Debug for Item<V, A, L>
+where
+    V::Native: fmt::Debug,
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Item")
+            .field("location", &self.location)
+            .field("name", &self.name)
+            .field("data_type", &V::DATA_TYPE)
+            .field("range", &self.range)
+            .field("initial", &self.initial)
+            .field("unit", &self.unit)
+            .field("flags", &self.flags)
+            .finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{OnCanOpen, Rw, VisibleString};
+    use std::format;
+
+    const SPEED: Item<u32, Rw, OnCanOpen> = Item::new(
+        OnCanOpen::canopen(0x6081, 0),
+        "Profile velocity",
+        Range::To(3000),
+        Initial::Value(100),
+        "0.01 rev/s",
+        Flags::RPDO,
+    );
+    const NAME: Item<VisibleString, Rw, OnCanOpen> =
+        Item::new(OnCanOpen::canopen(0x1008, 0), "Name", Range::Full, Initial::Value("Drive"), "", Flags::NONE);
+    const _: () = assert!(SPEED.flags().contains(Flags::RPDO));
+
+    #[test]
+    fn getters() {
+        assert_eq!(SPEED.location().canopen.index, 0x6081);
+        assert_eq!((SPEED.name(), SPEED.unit()), ("Profile velocity", "0.01 rev/s"));
+        assert_eq!(*SPEED.range(), Range::To(3000));
+        assert_eq!(*NAME.initial(), Initial::Value("Drive"));
+    }
+
+    #[test]
+    fn copies_and_prints_whatever_its_access() {
+        struct Unprintable;
+        let item: Item<u8, Unprintable, OnCanOpen> =
+            Item::new(OnCanOpen::canopen(0x1001, 0), "Error register", Range::Full, Initial::Unknown, "", Flags::NONE);
+        let copy = item;
+        assert_eq!(format!("{item:?}"), format!("{copy:?}"));
+    }
+}

@@ -1,0 +1,111 @@
+//! Runtime of Lexibus, the object-dictionary compiler.
+//!
+//! Generated bindings describe every value of a fieldbus device as a `const` [`Item`]: its type, its access rights and
+//! where it is found on each [`Bus`]. A [`Client`] (or an [`AsyncClient`]) carries bytes; [`Item::at`] joins the two
+//! into an [`Accessor`], whose `read` and `write` exist only where the device and the bus allow them.
+//!
+//! The crate is `no_std`, allocates nothing, contains no `unsafe` code and has no dependency in its default build.
+//!
+//! # Example
+//!
+//! ```
+//! use lexibus::{CanOpen, Client, Error, Flags, Initial, Item, Object, OnCanOpen, OutOfRange, Range, Ro, Rw};
+//!
+//! // What the compiler emits for two objects of a drive:
+//! const TARGET_POSITION: Item<i32, Rw, OnCanOpen> = Item::new(
+//!     OnCanOpen::canopen(0x607A, 0x00),
+//!     "Target position",
+//!     Range::Between(-200_000, 200_000),
+//!     Initial::Value(0),
+//!     "inc",
+//!     Flags::RPDO,
+//! );
+//! const STATUSWORD: Item<u16, Ro, OnCanOpen> =
+//!     Item::new(OnCanOpen::canopen(0x6041, 0x00), "Statusword", Range::Full, Initial::Unknown, "", Flags::TPDO);
+//!
+//! // What a bus library implements, here with a device that remembers its last write:
+//! struct Echo([u8; 4]);
+//!
+//! impl Client for Echo {
+//!     type Bus = CanOpen;
+//!     type Error = core::convert::Infallible;
+//!
+//!     fn read(&mut self, _: Object, buffer: &mut [u8]) -> Result<usize, Self::Error> {
+//!         for (to, from) in buffer.iter_mut().zip(self.0) {
+//!             *to = from;
+//!         }
+//!         Ok(buffer.len())
+//!     }
+//!
+//!     fn write(&mut self, _: Object, data: &[u8]) -> Result<(), Self::Error> {
+//!         for (to, from) in self.0.iter_mut().zip(data) {
+//!             *to = *from;
+//!         }
+//!         Ok(())
+//!     }
+//! }
+//!
+//! let mut client = Echo([0; 4]);
+//! TARGET_POSITION.at(&mut client).write(100_000)?;
+//! assert_eq!(TARGET_POSITION.at(&mut client).read()?, 100_000);
+//! assert_eq!(STATUSWORD.at(&mut client).read()?, 0x86A0);
+//!
+//! // Outside the declared range, so nothing is sent:
+//! let refused = TARGET_POSITION.at(&mut client).write(300_000);
+//! assert_eq!(refused, Err(Error::OutOfRange(OutOfRange)));
+//! # Ok::<(), Error<core::convert::Infallible>>(())
+//! ```
+//!
+//! Clauses such as "CiA 301 7.1.6.5" refer to CiA 301 version 4.2.0.
+
+#![no_std]
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+#[cfg(test)]
+extern crate std;
+
+mod access;
+mod accessor;
+pub mod bits;
+mod bus;
+mod client;
+mod data_type;
+mod error;
+mod flags;
+mod identity;
+mod initial;
+pub mod interface;
+mod item;
+mod location;
+mod node_id;
+pub mod pdo;
+mod range;
+pub mod table;
+mod text;
+mod time;
+mod value;
+mod wide;
+
+pub use access::{Const, Readable, Ro, Rw, Wo, Writable};
+pub use accessor::Accessor;
+pub use bus::{Bus, CanOpen, CoE, Modbus, Object, Parameter, Profinet, Record, Register, Serial};
+pub use client::{AsyncClient, Client};
+pub use data_type::DataType;
+pub use error::{Error, LengthError, OutOfRange, TextError};
+pub use flags::Flags;
+pub use identity::Identity;
+pub use initial::{AddNodeId, Initial};
+pub use item::Item;
+pub use location::{Absent, Location, On, OnCanOpen, OnCanOpenAndCoE, OnCoE};
+pub use node_id::NodeId;
+pub use pdo::{CobId, MappedEntry, Pdo, SdoWrite};
+pub use range::Range;
+pub use table::{AccessRights, Bound, Entry, RawInitial};
+pub use text::{Domain, OctetString, Opaque, UnicodeString, Utf16, VisibleString};
+pub use time::{TimeDifference, TimeOfDay};
+pub use value::{Fixed, Value};
+pub use wide::{Int, Uint};
+
+#[cfg(feature = "macros")]
+pub use lexibus_macros::dictionary;

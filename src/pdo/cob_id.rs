@@ -1,0 +1,62 @@
+//! The identifier of a communication object.
+
+use crate::node_id::NodeId;
+
+/// The COB-ID of a PDO (CiA 301 7.5.2.35 and 7.5.2.37), which may depend on the device's node-ID.
+///
+/// Bits 0 to 28 hold the CAN-ID, bit 29 says that it has 29 bits, bit 30 of a TPDO that no remote request is answered,
+/// and bit 31 that the PDO isn't used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct CobId {
+    base: u32,
+    add_node: bool,
+}
+
+impl CobId {
+    /// The same COB-ID on every device.
+    #[must_use]
+    pub const fn fixed(cob_id: u32) -> Self {
+        Self { base: cob_id, add_node: false }
+    }
+
+    /// `base` plus the node-ID.
+    #[must_use]
+    pub const fn from_node(base: u32) -> Self {
+        Self { base, add_node: true }
+    }
+
+    /// The COB-ID on the device with the given node-ID. A sum beyond 32 bits wraps around.
+    #[must_use]
+    pub const fn resolve(self, node: NodeId) -> u32 {
+        if self.add_node {
+            self.base.wrapping_add(node.get() as u32)
+        } else {
+            self.base
+        }
+    }
+
+    /// Whether the PDO is used: bit 31 is clear.
+    #[must_use]
+    pub const fn is_valid(self) -> bool {
+        self.base >> 31 == 0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn resolves() {
+        let node = NodeId::new(5).unwrap();
+        assert_eq!(CobId::from_node(0x200).resolve(node), 0x205);
+        assert_eq!(CobId::fixed(0x200).resolve(node), 0x200);
+        assert_eq!(CobId::from_node(u32::MAX).resolve(node), 4);
+    }
+
+    #[test]
+    fn bit_31_means_unused() {
+        assert!(CobId::from_node(0x200).is_valid());
+        assert!(!CobId::from_node(0x8000_0200).is_valid());
+    }
+}

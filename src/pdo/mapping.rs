@@ -1,0 +1,65 @@
+//! What a PDO carries.
+
+use crate::bus::Object;
+
+/// One entry of a PDO mapping (CiA 301 7.5.2.36 and 7.5.2.38).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct MappedEntry {
+    /// The index of the mapped object.
+    pub index: u16,
+    /// The sub-index of the mapped entry.
+    pub sub_index: u8,
+    /// How many bits it takes.
+    pub bits: u8,
+}
+
+impl MappedEntry {
+    /// An entry.
+    #[must_use]
+    pub const fn new(index: u16, sub_index: u8, bits: u8) -> Self {
+        Self { index, sub_index, bits }
+    }
+
+    /// The entry as the mapping object holds it: index, sub-index and bits, from the highest byte to the lowest.
+    #[must_use]
+    pub const fn word(self) -> u32 {
+        (self.index as u32) << 16 | (self.sub_index as u32) << 8 | self.bits as u32
+    }
+
+    /// The entry that a mapping object holds.
+    #[must_use]
+    pub const fn from_word(word: u32) -> Self {
+        Self::new((word >> 16) as u16, (word >> 8) as u8, word as u8)
+    }
+
+    /// The mapped object.
+    #[must_use]
+    pub const fn object(self) -> Object {
+        Object { index: self.index, sub_index: self.sub_index }
+    }
+}
+
+/// A PDO with a known layout; implemented by generated code and by mappings of one's own.
+pub trait Pdo {
+    /// The index of its mapping object, 0x1600 to 0x17FF or 0x1A00 to 0x1BFF.
+    const INDEX: u16;
+
+    /// What it carries, in the order of the bits.
+    const MAPPING: &'static [MappedEntry];
+
+    /// How many bytes it takes.
+    const LEN: usize;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words() {
+        let entry = MappedEntry::new(0x6040, 1, 16);
+        assert_eq!(entry.word(), 0x6040_0110);
+        assert_eq!(MappedEntry::from_word(0x6040_0110), entry);
+        assert_eq!(entry.object(), Object { index: 0x6040, sub_index: 1 });
+    }
+}

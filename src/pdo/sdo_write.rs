@@ -1,0 +1,110 @@
+//! One step of a configuration.
+
+use super::word::to_bytes;
+use crate::bus::{Bus, Object};
+use crate::client::{AsyncClient, Client};
+
+/// A value of at most 8 bytes to be written to an object, as a step of a PDO's configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SdoWrite {
+    object: Object,
+    data: [u8; 8],
+    len: u8,
+}
+
+impl SdoWrite {
+    /// Writes an UNSIGNED8.
+    #[must_use]
+    pub const fn new_u8(index: u16, sub_index: u8, value: u8) -> Self {
+        Self::new(index, sub_index, value as u64, 1)
+    }
+
+    /// Writes an UNSIGNED16.
+    #[must_use]
+    pub const fn new_u16(index: u16, sub_index: u8, value: u16) -> Self {
+        Self::new(index, sub_index, value as u64, 2)
+    }
+
+    /// Writes an UNSIGNED32.
+    #[must_use]
+    pub const fn new_u32(index: u16, sub_index: u8, value: u32) -> Self {
+        Self::new(index, sub_index, value as u64, 4)
+    }
+
+    const fn new(index: u16, sub_index: u8, value: u64, len: u8) -> Self {
+        Self { object: Object { index, sub_index }, data: to_bytes(value), len }
+    }
+
+    /// Where it is written.
+    #[must_use]
+    pub const fn object(&self) -> Object {
+        self.object
+    }
+
+    /// The bytes to be written.
+    #[must_use]
+    pub const fn data(&self) -> &[u8] {
+        self.data.split_at(self.len as usize).0
+    }
+
+    /// Writes it through a client of CANopen, or of CANopen over EtherCAT.
+    ///
+    /// # Errors
+    ///
+    /// Those of the client.
+    pub fn send<C: Client>(&self, client: &mut C) -> Result<(), C::Error>
+    where
+        C::Bus: Bus<Address = Object>,
+    {
+        client.write(self.object, self.data())
+    }
+
+    /// Writes it without blocking.
+    ///
+    /// # Errors
+    ///
+    /// Those of the client.
+    pub async fn send_async<C: AsyncClient>(&self, client: &mut C) -> Result<(), C::Error>
+    where
+        C::Bus: Bus<Address = Object>,
+    {
+        client.write(self.object, self.data()).await
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::CoE;
+
+    #[derive(Default)]
+    struct Last(Option<(Object, usize)>);
+
+    impl Client for Last {
+        type Bus = CoE;
+        type Error = ();
+
+        fn read(&mut self, _: Object, _: &mut [u8]) -> Result<usize, ()> {
+            Err(())
+        }
+
+        fn write(&mut self, address: Object, data: &[u8]) -> Result<(), ()> {
+            self.0 = Some((address, data.len()));
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn data_is_little_endian() {
+        assert_eq!(SdoWrite::new_u8(0x1600, 0, 2).data(), [2]);
+        assert_eq!(SdoWrite::new_u16(0x1400, 3, 0x0102).data(), [2, 1]);
+        assert_eq!(SdoWrite::new_u32(0x1400, 1, 0x8000_0205).data(), [5, 2, 0, 0x80]);
+    }
+
+    #[test]
+    fn sends() {
+        let mut client = Last::default();
+        assert_eq!(SdoWrite::new_u16(0x1400, 3, 1).send(&mut client), Ok(()));
+        assert_eq!(client.0, Some((Object { index: 0x1400, sub_index: 3 }, 2)));
+    }
+}

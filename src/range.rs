@@ -1,0 +1,49 @@
+//! The values that an item accepts.
+
+/// A range of values; both limits belong to it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Range<T> {
+    /// Everything that the type can hold.
+    #[default]
+    Full,
+    /// This value and all above it.
+    From(T),
+    /// This value and all below it.
+    To(T),
+    /// From the first value to the second.
+    Between(T, T),
+}
+
+impl<T: PartialOrd> Range<T> {
+    /// Whether `value` lies in the range. A NaN lies in [`Range::Full`] only.
+    #[must_use]
+    pub fn contains(&self, value: T) -> bool {
+        match self {
+            Self::Full => true,
+            Self::From(low) => *low <= value,
+            Self::To(high) => value <= *high,
+            Self::Between(low, high) => *low <= value && value <= *high,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_belong_to_the_range() {
+        assert!(Range::Full.contains(0));
+        assert!(Range::From(1).contains(1) && !Range::From(1).contains(0));
+        assert!(Range::To(1).contains(1) && !Range::To(1).contains(2));
+        let between = Range::Between(-1, 1);
+        assert!(between.contains(-1) && between.contains(1));
+        assert!(!between.contains(-2) && !between.contains(2));
+    }
+
+    #[test]
+    fn not_a_number() {
+        assert!(Range::Full.contains(f32::NAN));
+        assert!(!Range::Between(0.0, 1.0).contains(f32::NAN));
+    }
+}

@@ -1,0 +1,124 @@
+//! Dates and time spans of CANopen.
+
+use core::cmp::Ordering;
+
+use crate::data_type::DataType;
+use crate::error::{LengthError, OutOfRange};
+use crate::range::Range;
+use crate::value::{decode_raw, encode_raw, Fixed, Value};
+
+/// A date with the time of day (CiA 301 7.1.6.5).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub struct TimeOfDay {
+    /// Milliseconds after midnight, 28 bits.
+    pub milliseconds: u32,
+    /// Days since 1 January 1984.
+    pub days: u16,
+}
+
+/// A time span (CiA 301 7.1.6.6).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub struct TimeDifference {
+    /// Milliseconds beyond the whole days, 28 bits.
+    pub milliseconds: u32,
+    /// Whole days.
+    pub days: u16,
+}
+
+/// The bits that hold the milliseconds; the four above them are reserved.
+const MILLISECONDS: u32 = 0x0FFF_FFFF;
+
+macro_rules! time {
+    ($($time:ident)*) => {$(
+        impl $time {
+            /// `milliseconds`, of which 28 bits are sent, and `days`.
+            #[must_use]
+            pub const fn new(milliseconds: u32, days: u16) -> Self {
+                Self { milliseconds, days }
+            }
+
+            /// The 48 bits that are sent: 28 bits of milliseconds, 4 reserved bits, 16 bits of days. Bits of
+            /// `milliseconds` beyond the 28 are cut off.
+            #[must_use]
+            pub const fn raw(self) -> u64 {
+                (self.milliseconds & MILLISECONDS) as u64 | (self.days as u64) << 32
+            }
+
+            /// The value of 48 bits; reserved bits and those beyond the 48 are ignored.
+            #[must_use]
+            pub const fn from_raw(raw: u64) -> Self {
+                Self { milliseconds: raw as u32 & MILLISECONDS, days: (raw >> 32) as u16 }
+            }
+        }
+
+        impl PartialOrd for $time {
+            fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+                Some(self.cmp(other))
+            }
+        }
+
+        impl Ord for $time {
+            fn cmp(&self, other: &Self) -> Ordering {
+                (self.days, self.milliseconds).cmp(&(other.days, other.milliseconds))
+            }
+        }
+
+        impl Value for $time {
+            type Native = Self;
+            const DATA_TYPE: DataType = DataType::$time;
+        }
+
+        impl Fixed for $time {
+            const BITS: u32 = 48;
+
+            #[inline]
+            fn encode(native: Self, buffer: &mut [u8; 8]) -> Result<usize, OutOfRange> {
+                if native.milliseconds > MILLISECONDS {
+                    return Err(OutOfRange);
+                }
+                Ok(encode_raw(native.raw(), Self::BITS, buffer))
+            }
+
+            #[inline]
+            fn decode(bytes: &[u8]) -> Result<Self, LengthError> {
+                decode_raw(bytes, Self::BITS).map(Self::from_raw)
+            }
+
+            #[inline]
+            fn in_range(value: Self, range: &Range<Self>) -> bool {
+                range.contains(value)
+            }
+        }
+    )*};
+}
+
+time! { TimeOfDay TimeDifference }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn travels_in_six_bytes() {
+        let time = TimeOfDay { milliseconds: 0x0123_4567, days: 0x89AB };
+        let mut buffer = [0; 8];
+        assert_eq!(TimeOfDay::encode(time, &mut buffer), Ok(6));
+        assert_eq!(buffer[..6], [0x67, 0x45, 0x23, 0x01, 0xAB, 0x89]);
+        assert_eq!(TimeOfDay::decode(&buffer[..6]), Ok(time));
+        assert_eq!(TimeOfDay::decode(&buffer), Err(LengthError { expected: 6, actual: 8 }));
+    }
+
+    #[test]
+    fn reserved_bits_are_ignored_and_never_sent() {
+        let span = TimeDifference::from_raw(u64::MAX);
+        assert_eq!(span, TimeDifference { milliseconds: MILLISECONDS, days: u16::MAX });
+        assert_eq!(span.raw(), 0xFFFF_0FFF_FFFF);
+        let late = TimeDifference { milliseconds: MILLISECONDS + 1, days: 0 };
+        assert_eq!(TimeDifference::encode(late, &mut [0; 8]), Err(OutOfRange));
+    }
+
+    #[test]
+    fn days_count_before_milliseconds() {
+        assert!(TimeOfDay { milliseconds: 9, days: 1 } < TimeOfDay { milliseconds: 0, days: 2 });
+    }
+}

@@ -1,0 +1,185 @@
+//! Integers of the widths that Rust has no type for.
+
+use crate::data_type::DataType;
+use crate::error::{LengthError, OutOfRange};
+use crate::pdo::{mask, sign_extend};
+use crate::range::Range;
+use crate::value::{decode_raw, encode_raw, Fixed, Value};
+
+/// An unsigned integer of `BITS` bits, 1 to 63. Any other width doesn't compile:
+///
+/// ```compile_fail,E0080
+/// const _: u64 = lexibus::Uint::<64>::MAX.get();
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct Uint<const BITS: u32>(u64);
+
+/// A signed integer of `BITS` bits, 1 to 63, in two's complement. Any other width doesn't compile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub struct Int<const BITS: u32>(i64);
+
+const fn checked_width(bits: u32) -> u32 {
+    assert!(bits >= 1 && bits <= 63, "the width of an integer is 1 to 63 bits");
+    bits
+}
+
+impl<const BITS: u32> Uint<BITS> {
+    const WIDTH: u32 = checked_width(BITS);
+
+    /// The smallest value, 0.
+    pub const MIN: Self = Self::from_raw(0);
+
+    /// The largest value.
+    pub const MAX: Self = Self::from_raw(u64::MAX);
+
+    /// The number, or `None` where it doesn't fit in `BITS` bits.
+    #[must_use]
+    pub const fn new(value: u64) -> Option<Self> {
+        let cut = Self::from_raw(value);
+        if cut.0 == value {
+            Some(cut)
+        } else {
+            None
+        }
+    }
+
+    /// The number.
+    #[must_use]
+    pub const fn get(self) -> u64 {
+        self.0
+    }
+
+    /// The low `BITS` bits of `raw`; the others are ignored.
+    #[must_use]
+    pub const fn from_raw(raw: u64) -> Self {
+        Self(raw & mask(Self::WIDTH))
+    }
+
+    /// The bits of the number, in the low `BITS` bits; the others are 0.
+    #[must_use]
+    pub const fn raw(self) -> u64 {
+        self.0
+    }
+}
+
+impl<const BITS: u32> Int<BITS> {
+    const WIDTH: u32 = checked_width(BITS);
+
+    /// The smallest value.
+    pub const MIN: Self = Self::from_raw(1 << (Self::WIDTH - 1));
+
+    /// The largest value.
+    pub const MAX: Self = Self::from_raw(mask(Self::WIDTH - 1));
+
+    /// The number, or `None` where it doesn't fit in `BITS` bits.
+    #[must_use]
+    pub const fn new(value: i64) -> Option<Self> {
+        let cut = Self::from_raw(value as u64);
+        if cut.0 == value {
+            Some(cut)
+        } else {
+            None
+        }
+    }
+
+    /// The number.
+    #[must_use]
+    pub const fn get(self) -> i64 {
+        self.0
+    }
+
+    /// The low `BITS` bits of `raw`, of which the highest is the sign; the others are ignored.
+    #[must_use]
+    pub const fn from_raw(raw: u64) -> Self {
+        Self(sign_extend(raw, Self::WIDTH))
+    }
+
+    /// The bits of the number, in the low `BITS` bits; the others are 0.
+    #[must_use]
+    pub const fn raw(self) -> u64 {
+        self.0 as u64 & mask(Self::WIDTH)
+    }
+}
+
+macro_rules! wide {
+    ($($wide:ident, $bits:literal, $native:ty, $data_type:ident;)*) => {$(
+        impl Value for $wide<$bits> {
+            type Native = $native;
+            const DATA_TYPE: DataType = DataType::$data_type;
+        }
+
+        impl Fixed for $wide<$bits> {
+            const BITS: u32 = $bits;
+
+            #[inline]
+            fn encode(native: $native, buffer: &mut [u8; 8]) -> Result<usize, OutOfRange> {
+                let value = Self::new(native.into()).ok_or(OutOfRange)?;
+                Ok(encode_raw(value.raw(), $bits, buffer))
+            }
+
+            #[inline]
+            fn decode(bytes: &[u8]) -> Result<$native, LengthError> {
+                decode_raw(bytes, $bits).map(|raw| Self::from_raw(raw).get() as $native)
+            }
+
+            #[inline]
+            fn in_range(value: $native, range: &Range<$native>) -> bool {
+                range.contains(value)
+            }
+        }
+    )*};
+}
+
+wide! {
+    Uint, 24, u32, Unsigned24;
+    Uint, 40, u64, Unsigned40;
+    Uint, 48, u64, Unsigned48;
+    Uint, 56, u64, Unsigned56;
+    Int, 24, i32, Integer24;
+    Int, 40, i64, Integer40;
+    Int, 48, i64, Integer48;
+    Int, 56, i64, Integer56;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits() {
+        assert_eq!(Uint::<3>::MAX.get(), 7);
+        assert_eq!(Uint::<3>::new(8), None);
+        assert_eq!(Uint::<63>::MAX.get(), u64::MAX >> 1);
+        assert_eq!((Int::<3>::MIN.get(), Int::<3>::MAX.get()), (-4, 3));
+        assert_eq!((Int::<1>::MIN.get(), Int::<1>::MAX.get()), (-1, 0));
+        assert_eq!(Int::<63>::MIN.get(), i64::MIN >> 1);
+        assert_eq!(Int::<3>::new(4), None);
+        assert_eq!(Int::<3>::new(-5), None);
+    }
+
+    #[test]
+    fn raw_bits() {
+        assert_eq!(Int::<24>::from_raw(0xAAFF_FFFE).get(), -2);
+        assert_eq!(Int::<24>::from_raw(0xAAFF_FFFE).raw(), 0x00FF_FFFE);
+        assert_eq!(Uint::<12>::from_raw(0xFABC).get(), 0xABC);
+    }
+
+    #[test]
+    fn wide_values_travel() {
+        let mut buffer = [0xAA; 8];
+        assert_eq!(<Int<24> as Fixed>::encode(-2, &mut buffer), Ok(3));
+        assert_eq!(buffer[..3], [0xFE, 0xFF, 0xFF]);
+        assert_eq!(<Int<24> as Fixed>::decode(&buffer[..3]), Ok(-2));
+        assert_eq!(<Uint<40> as Fixed>::encode(0x12_3456_789A, &mut buffer), Ok(5));
+        assert_eq!(<Uint<40> as Fixed>::decode(&buffer[..5]), Ok(0x12_3456_789A));
+        assert_eq!(<Uint<56> as Fixed>::decode(&[0; 8]), Err(LengthError { expected: 7, actual: 8 }));
+    }
+
+    #[test]
+    fn what_does_not_fit_is_refused() {
+        let mut buffer = [0; 8];
+        assert_eq!(<Uint<24> as Fixed>::encode(1 << 24, &mut buffer), Err(OutOfRange));
+        assert_eq!(<Int<24> as Fixed>::encode(1 << 23, &mut buffer), Err(OutOfRange));
+        assert_eq!(<Int<48> as Fixed>::encode(-(1 << 47), &mut buffer), Ok(6));
+    }
+}
