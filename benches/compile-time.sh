@@ -22,7 +22,7 @@ median_ms() { # SOURCE
     done | sort -n | sed -n "$(((runs + 1) / 2))p"
 }
 
-entries=$("$target/release/lexibus" info --format json "$input" | sed 's/.*"entries":\([0-9]*\).*/\1/')
+entries=$("$target/release/lexibus" info --format json "$input" | grep -o '"entries":[0-9]*' | head -n 1 | cut -d: -f2)
 echo '#![no_std] extern crate lexibus;' > "$work/empty.rs"
 empty=$(median_ms "$work/empty.rs")
 for kind in handles accessors; do

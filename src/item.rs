@@ -6,6 +6,7 @@ use core::marker::PhantomData;
 use crate::accessor::Accessor;
 use crate::flags::Flags;
 use crate::initial::Initial;
+use crate::location::OnCanOpen;
 use crate::range::Range;
 use crate::value::Value;
 
@@ -80,6 +81,20 @@ impl<V: Value, A, L> Item<V, A, L> {
     }
 }
 
+impl<V: Value, A> Item<V, A, OnCanOpen> {
+    /// An entry of a CANopen object dictionary of which nothing else is known.
+    #[must_use]
+    pub const fn object(index: u16, sub_index: u8, name: &'static str) -> Self {
+        Self::new(OnCanOpen::canopen(index, sub_index), name, Range::Full, Initial::Unknown, "", Flags::NONE)
+    }
+
+    /// An entry of a CANopen object dictionary that has the value `default` after power-on.
+    #[must_use]
+    pub const fn object_with_default(index: u16, sub_index: u8, name: &'static str, default: V::Native) -> Self {
+        Self::new(OnCanOpen::canopen(index, sub_index), name, Range::Full, Initial::Value(default), "", Flags::NONE)
+    }
+}
+
 // Derived, these would ask for `V: Copy` and `A: Copy`.
 impl<V: Value, A, L: Copy> Copy for Item<V, A, L> {}
 
@@ -109,7 +124,7 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{OnCanOpen, Rw, VisibleString};
+    use crate::{Rw, VisibleString};
     use std::format;
 
     const SPEED: Item<u32, Rw, OnCanOpen> = Item::new(

@@ -55,7 +55,9 @@ fn source(records: usize) -> Source {
 #[divan::bench(args = SIZES)]
 fn lex(bencher: Bencher<'_, '_>, records: usize) {
     let text = eds(records);
-    bencher.counter(BytesCount::new(text.len())).bench(|| Document::parse(divan::black_box(&text), FileId(0)).entry_count());
+    bencher
+        .counter(BytesCount::new(text.len()))
+        .bench(|| Document::parse(divan::black_box(&text), FileId(0)).entry_count());
 }
 
 #[divan::bench(args = SIZES)]
@@ -70,13 +72,12 @@ fn lex_and_lower(bencher: Bencher<'_, '_>, records: usize) {
 #[divan::bench(args = SIZES)]
 fn passes(bencher: Bencher<'_, '_>, records: usize) {
     let catalog = compile::read(source(records), &Options::default()).catalog.expect("a catalogue");
-    bencher
-        .with_inputs(|| catalog.clone())
-        .input_counter(move |_| ItemsCount::new(records * 9))
-        .bench_values(|mut catalog| {
+    bencher.with_inputs(|| catalog.clone()).input_counter(move |_| ItemsCount::new(records * 9)).bench_values(
+        |mut catalog| {
             passes::check(&mut catalog, &mut Diagnostics::default());
             catalog
-        });
+        },
+    );
 }
 
 /// All of reading: bytes to checked IR.

@@ -242,7 +242,9 @@ fn comment_lines_and_hash_lines_are_all_accounted_for() {
         let own = document.sections().iter().flat_map(|section| document.entries(section)).chain(document.preamble());
         let ours: BTreeSet<(u32, &str)> =
             own.filter(|entry| document.is_comment(entry)).map(|entry| (entry.line, document.value(entry))).collect();
-        let behind_header = |line: &str| header(line).map(|(_, rest)| trimmed(rest.trim_start_matches([';', '#']))).unwrap_or("").to_owned();
+        let behind_header = |line: &str| {
+            header(line).map(|(_, rest)| trimmed(rest.trim_start_matches([';', '#']))).unwrap_or("").to_owned()
+        };
         let mut expected: BTreeSet<(u32, String)> = BTreeSet::new();
         expected.extend(marked(';').map(|((_, line), number)| (number, trimmed(&trimmed(line)[1..]).to_owned())));
         expected.extend(all.iter().zip(1u32..).map(|((_, line), number)| (number, behind_header(line))));

@@ -19,7 +19,11 @@ fn corpus() -> Option<Vec<PathBuf>> {
 
 /// `prettyplease` drops comments that are no documentation: the header is all that we have of them.
 fn without_header(text: &str) -> String {
-    text.lines().skip_while(|line| line.starts_with("//")).skip_while(|line| line.is_empty()).map(|line| format!("{line}\n")).collect()
+    text.lines()
+        .skip_while(|line| line.starts_with("//"))
+        .skip_while(|line| line.is_empty())
+        .map(|line| format!("{line}\n"))
+        .collect()
 }
 
 fn assert_canonical(name: &str, text: &str) {

@@ -20,4 +20,5 @@
 
 /// An imaginary CiA 402 drive (`dictionaries/demo-drive.eds`).
 #[cfg(feature = "demo-drive")]
+#[rustfmt::skip]
 pub mod demo_drive;

@@ -150,7 +150,10 @@ mod tests {
         assert_eq!(detect("a.txt", "[1000]\nObjectType=7"), Ok(Format::Eds));
         assert_eq!(detect("a.txt", "[FileInfo]\nLastEDS=x\n"), Ok(Format::Dcf));
         assert_eq!(detect("a.eds", "$ EZ-EDS\n[File]\nDescText=\"x\";\n[Device]\nVendCode=1;"), Err("EDS001"));
-        assert_eq!(detect("a.eds", " <?xml version=\"1.0\"?><!-- <x> --><c:ISO15745ProfileContainer a=''>"), Ok(Format::Xdd));
+        assert_eq!(
+            detect("a.eds", " <?xml version=\"1.0\"?><!-- <x> --><c:ISO15745ProfileContainer a=''>"),
+            Ok(Format::Xdd)
+        );
         assert_eq!(detect("a.eds", ""), Err("IO002"));
         assert_eq!(detect("a.xdc", "set_max_delay -from [get_pins x]"), Err("IO002"));
         assert_eq!(detect("a.xml", "<html>"), Err("IO002"));

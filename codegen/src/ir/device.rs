@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    CodeTable, CompactString, Doubt, Extension, Framing, Group, LocalText, Message, Module, Procedure, ProcessData, Slot,
-    StateMachine, TypeDef, Value,
+    CodeTable, CompactString, Doubt, Extension, Framing, Group, LocalText, Message, Module, Procedure, ProcessData,
+    Slot, StateMachine, TypeDef, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -25,7 +25,7 @@ pub struct Device {
     pub commissioning: Option<Box<Commissioning>>,
     /// Types that it defines.
     pub types: Vec<TypeDef>,
-    /// Its objects or chapters of registers; objects are sorted by index.
+    /// Its chapters of registers, and then its objects, sorted by index.
     pub groups: Vec<Group>,
     /// Cyclic data.
     pub process_data: ProcessData,
@@ -56,12 +56,10 @@ pub struct Device {
 }
 
 impl Device {
-    /// The object with this index.
+    /// The object with this index. The objects have to be sorted, and to stand behind groups that are none.
     pub fn object(&self, index: u16) -> Option<&Group> {
-        match self.groups.binary_search_by_key(&Some(index), Group::index) {
-            Ok(position) => self.groups.get(position),
-            Err(_) => self.groups.iter().find(|group| group.index() == Some(index)),
-        }
+        let position = self.groups.binary_search_by_key(&Some(index), Group::index).ok()?;
+        self.groups.get(position)
     }
 
     /// The item at an index and sub-index.

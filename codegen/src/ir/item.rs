@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use super::{
-    Access, Availability, Behaviour, Binding, CompactString, Documentation, Doubt, Extension, Limits, LocalText, Mappable,
-    Quantity, Type, Value,
+    Access, Availability, Behaviour, Binding, CompactString, Documentation, Doubt, Extension, Limits, LocalText,
+    Mappable, Quantity, Type, Value,
 };
 use crate::source::{Origin, Span};
 

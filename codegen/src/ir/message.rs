@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Availability, CompactString, Documentation, Doubt, Direction, LocalText, Scale, Type, Value};
+use super::{Availability, CompactString, Direction, Documentation, Doubt, LocalText, Scale, Type, Value};
 use crate::source::Origin;
 
 /// A request and its reply.

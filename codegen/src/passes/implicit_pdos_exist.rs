@@ -63,7 +63,7 @@ fn communication(index: u16, number: u16, mask: u8, receive: bool) -> Group {
     let mut group =
         object(index, if receive { "RPDO communication parameter" } else { "TPDO communication parameter" });
     let subs = (1..=6u8).filter(|sub| mask >> (sub - 1) & 1 == 1);
-    let highest = subs.clone().last().unwrap_or(0);
+    let highest = subs.clone().next_back().unwrap_or(0);
     let count = Value::Int(i128::from(highest));
     group.items.push(item(index, 0, CompactString::const_new("NrOfObjects"), 8, Some(count)));
     for sub in subs {
@@ -112,10 +112,7 @@ mod tests {
         device.groups.push(Group::object(0x1401, ObjectCode::Record));
         run(&mut device);
         let indices: Vec<_> = device.groups.iter().filter_map(Group::index).collect();
-        assert_eq!(
-            indices,
-            [0x1400, 0x1401, 0x1402, 0x1403, 0x1404, 0x1600, 0x1602, 0x1603, 0x1604, 0x1800, 0x1A00]
-        );
+        assert_eq!(indices, [0x1400, 0x1401, 0x1402, 0x1403, 0x1404, 0x1600, 0x1602, 0x1603, 0x1604, 0x1800, 0x1A00]);
         let subs: Vec<_> = device.object(0x1400).unwrap().items.iter().filter_map(Item::object).collect();
         assert_eq!(subs, [(0x1400, 0), (0x1400, 1), (0x1400, 2), (0x1400, 3), (0x1400, 5)]);
         assert_eq!(device.entry(0x1400, 0).unwrap().default, Some(Value::Int(5)));

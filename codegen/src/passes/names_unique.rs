@@ -97,7 +97,8 @@ fn write(words: &[String], case: Case) -> String {
             }
             Case::Pascal => {
                 // Two numbers side by side must not become another number.
-                let digits = name.ends_with(|c: char| c.is_ascii_digit()) && word.starts_with(|c: char| c.is_ascii_digit());
+                let digits =
+                    name.ends_with(|c: char| c.is_ascii_digit()) && word.starts_with(|c: char| c.is_ascii_digit());
                 if digits {
                     name.push('_');
                 }
@@ -272,7 +273,10 @@ mod tests {
     #[test]
     fn equal_names_all_get_their_address() {
         assert_eq!(names(&[("A", "2000"), ("b", "2001"), ("a", "2002")]), ["a_2000", "b", "a_2002"]);
-        assert_eq!(names(&[("", "2000"), ("?!", "200A"), ("new", "2002")]), ["object_2000", "object_200_a", "new_2002"]);
+        assert_eq!(
+            names(&[("", "2000"), ("?!", "200A"), ("new", "2002")]),
+            ["object_2000", "object_200_a", "new_2002"]
+        );
     }
 
     #[test]

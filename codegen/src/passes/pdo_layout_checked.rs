@@ -5,7 +5,8 @@ use std::collections::{HashMap, HashSet};
 
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{
-    Access, CanOpenSettings, Device, Direction, Group, Item, Mappable, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Type, Value,
+    Access, CanOpenSettings, Device, Direction, Group, Item, Mappable, Pdo, PdoCommunication, PdoEntry, PdoEntryKind,
+    Type, Value,
 };
 use crate::source::Span;
 

@@ -37,7 +37,11 @@ impl Span {
 
     /// This span where it points somewhere, else `other`.
     pub fn or(self, other: Span) -> Span {
-        if self.is_empty() { other } else { self }
+        if self.is_empty() {
+            other
+        } else {
+            self
+        }
     }
 }
 

@@ -206,12 +206,7 @@ impl<'a> Document<'a> {
         if let Some(section) = self.sections.last_mut() {
             section.last_entry = next;
         }
-        self.sections.push(Section {
-            name: (name.0 as u32, name.1 as u32),
-            line,
-            first_entry: next,
-            last_entry: next,
-        });
+        self.sections.push(Section { name: (name.0 as u32, name.1 as u32), line, first_entry: next, last_entry: next });
         if let Some(mark) = comment {
             self.comment(mark, last, line);
         }
@@ -242,11 +237,7 @@ impl<'a> Document<'a> {
     }
 
     fn push(&mut self, key: (usize, usize), value: (usize, usize), line: u32) {
-        self.entries.push(Entry {
-            key: (key.0 as u32, key.1 as u32),
-            value: (value.0 as u32, value.1 as u32),
-            line,
-        });
+        self.entries.push(Entry { key: (key.0 as u32, key.1 as u32), value: (value.0 as u32, value.1 as u32), line });
     }
 
     fn odd(&mut self, oddity: Oddity, start: usize, end: usize) {

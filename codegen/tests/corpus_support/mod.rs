@@ -6,6 +6,9 @@
 // Each test is a program of its own and uses its part of this module.
 #![allow(dead_code)]
 
+pub mod number;
+pub mod reading;
+
 use std::path::{Path, PathBuf};
 
 /// One file of the corpus.

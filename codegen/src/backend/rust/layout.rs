@@ -173,7 +173,10 @@ mod tests {
     #[test]
     fn long_groups_break_from_the_outside() {
         let name = "n".repeat(70);
-        assert_eq!(fit(&format!("    {name}(«aaaaaaaa¦ f(«b»)»);\n")), format!("    {name}(\n        aaaaaaaa,\n        f(b),\n    );\n"));
+        assert_eq!(
+            fit(&format!("    {name}(«aaaaaaaa¦ f(«b»)»);\n")),
+            format!("    {name}(\n        aaaaaaaa,\n        f(b),\n    );\n")
+        );
         let line = format!("fn {name}(«&mut self») -> f<«u8»> {{\n");
         assert_eq!(fit(&line), format!("fn {name}(\n    &mut self,\n) -> f<u8> {{\n"));
     }

@@ -37,7 +37,10 @@ pub(super) fn bytes(bytes: &[u8]) -> String {
 
 /// Letters and digits of any script, and the signs of units.
 pub(super) fn is_harmless(letter: char) -> bool {
-    letter.is_ascii_graphic() || letter == ' ' || letter.is_alphanumeric() || matches!(letter, '°' | 'µ' | '±' | '·' | '€')
+    letter.is_ascii_graphic()
+        || letter == ' '
+        || letter.is_alphanumeric()
+        || matches!(letter, '°' | 'µ' | '±' | '·' | '€')
 }
 
 /// A REAL32 or REAL64 literal; `None` for a number that the type doesn't have.

@@ -53,7 +53,7 @@ pub(super) fn models(device: &Device, options: &RustOptions) -> Vec<PdoModel> {
 
 fn model(device: &Device, pdo: &Pdo, options: &RustOptions) -> Option<PdoModel> {
     let mapped: Vec<&PdoEntry> = pdo.entries.iter().filter(|entry| is_field(entry)).collect();
-    let has_odd_bytes = mapped.iter().any(|entry| entry.bits > WORD && entry.bits % 8 != 0);
+    let has_odd_bytes = mapped.iter().any(|entry| entry.bits > WORD && !entry.bits.is_multiple_of(8));
     if mapped.is_empty() || has_odd_bytes {
         return None;
     }
@@ -90,10 +90,16 @@ fn is_field(entry: &PdoEntry) -> bool {
     entry.kind != PdoEntryKind::Padding && entry.bits > 0
 }
 
+/// All bits that come back from unpacking and packing: a time has four reserved bits that don't.
 fn covered(mapped: &[&PdoEntry]) -> String {
+    const TIME: u64 = 0xFFFF_0FFF_FFFF;
     let mut covered: u64 = 0;
     for entry in mapped.iter().filter(|entry| entry.bit_offset + entry.bits <= WORD) {
-        covered |= (u64::MAX >> (WORD - entry.bits)) << entry.bit_offset;
+        let bits = match field_type(entry) {
+            FieldType::Time(_) => TIME,
+            _ => u64::MAX >> (WORD - entry.bits),
+        };
+        covered |= bits << entry.bit_offset;
     }
     format!("{covered:#X}").replace("0X", "0x")
 }
@@ -132,7 +138,11 @@ fn field_text(device: &Device, entry: &PdoEntry) -> String {
     if group.object_code().is_some_and(|code| code.has_subs()) || group.items.len() != 1 {
         let own = entry.name.as_str();
         // Compact objects repeat the object's name in that of each entry.
-        if own.starts_with(group.name.as_str()) { own.to_owned() } else { format!("{} {own}", group.name) }
+        if own.starts_with(group.name.as_str()) {
+            own.to_owned()
+        } else {
+            format!("{} {own}", group.name)
+        }
     } else {
         group.name.to_string()
     }
@@ -159,7 +169,7 @@ fn field_type(entry: &PdoEntry) -> FieldType {
         Type::TimeOfDay if is_whole => FieldType::Time("rt::TimeOfDay"),
         Type::TimeDifference if is_whole => FieldType::Time("rt::TimeDifference"),
         Type::Integer(_) if bits <= WORD => integer(true, bits),
-        Type::VisibleString(_) | Type::OctetString(_) | Type::UnicodeString(_) | Type::Domain if bits % 8 == 0 => {
+        Type::VisibleString(_) | Type::OctetString(_) | Type::UnicodeString(_) | Type::Domain if bits.is_multiple_of(8) => {
             FieldType::Bytes(bits / 8)
         }
         _ if bits > WORD => FieldType::Bytes(bits / 8),
@@ -197,19 +207,24 @@ fn field(entry: &PdoEntry, name: &str, text: &str) -> FieldModel {
             let name = if signed { "rt::Int" } else { "rt::Uint" };
             (format!("{name}<{bits}>"), format!("{own}.raw()"), format!("{name}::from_raw(§)"))
         }
-        FieldType::Real(32) => ("f32".to_owned(), format!("{own}.to_bits() as u64"), "f32::from_bits(§ as u32)".to_owned()),
+        FieldType::Real(32) => {
+            ("f32".to_owned(), format!("{own}.to_bits() as u64"), "f32::from_bits(§ as u32)".to_owned())
+        }
         FieldType::Real(_) => ("f64".to_owned(), format!("{own}.to_bits()"), "f64::from_bits(§)".to_owned()),
         FieldType::Time(path) => (path.to_owned(), format!("{own}.raw()"), format!("{path}::from_raw(§)")),
-        FieldType::Bytes(length) => (
-            format!("[u8; {length}]"),
-            format!("rt::pdo::from_bytes(&{own})"),
-            "rt::pdo::to_bytes(§)".to_owned(),
-        ),
+        FieldType::Bytes(length) => {
+            (format!("[u8; {length}]"), format!("rt::pdo::from_bytes(&{own})"), "rt::pdo::to_bytes(§)".to_owned())
+        }
     };
-    let facts = format!("0x{:04X}:{:02X}, {} bits from bit {}.", entry.index, entry.sub_index, entry.bits, entry.bit_offset);
+    let facts =
+        format!("0x{:04X}:{:02X}, {} bits from bit {}.", entry.index, entry.sub_index, entry.bits, entry.bit_offset);
     let title = docs::escape(text);
     FieldModel {
-        docs: if title.is_empty() { vec![facts] } else { vec![format!("{}: {facts}", title.trim_end_matches(['.', ':']))] },
+        docs: if title.is_empty() {
+            vec![facts]
+        } else {
+            vec![format!("{}: {facts}", title.trim_end_matches(['.', ':']))]
+        },
         name,
         ty,
         encode,
@@ -220,9 +235,22 @@ fn field(entry: &PdoEntry, name: &str, text: &str) -> FieldModel {
     }
 }
 
+impl PdoModel {
+    /// `name: value` for each field, from the frame's bytes.
+    pub(super) fn unpacked(&self) -> Vec<String> {
+        let value = |field: &FieldModel| if self.word { field.unpack_word() } else { field.unpack_data() };
+        self.fields.iter().map(|field| format!("{}: {}", field.name, value(field))).collect()
+    }
+
+    /// Whether `prettyplease` would leave the struct on one line: of 34 bytes, eight are `Self { ` and the blank at its end.
+    pub(super) fn is_short(&self) -> bool {
+        self.unpacked().join(", ").len() <= 34 - 8
+    }
+}
+
 impl FieldModel {
     /// The field from `word`, which has all bits of the PDO.
-    pub(super) fn from_word(&self) -> String {
+    pub(super) fn unpack_word(&self) -> String {
         let shifted = if self.offset == 0 { "word".to_owned() } else { format!("word >> {}", self.offset) };
         let in_parentheses = self.decode.contains("(§)") || self.decode == "§";
         let bits = if self.offset == 0 || in_parentheses { shifted } else { format!("({shifted})") };
@@ -235,7 +263,7 @@ impl FieldModel {
     }
 
     /// The field from `data`, for PDOs of more than a word.
-    pub(super) fn from_data(&self) -> String {
+    pub(super) fn unpack_data(&self) -> String {
         if self.long {
             return format!("rt::bits::get_bytes(data, {})", self.offset);
         }
@@ -244,7 +272,7 @@ impl FieldModel {
     }
 
     /// The statement that puts the field into `data`, for PDOs of more than a word.
-    pub(super) fn into_data(&self) -> String {
+    pub(super) fn pack_data(&self) -> String {
         if self.long {
             return format!("data = rt::bits::put_bytes(data, {}, &self.{});", self.offset, self.name);
         }
@@ -301,4 +329,3 @@ fn mapping_writes(device: &Device, pdo: &Pdo) -> Vec<String> {
 fn write(ty: &str, index: u16, sub: u8, value: &str) -> String {
     format!("rt::SdoWrite::new_{ty}(0x{index:04X}, 0x{sub:02X}, {value})")
 }
-

@@ -144,6 +144,14 @@ fn radix(digits: &str, radix: u32) -> Option<i128> {
     if bytes.is_empty() || bytes.len() > 40 {
         return None;
     }
+    // Nearly every number is this short, and arithmetic of 128 bits is slow.
+    if bytes.len() <= 15 {
+        let mut value = 0u64;
+        for &byte in bytes {
+            value = value * u64::from(radix) + u64::from((byte as char).to_digit(radix)?);
+        }
+        return Some(value.into());
+    }
     let mut value: i128 = 0;
     for &byte in bytes {
         let digit = (byte as char).to_digit(radix)?;
@@ -209,6 +217,9 @@ mod tests {
         assert_eq!(quirk("10UL"), Some(Quirk::CSuffix));
         assert_eq!(int("18446744073709551615"), Some(u64::MAX.into()));
         assert_eq!(int("+5"), Some(5));
+        assert_eq!(int("0xFFFFFFFFFFFFFFF"), Some(0x0FFF_FFFF_FFFF_FFFF));
+        assert_eq!(int("0xFFFFFFFFFFFFFFFF"), Some(u64::MAX.into()));
+        assert_eq!(int("999999999999999"), Some(999_999_999_999_999));
     }
 
     #[test]

@@ -153,6 +153,7 @@ impl Converter<'_> {
             return Value::Bool(false);
         }
         let number = number::parse(text, self.aliases);
+        self.quirk(number, text, span);
         match number.int() {
             Some(0) => Value::Bool(false),
             Some(1) => Value::Bool(true),
@@ -183,6 +184,10 @@ impl Converter<'_> {
         }
         match number::parse(text, self.aliases).parsed {
             Parsed::NodeId(offset) => Value::NodeId(offset),
+            Parsed::UnknownFormula => {
+                self.unknown_formula(text, span);
+                raw(text)
+            }
             _ => self.illegal(text, span, ty),
         }
     }
@@ -231,11 +236,16 @@ impl Converter<'_> {
     /// A time as the number that its 48 bits make, the milliseconds in the lower 28.
     fn time(&mut self, text: &str, span: Span, ty: Type) -> Value {
         let number = number::parse(text, self.aliases);
-        match number.int() {
-            Some(value) if (0..1 << 48).contains(&value) => {
-                Value::Time { milliseconds: (value & 0x0FFF_FFFF) as u32, days: (value >> 32) as u16 }
+        self.quirk(number, text, span);
+        let Some(value) = number.int() else { return self.illegal(text, span, ty) };
+        let (milliseconds, days) = (value & 0xFFFF_FFFF, value >> 32);
+        match u16::try_from(days) {
+            Ok(days) if milliseconds < 1 << 28 => Value::Time { milliseconds: milliseconds as u32, days },
+            _ => {
+                let message = format!("{text} is no {ty}, which has 28 bits of milliseconds and 16 of days above 32");
+                self.report(&codes::OUT_OF_TYPE, span, message, "kept as text");
+                raw(text)
             }
-            _ => self.illegal(text, span, ty),
         }
     }
 

@@ -43,12 +43,7 @@ pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, 
 }
 
 /// Applies `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]`: their keys are decimal sub-indices.
-pub(super) fn refine(
-    reader: &mut Reader<'_, '_>,
-    group: &mut Group,
-    index: u16,
-    sections: &[(Refinement, Section)],
-) {
+pub(super) fn refine(reader: &mut Reader<'_, '_>, group: &mut Group, index: u16, sections: &[(Refinement, Section)]) {
     for (refinement, section) in sections {
         let extensions = &mut group.extensions;
         let entries = lists::by_sub_index(reader, section, |reader, entry| {

@@ -112,13 +112,7 @@ fn file_info(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device
 }
 
 /// Reports which of the entries `mandatory` weren't seen.
-fn missing(
-    reader: &mut Reader<'_, '_>,
-    section: &Section,
-    keys: &[&str],
-    seen: &[Option<Entry>],
-    mandatory: &[usize],
-) {
+fn missing(reader: &mut Reader<'_, '_>, section: &Section, keys: &[&str], seen: &[Option<Entry>], mandatory: &[usize]) {
     for &which in mandatory {
         if seen[which].as_ref().is_none_or(|entry| reader.doc.value(entry).is_empty()) {
             reader.missing_entry(section, keys[which]);

@@ -54,7 +54,9 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
     if sorted.is_empty() {
         reader.diagnostics.push(
             Diagnostic::new(&codes::NOT_AN_EDS, Span::new(file, 0, 0), "this is no EDS: it has no section of CiA 306")
-                .help("an EDS has [FileInfo], [DeviceInfo], object lists, and a section for each object, such as [1000]"),
+                .help(
+                    "an EDS has [FileInfo], [DeviceInfo], object lists, and a section for each object, such as [1000]",
+                ),
         );
         return None;
     }
@@ -87,12 +89,8 @@ impl Sorted {
     fn new(reader: &mut Reader<'_, '_>) -> Self {
         let doc = reader.doc;
         let count = doc.sections().len();
-        let mut sorted = Sorted {
-            header: Vec::new(),
-            objects: Vec::with_capacity(count),
-            modules: Vec::new(),
-            unknown: Vec::new(),
-        };
+        let mut sorted =
+            Sorted { header: Vec::new(), objects: Vec::with_capacity(count), modules: Vec::new(), unknown: Vec::new() };
         for section in doc.sections() {
             let name = doc.name(section);
             let (kind, legal) = sections::classify(name);

@@ -162,8 +162,7 @@ fn extended_object(reader: &mut Reader<'_, '_>, index: u16, span: Span, device: 
     if let Some(code) = object.object_code().filter(|code| !code.has_subs()) {
         let message = format!("0x{index:04X} of the device is a {}, which has no sub-indices", code.name());
         reader.diagnostics.push(
-            Diagnostic::new(&codes::SUB_EXTEND, span, message)
-                .note_at(object.origin.span, "it is described here"),
+            Diagnostic::new(&codes::SUB_EXTEND, span, message).note_at(object.origin.span, "it is described here"),
         );
     }
 }
@@ -176,12 +175,7 @@ fn clash(reader: &mut Reader<'_, '_>, group: &Group, device: &Device) {
     );
 }
 
-fn sub_extension(
-    reader: &mut Reader<'_, '_>,
-    index: u16,
-    sections: &[Section],
-    module: &mut Module,
-) -> SubExtension {
+fn sub_extension(reader: &mut Reader<'_, '_>, index: u16, sections: &[Section], module: &mut Module) -> SubExtension {
     reader.duplicate_sections(sections);
     let mut raw = reader.raw_with(sections, &["Count", "ObjExtend"]);
     let mut template = reader.item(index, 1, &raw, ObjectCode::Var);

@@ -58,24 +58,28 @@ pub(super) enum Key {
 /// Number of keywords.
 const KEYS: usize = 15;
 
-/// The keyword that is spelt `key`, in any case. Their lengths tell most of them apart.
+/// The keyword that is spelt `key`, in any case. Length and first letter leave one candidate, or two.
 fn keyword(key: &str) -> Option<Key> {
-    let candidates: &[(&str, Key)] = match key.len() {
-        8 => &[("DataType", Key::DataType), ("LowLimit", Key::LowLimit), ("ObjFlags", Key::ObjFlags)],
-        9 => &[("HighLimit", Key::HighLimit), ("SubNumber", Key::SubNumber)],
-        10 => &[
-            ("ObjectType", Key::ObjectType),
-            ("AccessType", Key::AccessType),
-            ("PDOMapping", Key::PdoMapping),
-            ("Denotation", Key::Denotation),
-            ("UploadFile", Key::UploadFile),
-        ],
-        12 => &[("DefaultValue", Key::DefaultValue), ("DownloadFile", Key::DownloadFile)],
-        13 => &[("ParameterName", Key::ParameterName), ("CompactSubObj", Key::CompactSubObj)],
-        14 => &[("ParameterValue", Key::ParameterValue)],
-        _ => &[],
+    let bytes = key.as_bytes();
+    let (name, keyword) = match (bytes.len(), bytes.first()? | 0x20) {
+        (8, b'd') => ("DataType", Key::DataType),
+        (8, b'l') => ("LowLimit", Key::LowLimit),
+        (8, b'o') => ("ObjFlags", Key::ObjFlags),
+        (9, b'h') => ("HighLimit", Key::HighLimit),
+        (9, b's') => ("SubNumber", Key::SubNumber),
+        (10, b'o') => ("ObjectType", Key::ObjectType),
+        (10, b'a') => ("AccessType", Key::AccessType),
+        (10, b'p') => ("PDOMapping", Key::PdoMapping),
+        (10, b'd') => ("Denotation", Key::Denotation),
+        (10, b'u') => ("UploadFile", Key::UploadFile),
+        (12, b'd') if bytes[1] | 0x20 == b'e' => ("DefaultValue", Key::DefaultValue),
+        (12, b'd') => ("DownloadFile", Key::DownloadFile),
+        (13, b'p') => ("ParameterName", Key::ParameterName),
+        (13, b'c') => ("CompactSubObj", Key::CompactSubObj),
+        (14, b'p') => ("ParameterValue", Key::ParameterValue),
+        _ => return None,
     };
-    candidates.iter().find(|(name, _)| name.eq_ignore_ascii_case(key)).map(|&(_, keyword)| keyword)
+    (name == key || name.eq_ignore_ascii_case(key)).then_some(keyword)
 }
 
 /// Keywords of one value, which say nothing about an object whose values are its sub-indices.
@@ -118,8 +122,7 @@ impl<'a> Reader<'a, '_> {
 
     /// The same with the further keywords `more`, of which there are two at most.
     pub(super) fn raw_with(&mut self, sections: &[Section], more: &[&str]) -> Raw {
-        let mut raw =
-            Raw { fields: [None; KEYS], more: [None; 2], extensions: Vec::new(), origin: Origin::default() };
+        let mut raw = Raw { fields: [None; KEYS], more: [None; 2], extensions: Vec::new(), origin: Origin::default() };
         let Some(first) = sections.first() else { return raw };
         raw.origin = Origin { span: self.doc.name_span(first), line: first.line };
         for section in sections {
@@ -158,9 +161,13 @@ impl<'a> Reader<'a, '_> {
             let (sub, first) = sections.subs[0];
             group.origin = Origin { span: self.doc.name_span(&first), line: first.line };
             self.diagnostics.push(
-                Diagnostic::new(&codes::ORPHAN_SUB, group.origin.span, format!("[{index:04X}sub{sub:X}] has no object"))
-                    .label(format!("there is no section [{index:04X}]"))
-                    .help("a RECORD was made to hold it; describe the object with ObjectType and SubNumber"),
+                Diagnostic::new(
+                    &codes::ORPHAN_SUB,
+                    group.origin.span,
+                    format!("[{index:04X}sub{sub:X}] has no object"),
+                )
+                .label(format!("there is no section [{index:04X}]"))
+                .help("a RECORD was made to hold it; describe the object with ObjectType and SubNumber"),
             );
         }
         self.name(raw.get(Key::ParameterName), &mut group.name, &mut group.name_at);
@@ -290,8 +297,7 @@ impl<'a> Reader<'a, '_> {
             Some(7) => ObjectCode::Var,
             _ => {
                 let message = format!("`{text}` is no object type of a sub-index");
-                self.diagnostics
-                    .push(Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, span, message).label("read as VAR"));
+                self.diagnostics.push(Diagnostic::new(&codes::UNKNOWN_OBJECT_TYPE, span, message).label("read as VAR"));
                 ObjectCode::Var
             }
         }
@@ -565,5 +571,40 @@ impl<'a> Reader<'a, '_> {
             );
             self.orphan_sections.push(*section);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keywords_in_any_case_and_nothing_else() {
+        const ALL: [(&str, Key); KEYS] = [
+            ("ParameterName", Key::ParameterName),
+            ("ObjectType", Key::ObjectType),
+            ("SubNumber", Key::SubNumber),
+            ("DataType", Key::DataType),
+            ("AccessType", Key::AccessType),
+            ("DefaultValue", Key::DefaultValue),
+            ("PDOMapping", Key::PdoMapping),
+            ("LowLimit", Key::LowLimit),
+            ("HighLimit", Key::HighLimit),
+            ("ObjFlags", Key::ObjFlags),
+            ("CompactSubObj", Key::CompactSubObj),
+            ("ParameterValue", Key::ParameterValue),
+            ("Denotation", Key::Denotation),
+            ("UploadFile", Key::UploadFile),
+            ("DownloadFile", Key::DownloadFile),
+        ];
+        for (position, (name, key)) in ALL.iter().enumerate() {
+            assert_eq!(*key as usize, position);
+            for spelling in [name.to_string(), name.to_lowercase(), name.to_uppercase()] {
+                assert!(keyword(&spelling) == Some(*key), "{spelling}");
+            }
+            assert!(keyword(&name[1..]).is_none() && keyword(&format!("{name}s")).is_none(), "{name}");
+            assert!(keyword(&format!("{}_", &name[..name.len() - 1])).is_none(), "{name}");
+        }
+        assert!(keyword("").is_none() && keyword("d\u{e9}faultvalu").is_none());
     }
 }

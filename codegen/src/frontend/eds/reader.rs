@@ -78,8 +78,7 @@ impl<'a, 'd> Reader<'a, 'd> {
             _ => None,
         };
         if let Some((code, message)) = found {
-            self.diagnostics
-                .push(Diagnostic::new(code, rest, message).label(format!("the value is `{kept}`")).fix(""));
+            self.diagnostics.push(Diagnostic::new(code, rest, message).label(format!("the value is `{kept}`")).fix(""));
         }
         let comment = text[cut + 1..].trim();
         if !comment.is_empty() {

@@ -89,7 +89,11 @@ fn classify_object(name: &str) -> Option<(Kind, bool)> {
         Some("0x" | "0X") => (&name[2..], true),
         _ => (name, false),
     };
-    let length = digits.bytes().take_while(u8::is_ascii_hexdigit).count();
+    let mut length = digits.bytes().take_while(u8::is_ascii_hexdigit).count();
+    // `De` are digits, too.
+    if length == 6 && digits[4..].eq_ignore_ascii_case("Denotation") {
+        length = 4;
+    }
     // `[DeviceInfo]` starts with hexadecimal digits, too: only four of them make an index, or more with leading zeros.
     if length == 0 || length > 8 {
         return None;
@@ -174,6 +178,8 @@ mod tests {
             assert!(!classify(name).1, "{name}");
         }
         assert_eq!(classify("2000Value"), (Kind::Refinement(0x2000, Refinement::Value), true));
+        assert_eq!(classify("2000Denotation"), (Kind::Refinement(0x2000, Refinement::Denotation), true));
+        assert_eq!(classify("2000 name"), (Kind::Refinement(0x2000, Refinement::Name), false));
         assert_eq!(classify("2000objectlinks"), (Kind::Links(0x2000), true));
     }
 

@@ -1,0 +1,82 @@
+//! Runs `rustc`, or clippy where it is installed, over generated code.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::OnceLock;
+
+/// Compiles `bindings` as the module of a `no_std` crate in which every warning is an error.
+///
+/// # Errors
+///
+/// What the compiler printed.
+pub fn compile(name: &str, bindings: &str) -> Result<(), String> {
+    static NUMBER: AtomicUsize = AtomicUsize::new(0);
+    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+    let stem = folder().join(format!("{}_{number}", std::process::id()));
+    let (module, root) = (stem.with_extension("module.rs"), stem.with_extension("rs"));
+    let lints = "#![no_std]\n#![deny(warnings, missing_docs, clippy::all)]\n//! Bindings.\n/// The device.\n";
+    std::fs::write(&module, bindings).expect("a temporary file");
+    std::fs::write(&root, format!("{lints}pub mod device {{\n    include!({module:?});\n}}\n")).expect("a temporary file");
+    let output = compiler()
+        .args(["--edition", "2021", "--crate-type", "lib", "--emit", "metadata", "--crate-name", "bindings", "-o"])
+        .arg(stem.with_extension("rmeta"))
+        .arg("--extern")
+        .arg(format!("lexibus={}", runtime().display()))
+        .arg(&root)
+        .output()
+        .expect("the compiler runs");
+    for path in [&module, &root, &stem.with_extension("rmeta")] {
+        let _ = std::fs::remove_file(path);
+    }
+    if output.status.success() {
+        return Ok(());
+    }
+    let text = String::from_utf8_lossy(&output.stderr);
+    Err(format!("{name} doesn't compile:\n{}", text.lines().take(40).collect::<Vec<_>>().join("\n")))
+}
+
+fn folder() -> &'static Path {
+    static FOLDER: OnceLock<PathBuf> = OnceLock::new();
+    FOLDER.get_or_init(|| {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("generated-code");
+        std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+        folder
+    })
+}
+
+/// Clippy's driver is `rustc` with more lints; it needs the libraries of the toolchain that it belongs to.
+fn compiler() -> Command {
+    static PROGRAM: OnceLock<(PathBuf, PathBuf)> = OnceLock::new();
+    let (program, libraries) = PROGRAM.get_or_init(|| {
+        let output = Command::new("rustc").args(["--print", "sysroot"]).output().expect("rustc runs");
+        let sysroot = PathBuf::from(String::from_utf8_lossy(&output.stdout).trim());
+        let clippy = sysroot.join("bin/clippy-driver");
+        if clippy.is_file() {
+            return (clippy, sysroot.join("lib"));
+        }
+        eprintln!("clippy isn't installed: generated code is checked by rustc alone");
+        (sysroot.join("bin/rustc"), sysroot.join("lib"))
+    });
+    let mut command = Command::new(program);
+    command.env("LD_LIBRARY_PATH", libraries);
+    command
+}
+
+/// The runtime's metadata, made once.
+fn runtime() -> &'static Path {
+    static RUNTIME: OnceLock<PathBuf> = OnceLock::new();
+    RUNTIME.get_or_init(|| {
+        let path = folder().join(format!("liblexibus-{}.rmeta", std::process::id()));
+        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src/lib.rs");
+        let status = Command::new("rustc")
+            .args(["--edition", "2021", "--crate-type", "lib", "--emit", "metadata", "--crate-name", "lexibus", "-o"])
+            .arg(&path)
+            .arg(&source)
+            .args(["--cap-lints", "allow"])
+            .status()
+            .expect("rustc runs");
+        assert!(status.success(), "the runtime doesn't compile");
+        path
+    })
+}

@@ -1,0 +1,63 @@
+//! Numbers, formulas and octets of CiA 306, read without the compiler's help.
+
+/// A number, or `$NODEID` and a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Number {
+    Plain(i128),
+    NodeId(i128),
+}
+
+/// Reads a number or a formula in any case and order of its terms (E13 to E17).
+pub fn number(text: &str) -> Option<Number> {
+    if !text.contains('$') {
+        return plain(text).map(Number::Plain);
+    }
+    let is_node_id = |term: &&str| term.trim().eq_ignore_ascii_case("$NODEID");
+    let (node_ids, others): (Vec<&str>, Vec<&str>) = text.split('+').partition(is_node_id);
+    let offsets: Option<Vec<i128>> = others.into_iter().map(|term| plain(term.trim())).collect();
+    (node_ids.len() == 1).then_some(Number::NodeId(offsets?.into_iter().sum()))
+}
+
+/// Decimal, `0x` hexadecimal, or octal with a leading zero (E02); decimal where that can't be octal (E03).
+pub fn plain(text: &str) -> Option<i128> {
+    if let Some(rest) = text.strip_prefix('-') {
+        return unsigned(rest).map(|value| -value);
+    }
+    unsigned(text)
+}
+
+fn unsigned(text: &str) -> Option<i128> {
+    if let Some(digits) = hex_digits(text) {
+        return in_base(digits, 16);
+    }
+    if text.len() > 1 && text.starts_with('0') {
+        return in_base(text, 8).or_else(|| in_base(text, 10));
+    }
+    in_base(text, 10)
+}
+
+/// What follows `0x`.
+pub fn hex_digits(text: &str) -> Option<&str> {
+    text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))
+}
+
+fn in_base(digits: &str, base: u32) -> Option<i128> {
+    let only_digits = !digits.is_empty() && digits.chars().all(|digit| digit.is_digit(base));
+    only_digits.then(|| i128::from_str_radix(digits, base).ok()).flatten()
+}
+
+/// Pairs of hexadecimal digits, with or without `0x` and blanks (E53).
+pub fn octets(text: &str) -> Option<Vec<u8>> {
+    let digits: String = hex_digits(text).unwrap_or(text).split_ascii_whitespace().collect();
+    if !digits.len().is_multiple_of(2) || !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
+        return None;
+    }
+    (0..digits.len()).step_by(2).map(|at| u8::from_str_radix(&digits[at..at + 2], 16).ok()).collect()
+}
+
+/// A decimal real number, or the bits of one: exactly as many hexadecimal digits as it has (E51).
+pub fn real(text: &str, bits: usize) -> Option<f64> {
+    let Some(digits) = hex_digits(text) else { return text.parse().ok() };
+    let pattern = u64::from_str_radix(digits, 16).ok().filter(|_| digits.len() == bits / 4)?;
+    Some(if bits == 32 { f64::from(f32::from_bits(pattern as u32)) } else { f64::from_bits(pattern) })
+}

@@ -1,0 +1,112 @@
+//! What an EDS says of its objects, read line by line without the compiler's help.
+
+use std::collections::BTreeMap;
+
+use super::number::plain;
+use super::{entry, header, lines};
+
+/// One `Key=Value` line.
+#[derive(Clone, Debug)]
+pub struct Fact {
+    pub line: u32,
+    /// As the file spells it.
+    pub key: String,
+    pub value: String,
+}
+
+/// All sections of one name.
+#[derive(Default)]
+pub struct Section {
+    /// The lines of its headers.
+    pub headers: Vec<u32>,
+    /// Every value of a key, by the key in lower case.
+    pub facts: BTreeMap<String, Vec<Fact>>,
+}
+
+impl Section {
+    /// The value that counts: the last (E28).
+    pub fn get(&self, key: &str) -> Option<&Fact> {
+        self.facts.get(key)?.last()
+    }
+
+    /// The value that counts, without a comment; missing where it is empty (E05).
+    pub fn text(&self, key: &str) -> Option<&str> {
+        Some(cut(&self.get(key)?.value).0).filter(|text| !text.is_empty())
+    }
+
+    /// The value that counts, as a number.
+    pub fn number(&self, key: &str) -> Option<i128> {
+        plain(self.text(key)?)
+    }
+}
+
+/// What follows the index in the name of a section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Part {
+    Object,
+    Sub(u8),
+    Name,
+    Value,
+    Denotation,
+    Links,
+}
+
+/// The sections of a file that are about objects.
+#[derive(Default)]
+pub struct Reading {
+    pub sections: BTreeMap<(u16, Part), Section>,
+}
+
+impl Reading {
+    pub fn of(text: &str) -> Self {
+        let mut reading = Reading::default();
+        let mut current = None;
+        for ((_, line), number) in lines(text).into_iter().zip(1..) {
+            if let Some((name, _)) = header(line) {
+                current = part_of(name);
+                if let Some(place) = current {
+                    reading.sections.entry(place).or_default().headers.push(number);
+                }
+            } else if let (Some(place), Some((key, value))) = (current, entry(line)) {
+                let facts = &mut reading.sections.entry(place).or_default().facts;
+                let fact = Fact { line: number, key: key.to_owned(), value: value.to_owned() };
+                facts.entry(key.to_ascii_lowercase()).or_default().push(fact);
+            }
+        }
+        reading
+    }
+
+    pub fn get(&self, index: u16, part: Part) -> Option<&Section> {
+        self.sections.get(&(index, part))
+    }
+
+    /// The sub-indices of an object that have sections of their own.
+    pub fn subs(&self, index: u16) -> Vec<u8> {
+        let of_object = self.sections.keys().filter(|(other, _)| *other == index);
+        of_object.filter_map(|(_, part)| if let Part::Sub(sub) = part { Some(*sub) } else { None }).collect()
+    }
+}
+
+/// `xxxx`, `xxxxsubN`, `xxxxName` and so on, in any case and with leading zeros (E24, E26, E41, E57).
+fn part_of(name: &str) -> Option<(u16, Part)> {
+    let name = name.to_ascii_lowercase();
+    let hex = |digits: &str| u32::from_str_radix(digits.trim(), 16).ok().filter(|_| !digits.starts_with('+'));
+    let named =
+        [("name", Part::Name), ("value", Part::Value), ("denotation", Part::Denotation), ("objectlinks", Part::Links)];
+    let (index, part) = if let Some((index, sub)) = name.split_once("sub") {
+        (hex(index)?, Part::Sub(hex(sub)?.try_into().ok()?))
+    } else if let Some((index, part)) = named.iter().find_map(|(end, part)| Some((name.strip_suffix(end)?, *part))) {
+        (hex(index)?, part)
+    } else {
+        (hex(&name)?, Part::Object)
+    };
+    Some((index.try_into().ok()?, part))
+}
+
+/// The value of a key of fixed form, and the comment behind it with its mark (E20, E21).
+pub fn cut(text: &str) -> (&str, &str) {
+    match text.find([';', '#']) {
+        Some(at) => (text[..at].trim_end(), &text[at..]),
+        None => (text, ""),
+    }
+}

@@ -1,0 +1,161 @@
+//! What the compiler emits passes `rustc` with every warning denied, and clippy.
+
+mod compile_support;
+
+use std::collections::HashSet;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+use compile_support::compile;
+use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::source::Source;
+use lexibus_codegen::{Presence, RustOptions};
+
+fn corpus() -> Option<Vec<PathBuf>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus/eds");
+    let Ok(entries) = std::fs::read_dir(&folder) else {
+        eprintln!("skipped: {} isn't there", folder.display());
+        return None;
+    };
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry of the corpus").path()).collect();
+    files.sort();
+    Some(files)
+}
+
+fn everything() -> RustOptions {
+    RustOptions { table: Presence::Always, ..RustOptions::default() }
+}
+
+/// The text below the header, which names the file and its digest.
+fn body(text: &str) -> &str {
+    text.split_once("\n\n").map_or(text, |(_, body)| body)
+}
+
+/// One file of the corpus: its bindings where it has any, else the diagnostic that says why not.
+fn bindings(path: &Path) -> Option<String> {
+    let options = Options { rust: everything(), ..Options::default() };
+    let bytes = std::fs::read(path).expect("a file of the corpus");
+    let compilation = check(Source::new(path.to_string_lossy(), bytes), &options);
+    let text = compilation.rust(&options.rust);
+    assert!(text.is_some() || compilation.diagnostics.has_errors(), "{}: rejected in silence", path.display());
+    text
+}
+
+#[test]
+fn every_file_of_the_corpus_compiles_or_is_rejected_with_a_reason() {
+    let Some(files) = corpus() else { return };
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let queue = Mutex::new((files.into_iter(), HashSet::new()));
+    let failures = Mutex::new(Vec::new());
+    let next = || {
+        let mut queue = queue.lock().expect("the queue");
+        loop {
+            let path = queue.0.next()?;
+            let Some(text) = bindings(&path) else { continue };
+            // Many files differ in nothing that shows in their bindings.
+            if queue.1.insert(body(&text).to_owned()) {
+                return Some((path, text));
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while let Some((path, text)) = next() {
+                    if let Err(message) = compile(&path.to_string_lossy(), &text) {
+                        failures.lock().expect("the failures").push(message);
+                    }
+                }
+            });
+        }
+    });
+    let compiled = queue.into_inner().expect("the queue").1.len();
+    let failures = failures.into_inner().expect("the failures");
+    assert!(failures.is_empty(), "{} of {compiled}:\n{}", failures.len(), failures.join("\n\n"));
+    assert!(compiled > 150, "only {compiled} different devices");
+}
+
+const NASTY_NAMES: &str = "[DeviceInfo]\nProductName=\n\
+    [2000]\nParameterName=type\nDataType=0x0005\nAccessType=rw\n\
+    [2001]\nParameterName=self\nDataType=0x0005\nAccessType=ro\n\
+    [2002]\nParameterName=\"\\\" */ } // {{ \u{202e}x\nDataType=0x0009\nAccessType=const\nDefaultValue=a\"b\\c\u{202e}\n\
+    [2003]\nParameterName=u32\nDataType=0x0007\nAccessType=rw\nDefaultValue=5\n\
+    [2004]\nParameterName=next\nDataType=0x0007\nAccessType=rw\n\
+    [2005]\nParameterName=from here to there\nDataType=0x0007\nAccessType=rw\n\
+    [2006]\nParameterName=objects\nObjectType=9\nSubNumber=3\n\
+    [2006sub0]\nParameterName=rt\nDataType=0x0005\nAccessType=ro\nDefaultValue=2\n\
+    [2006sub1]\nParameterName=crate\nDataType=0x0008\nAccessType=rw\nDefaultValue=3.14159\n\
+    [2006sub2]\nParameterName=Crate\nDataType=0x0011\nAccessType=rw\nLowLimit=-1.5\nHighLimit=2.718281828\n\
+    [2007]\nParameterName=\nObjectType=9\n[2007sub0]\nParameterName=\nDataType=5\nAccessType=ro\n\
+    [2008]\nParameterName=<b>[link](http://x) `code` #h\nDataType=0x000A\nAccessType=rw\nDefaultValue=00ff\n\
+    [2009]\nParameterName=union\nDataType=0x0010\nAccessType=rw\nDefaultValue=-5\nLowLimit=-8\nHighLimit=7\n\
+    [200A]\nParameterName=2nd \u{b5}s/\u{b0}C 100%\nDataType=0x001A\nAccessType=wo\n\
+    [200B]\nParameterName=time\nDataType=0x000C\nAccessType=rw\nDefaultValue=0x000100000002\n\
+    [200C]\nParameterName=client\nDataType=0x001B\nAccessType=rw\nDefaultValue=0xFFFFFFFFFFFFFFFF\n\
+    [200D]\nParameterName=\u{65e5}\u{672c}\nDataType=0x000B\nAccessType=rw\nDefaultValue=\u{65e5}\n\
+    [200E]\nParameterName=a very long name that goes on and on and on and says nothing, nothing at all, for ever and ever\n\
+    DataType=0x0007\nAccessType=rw\nDefaultValue=$NODEID+0x600\n";
+
+#[test]
+fn no_name_or_text_breaks_out_of_the_code() {
+    for accessors in [true, false] {
+        let options = Options { rust: RustOptions { accessors, ..everything() }, ..Options::default() };
+        let compilation = check(Source::new("nasty \"*/.eds", NASTY_NAMES.into()), &options);
+        let text = compilation.rust(&options.rust).expect("bindings");
+        compile("nasty names", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
+    }
+}
+
+/// PDOs with fields of every kind: single bits, odd widths, reals, times, texts, padding, more than 64 bits.
+#[test]
+fn pdos_of_every_shape_compile() {
+    let mut eds = String::from("[DeviceInfo]\nProductName=Shapes\nGranularity=1\nNrOfRXPDO=0\nNrOfTXPDO=4\n");
+    let types = [0x01, 0x02, 0x10, 0x15, 0x05, 0x16, 0x1B, 0x08, 0x11, 0x0C, 0x0A];
+    for (number, ty) in types.iter().enumerate() {
+        eds += &format!(
+            "[{:04X}]\nParameterName=Value {number}\nDataType=0x{ty:04X}\nAccessType=ro\nPDOMapping=1\n",
+            0x2000 + number
+        );
+    }
+    let mappings: [&[u32]; 4] = [
+        &[0x2000_0001, 0x2000_0001, 0x2004_0003, 0x0005_0008, 0x2001_0008, 0x2002_0018],
+        &[0x2007_0020, 0x2005_0018, 0x2004_0008],
+        &[0x2009_0030, 0x200A_0010],
+        &[0x2003_0040, 0x2006_0040, 0x2008_0040, 0x2000_0001, 0x200A_0058, 0x5000_000C],
+    ];
+    for (number, words) in mappings.iter().enumerate() {
+        let index = 0x1A00 + number;
+        eds += &format!("[{index:04X}]\nParameterName=Mapping\nObjectType=9\nSubNumber={}\n", words.len() + 1);
+        eds += &format!("[{index:04X}sub0]\nParameterName=n\nDataType=5\nAccessType=rw\nDefaultValue={}\n", words.len());
+        for (sub, word) in words.iter().enumerate() {
+            let section = format!("{index:04X}sub{:X}", sub + 1);
+            eds += &format!("[{section}]\nParameterName=e\nDataType=7\nAccessType=rw\nDefaultValue={word:#x}\n");
+        }
+    }
+    let options = Options { rust: everything(), ..Options::default() };
+    let compilation = check(Source::new("shapes.eds", eds.into_bytes()), &options);
+    let text = compilation.rust(&options.rust).expect("bindings");
+    for number in 1..=4 {
+        assert!(text.contains(&format!("pub struct TxPdo{number} ")), "{text}");
+    }
+    compile("shapes", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
+}
+
+#[test]
+fn optional_implementations_are_gated() {
+    let eds = std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries/demo-drive.eds")).expect("the demo");
+    let rust = RustOptions {
+        debug: Presence::Never,
+        partial_eq: Presence::Feature("eq".into()),
+        serde: Presence::Feature("serde".into()),
+        defmt: Presence::Feature("defmt".into()),
+        ..RustOptions::default()
+    };
+    let compilation = check(Source::new("demo-drive.eds", eds), &Options::default());
+    let text = compilation.rust(&rust).expect("bindings");
+    assert!(text.contains("#[derive(Clone, Copy)]\n    #[cfg_attr(feature = \"eq\", derive(PartialEq))]"));
+    assert!(text.contains("#[cfg_attr(feature = \"serde\", derive(serde::Serialize, serde::Deserialize))]"));
+    assert!(!text.contains("Debug"));
+    // A crate without these features would be warned of them; that is its own business.
+    compile("gated", &format!("#[allow(unexpected_cfgs)]\nmod inner {{\n{text}\n}}\npub use inner::*;\n")).expect("it compiles");
+}
