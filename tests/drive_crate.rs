@@ -1,21 +1,75 @@
-//! A drive crate, built and tested from its own folder as its author would.
+//! Drive crates, built from their own folders as their authors would.
 
-use std::path::Path;
-use std::process::Command;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Runs cargo in `folder`, which gets the versions that the workspace has, so that nothing is fetched anew.
+fn cargo(folder: &Path, arguments: &[&str]) -> Output {
+    std::fs::copy(root().join("Cargo.lock"), folder.join("Cargo.lock")).expect("the workspace's Cargo.lock");
+    Command::new(env!("CARGO"))
+        .args(arguments)
+        .current_dir(folder)
+        .env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("drive-crate"))
+        .output()
+        .expect("cargo runs")
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
 
 #[test]
 fn a_users_crate_compiles_and_its_tests_pass() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folder = root.join("tests/drive-crate");
-    // The same versions as the workspace has, and nothing to be fetched anew.
-    std::fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock")).expect("the workspace's Cargo.lock");
-    let output = Command::new(env!("CARGO"))
-        .args(["test", "--quiet", "--manifest-path", "Cargo.toml"])
-        .current_dir(&folder)
-        .env("CARGO_TARGET_DIR", Path::new(env!("CARGO_TARGET_TMPDIR")).join("drive-crate"))
-        .output()
-        .expect("cargo runs");
-    let (out, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
-    assert!(output.status.success(), "{out}\n{errors}");
+    let output = cargo(&root().join("tests/drive-crate"), &["test", "--quiet"]);
+    let out = text(&output.stdout);
+    assert!(output.status.success(), "{out}\n{}", text(&output.stderr));
     assert!(out.contains("5 passed"), "{out}");
+}
+
+/// A crate whose only content is a `dictionary!` over `eds`.
+fn macro_crate(name: &str, eds: &str, options: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(folder.join("src")).expect("a folder for temporary files");
+    let manifest = format!(
+        "[package]\nname = \"{name}\"\nversion = \"0.1.0\"\nedition = \"2021\"\n[workspace]\n[dependencies]\n\
+         lexibus = {{ path = {:?}, features = [\"macros\"] }}\n",
+        root()
+    );
+    std::fs::write(folder.join("Cargo.toml"), manifest).expect("a manifest");
+    std::fs::write(folder.join("valve.eds"), eds).expect("a description");
+    let code = format!("lexibus::dictionary! {{\n    pub mod valve = \"valve.eds\" {{ {options} }}\n}}\n");
+    std::fs::write(folder.join("src/lib.rs"), code).expect("a crate root");
+    folder
+}
+
+const VALVE: &str = "[DeviceInfo]\nProductName=Valve\n[2000]\nParameterName=Opening\nDataType=0x0005\nAccessType=rw\n\
+                     DefaultValue=012\n";
+
+#[test]
+fn the_macro_shows_the_line_of_an_error_at_its_path() {
+    let folder = macro_crate("macro-error", VALVE, "strict: true");
+    let output = cargo(&folder, &["check", "--quiet"]);
+    let errors = text(&output.stderr);
+    assert!(!output.status.success(), "a repair is an error in strict mode");
+    for part in ["error[EDS020]", "valve.eds:7:14", "DefaultValue=012", "src/lib.rs:2:21"] {
+        assert!(errors.contains(part), "`{part}` is missing:\n{errors}");
+    }
+}
+
+#[test]
+fn the_macro_warns_and_refuses_unknown_options() {
+    let folder = macro_crate("macro-warning", VALVE, "");
+    let output = cargo(&folder, &["check", "--quiet"]);
+    let warnings = text(&output.stderr);
+    assert!(output.status.success(), "{warnings}");
+    assert!(warnings.contains("warning") && warnings.contains("valve.eds:7:14: 012"), "{warnings}");
+
+    let folder = macro_crate("macro-option", VALVE, "colour: true");
+    let errors = text(&cargo(&folder, &["check", "--quiet"]).stderr);
+    assert!(errors.contains("there is no option `colour`"), "{errors}");
 }

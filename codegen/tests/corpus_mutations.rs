@@ -373,7 +373,7 @@ fn of_kind(xml: bool) -> Option<Vec<File>> {
 #[test]
 fn damaged_eds_files() {
     let Some(files) = of_kind(false) else { return };
-    hold(1500, 50, recipe(), |recipe| {
+    hold(1500, 90, recipe(), |recipe| {
         let file = &files[recipe.file.index(files.len())];
         let mut bytes = excerpt(&file.bytes, &recipe.from);
         recipe.edits.iter().for_each(|edit| apply(&mut bytes, edit, &files));
@@ -384,7 +384,7 @@ fn damaged_eds_files() {
 #[test]
 fn damaged_xml_files() {
     let Some(files) = of_kind(true) else { return };
-    hold(250, 0, recipe(), |recipe| {
+    hold(250, 5, recipe(), |recipe| {
         let file = &files[recipe.file.index(files.len())];
         let mut bytes = file.bytes.clone();
         recipe.edits.iter().for_each(|edit| apply(&mut bytes, edit, &files));
@@ -398,7 +398,7 @@ fn xml_files_with_other_values() {
     let Some(files) = of_kind(true) else { return };
     let harmless: Vec<&str> = WORDS.iter().copied().filter(|word| !word.contains(['<', '"', '&', '\0'])).collect();
     let values = vec((any::<Index>(), select(harmless)), 1..25);
-    hold(250, 50, (any::<Index>(), values), |(file, values)| {
+    hold(250, 70, (any::<Index>(), values), |(file, values)| {
         let file = &files[file.index(files.len())];
         let mut bytes = file.bytes.clone();
         for (at, word) in values {
@@ -411,7 +411,7 @@ fn xml_files_with_other_values() {
 #[test]
 fn truncated_files() {
     let Some(files) = files() else { return };
-    hold(500, 0, (any::<Index>(), any::<Index>()), |(file, at)| {
+    hold(500, 70, (any::<Index>(), any::<Index>()), |(file, at)| {
         let file = &files[file.index(files.len())];
         let longest = file.bytes.len().min(30_000);
         (file.name.clone(), file.bytes[..at.index(longest + 1)].to_vec())
@@ -422,7 +422,7 @@ fn truncated_files() {
 fn files_that_start_as_one_and_end_as_another() {
     let Some(files) = files() else { return };
     let part = || (any::<Index>(), any::<Index>(), 0..6_000usize);
-    hold(500, 0, vec(part(), 2..4), |parts| {
+    hold(500, 80, vec(part(), 2..4), |parts| {
         let name = files[parts[0].0.index(files.len())].name.clone();
         let mut bytes = Vec::new();
         for (position, (file, from, length)) in parts.iter().enumerate() {
@@ -549,7 +549,7 @@ fn texts_of_the_words_of_an_eds() {
         1 => select(WORDS).prop_map(str::to_owned),
         1 => "\\PC{0,20}".prop_map(|text| text + "\n"),
     ];
-    hold(1500, 50, (name(), vec(line, 0..120)), |(name, lines)| ((*name).to_owned(), lines.concat().into_bytes()));
+    hold(1500, 80, (name(), vec(line, 0..120)), |(name, lines)| ((*name).to_owned(), lines.concat().into_bytes()));
 }
 
 const ELEMENTS: &[&str] = &[
@@ -677,7 +677,7 @@ fn trees_of_the_elements_of_an_xdd() {
                           xsi:type=\"ProfileBody_CommunicationNetwork_CANopen\"><ApplicationLayers><CANopenObjectList>";
     const TAIL: &str =
         "</CANopenObjectList></ApplicationLayers></ProfileBody></ISO15745Profile></ISO15745ProfileContainer>";
-    hold(800, 50, (name(), vec(element(), 0..4), vec(element(), 0..4)), |(name, device, network)| {
+    hold(800, 95, (name(), vec(element(), 0..4), vec(element(), 0..4)), |(name, device, network)| {
         let text = format!("{HEAD}{}{MIDDLE}{}{TAIL}", device.concat(), network.concat());
         ((*name).to_owned(), text.into_bytes())
     });

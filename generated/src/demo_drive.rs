@@ -225,14 +225,12 @@ pub mod objects {
     pub type ConstantAccess<'c, C, V> = rt::Accessor<'c, C, V, rt::Const, rt::OnCanOpen>;
     /// Device type.
     ///
-    /// 0x1000:00, UNSIGNED32, ro, default 131474.
-    pub const DEVICE_TYPE: ReadOnly<u32> = ReadOnly::new(
-        rt::OnCanOpen::canopen(0x1000, 0x00),
+    /// 0x1000:00, UNSIGNED32, ro, default 0x20192.
+    pub const DEVICE_TYPE: ReadOnly<u32> = ReadOnly::object_with_default(
+        0x1000,
+        0x00,
         "Device type",
-        rt::Range::Full,
-        rt::Initial::Value(131474),
-        "",
-        rt::Flags::NONE,
+        0x20192,
     );
     /// Error register.
     ///
@@ -249,64 +247,48 @@ pub mod objects {
     ///
     /// ARRAY 0x1003.
     pub mod pre_defined_error_field {
-        use ::lexibus as rt;
         /// NrOfObjects.
         ///
         /// 0x1003:00, UNSIGNED8, ro, default 4.
-        pub const NR_OF_OBJECTS: super::ReadOnly<u8> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1003, 0x00),
+        pub const NR_OF_OBJECTS: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+            0x1003,
+            0x00,
             "NrOfObjects",
-            rt::Range::Full,
-            rt::Initial::Value(4),
-            "",
-            rt::Flags::NONE,
+            4,
         );
         /// Pre-defined error field1.
         ///
         /// 0x1003:01, UNSIGNED32, ro.
-        pub const PRE_DEFINED_ERROR_FIELD1: super::ReadOnly<u32> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1003, 0x01),
+        pub const PRE_DEFINED_ERROR_FIELD1: super::ReadOnly<u32> = super::ReadOnly::object(
+            0x1003,
+            0x01,
             "Pre-defined error field1",
-            rt::Range::Full,
-            rt::Initial::Unknown,
-            "",
-            rt::Flags::NONE,
         );
         /// Pre-defined error field2.
         ///
         /// 0x1003:02, UNSIGNED32, ro.
-        pub const PRE_DEFINED_ERROR_FIELD2: super::ReadOnly<u32> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1003, 0x02),
+        pub const PRE_DEFINED_ERROR_FIELD2: super::ReadOnly<u32> = super::ReadOnly::object(
+            0x1003,
+            0x02,
             "Pre-defined error field2",
-            rt::Range::Full,
-            rt::Initial::Unknown,
-            "",
-            rt::Flags::NONE,
         );
         /// Pre-defined error field3.
         ///
         /// 0x1003:03, UNSIGNED32, ro.
-        pub const PRE_DEFINED_ERROR_FIELD3: super::ReadOnly<u32> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1003, 0x03),
+        pub const PRE_DEFINED_ERROR_FIELD3: super::ReadOnly<u32> = super::ReadOnly::object(
+            0x1003,
+            0x03,
             "Pre-defined error field3",
-            rt::Range::Full,
-            rt::Initial::Unknown,
-            "",
-            rt::Flags::NONE,
         );
         /// Pre-defined error field4.
         ///
         /// 0x1003:04, UNSIGNED32, ro.
-        pub const PRE_DEFINED_ERROR_FIELD4: super::ReadOnly<u32> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1003, 0x04),
+        pub const PRE_DEFINED_ERROR_FIELD4: super::ReadOnly<u32> = super::ReadOnly::object(
+            0x1003,
+            0x04,
             "Pre-defined error field4",
-            rt::Range::Full,
-            rt::Initial::Unknown,
-            "",
-            rt::Flags::NONE,
         );
         /// Access to the entries of Pre-defined error field: 0x1003.
-        #[derive(Debug)]
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -344,65 +326,53 @@ pub mod objects {
     /// COB-ID SYNC message.
     ///
     /// 0x1005:00, UNSIGNED32, rw, default 128.
-    pub const COB_ID_SYNC_MESSAGE: ReadWrite<u32> = ReadWrite::new(
-        rt::OnCanOpen::canopen(0x1005, 0x00),
+    pub const COB_ID_SYNC_MESSAGE: ReadWrite<u32> = ReadWrite::object_with_default(
+        0x1005,
+        0x00,
         "COB-ID SYNC message",
-        rt::Range::Full,
-        rt::Initial::Value(128),
-        "",
-        rt::Flags::NONE,
+        128,
     );
     /// Manufacturer device name.
     ///
     /// 0x1008:00, VISIBLE_STRING, const, default "Demo Drive".
-    pub const MANUFACTURER_DEVICE_NAME: Constant<rt::VisibleString> = Constant::new(
-        rt::OnCanOpen::canopen(0x1008, 0x00),
+    pub const MANUFACTURER_DEVICE_NAME: Constant<rt::VisibleString> = Constant::object_with_default(
+        0x1008,
+        0x00,
         "Manufacturer device name",
-        rt::Range::Full,
-        rt::Initial::Value("Demo Drive"),
-        "",
-        rt::Flags::NONE,
+        "Demo Drive",
     );
     /// Manufacturer software version.
     ///
     /// 0x100A:00, VISIBLE_STRING, const, default "1.0".
-    pub const MANUFACTURER_SOFTWARE_VERSION: Constant<rt::VisibleString> = Constant::new(
-        rt::OnCanOpen::canopen(0x100A, 0x00),
+    pub const MANUFACTURER_SOFTWARE_VERSION: Constant<rt::VisibleString> = Constant::object_with_default(
+        0x100A,
+        0x00,
         "Manufacturer software version",
-        rt::Range::Full,
-        rt::Initial::Value("1.0"),
-        "",
-        rt::Flags::NONE,
+        "1.0",
     );
     /// Store parameters.
     ///
     /// ARRAY 0x1010.
     pub mod store_parameters {
-        use ::lexibus as rt;
         /// Highest sub-index supported.
         ///
         /// 0x1010:00, UNSIGNED8, ro, default 1.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1010, 0x00),
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+            0x1010,
+            0x00,
             "Highest sub-index supported",
-            rt::Range::Full,
-            rt::Initial::Value(1),
-            "",
-            rt::Flags::NONE,
+            1,
         );
         /// Save all parameters.
         ///
         /// 0x1010:01, UNSIGNED32, rw, default 1.
-        pub const SAVE_ALL_PARAMETERS: super::ReadWrite<u32> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1010, 0x01),
+        pub const SAVE_ALL_PARAMETERS: super::ReadWrite<u32> = super::ReadWrite::object_with_default(
+            0x1010,
+            0x01,
             "Save all parameters",
-            rt::Range::Full,
-            rt::Initial::Value(1),
-            "",
-            rt::Flags::NONE,
+            1,
         );
         /// Access to the entries of Store parameters: 0x1010.
-        #[derive(Debug)]
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -433,76 +403,61 @@ pub mod objects {
     /// Producer heartbeat time.
     ///
     /// 0x1017:00, UNSIGNED16, rw, default 0.
-    pub const PRODUCER_HEARTBEAT_TIME: ReadWrite<u16> = ReadWrite::new(
-        rt::OnCanOpen::canopen(0x1017, 0x00),
+    pub const PRODUCER_HEARTBEAT_TIME: ReadWrite<u16> = ReadWrite::object_with_default(
+        0x1017,
+        0x00,
         "Producer heartbeat time",
-        rt::Range::Full,
-        rt::Initial::Value(0),
-        "",
-        rt::Flags::NONE,
+        0,
     );
     /// Identity object.
     ///
     /// RECORD 0x1018.
     pub mod identity_object {
-        use ::lexibus as rt;
         /// Highest sub-index supported.
         ///
         /// 0x1018:00, UNSIGNED8, ro, default 4.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1018, 0x00),
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+            0x1018,
+            0x00,
             "Highest sub-index supported",
-            rt::Range::Full,
-            rt::Initial::Value(4),
-            "",
-            rt::Flags::NONE,
+            4,
         );
         /// Vendor-ID.
         ///
         /// 0x1018:01, UNSIGNED32, ro, default 0.
-        pub const VENDOR_ID: super::ReadOnly<u32> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1018, 0x01),
+        pub const VENDOR_ID: super::ReadOnly<u32> = super::ReadOnly::object_with_default(
+            0x1018,
+            0x01,
             "Vendor-ID",
-            rt::Range::Full,
-            rt::Initial::Value(0),
-            "",
-            rt::Flags::NONE,
+            0,
         );
         /// Product code.
         ///
         /// 0x1018:02, UNSIGNED32, ro, default 16417.
-        pub const PRODUCT_CODE: super::ReadOnly<u32> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1018, 0x02),
+        pub const PRODUCT_CODE: super::ReadOnly<u32> = super::ReadOnly::object_with_default(
+            0x1018,
+            0x02,
             "Product code",
-            rt::Range::Full,
-            rt::Initial::Value(16417),
-            "",
-            rt::Flags::NONE,
+            16417,
         );
         /// Revision number.
         ///
-        /// 0x1018:03, UNSIGNED32, ro, default 65536.
-        pub const REVISION_NUMBER: super::ReadOnly<u32> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1018, 0x03),
+        /// 0x1018:03, UNSIGNED32, ro, default 0x10000.
+        pub const REVISION_NUMBER: super::ReadOnly<u32> = super::ReadOnly::object_with_default(
+            0x1018,
+            0x03,
             "Revision number",
-            rt::Range::Full,
-            rt::Initial::Value(65536),
-            "",
-            rt::Flags::NONE,
+            0x10000,
         );
         /// Serial number.
         ///
         /// 0x1018:04, UNSIGNED32, ro.
-        pub const SERIAL_NUMBER: super::ReadOnly<u32> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1018, 0x04),
+        pub const SERIAL_NUMBER: super::ReadOnly<u32> = super::ReadOnly::object(
+            0x1018,
+            0x04,
             "Serial number",
-            rt::Range::Full,
-            rt::Initial::Unknown,
-            "",
-            rt::Flags::NONE,
         );
         /// Access to the entries of Identity object: 0x1018.
-        #[derive(Debug)]
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -539,13 +494,11 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1400:00, UNSIGNED8, ro, default 2.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1400, 0x00),
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+            0x1400,
+            0x00,
             "Highest sub-index supported",
-            rt::Range::Full,
-            rt::Initial::Value(2),
-            "",
-            rt::Flags::NONE,
+            2,
         );
         /// COB-ID.
         ///
@@ -561,16 +514,13 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1400:02, UNSIGNED8, rw, default 255.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1400, 0x02),
+        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+            0x1400,
+            0x02,
             "Transmission type",
-            rt::Range::Full,
-            rt::Initial::Value(255),
-            "",
-            rt::Flags::NONE,
+            255,
         );
         /// Access to the entries of RPDO 1 communication: 0x1400.
-        #[derive(Debug)]
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -599,13 +549,11 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1401:00, UNSIGNED8, ro, default 2.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1401, 0x00),
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+            0x1401,
+            0x00,
             "Highest sub-index supported",
-            rt::Range::Full,
-            rt::Initial::Value(2),
-            "",
-            rt::Flags::NONE,
+            2,
         );
         /// COB-ID.
         ///
@@ -621,16 +569,13 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1401:02, UNSIGNED8, rw, default 1.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1401, 0x02),
+        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+            0x1401,
+            0x02,
             "Transmission type",
-            rt::Range::Full,
-            rt::Initial::Value(1),
-            "",
-            rt::Flags::NONE,
+            1,
         );
         /// Access to the entries of RPDO 2 communication: 0x1401.
-        #[derive(Debug)]
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -655,31 +600,25 @@ pub mod objects {
     ///
     /// RECORD 0x1600.
     pub mod rpdo_1_mapping {
-        use ::lexibus as rt;
         /// Number of mapped objects.
         ///
         /// 0x1600:00, UNSIGNED8, rw, default 1.
-        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1600, 0x00),
+        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+            0x1600,
+            0x00,
             "Number of mapped objects",
-            rt::Range::Full,
-            rt::Initial::Value(1),
-            "",
-            rt::Flags::NONE,
+            1,
         );
         /// Mapped object 1.
         ///
-        /// 0x1600:01, UNSIGNED32, rw, default 1614807056.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1600, 0x01),
+        /// 0x1600:01, UNSIGNED32, rw, default 0x60400010.
+        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWrite::object_with_default(
+            0x1600,
+            0x01,
             "Mapped object 1",
-            rt::Range::Full,
-            rt::Initial::Value(1614807056),
-            "",
-            rt::Flags::NONE,
+            0x60400010,
         );
         /// Access to the entries of RPDO 1 mapping: 0x1600.
-        #[derive(Debug)]
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -700,42 +639,34 @@ pub mod objects {
     ///
     /// RECORD 0x1601.
     pub mod rpdo_2_mapping {
-        use ::lexibus as rt;
         /// Number of mapped objects.
         ///
         /// 0x1601:00, UNSIGNED8, rw, default 2.
-        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1601, 0x00),
+        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+            0x1601,
+            0x00,
             "Number of mapped objects",
-            rt::Range::Full,
-            rt::Initial::Value(2),
-            "",
-            rt::Flags::NONE,
+            2,
         );
         /// Mapped object 1.
         ///
-        /// 0x1601:01, UNSIGNED32, rw, default 1614807056.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1601, 0x01),
+        /// 0x1601:01, UNSIGNED32, rw, default 0x60400010.
+        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWrite::object_with_default(
+            0x1601,
+            0x01,
             "Mapped object 1",
-            rt::Range::Full,
-            rt::Initial::Value(1614807056),
-            "",
-            rt::Flags::NONE,
+            0x60400010,
         );
         /// Mapped object 2.
         ///
-        /// 0x1601:02, UNSIGNED32, rw, default 1618608160.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<u32> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1601, 0x02),
+        /// 0x1601:02, UNSIGNED32, rw, default 0x607A0020.
+        pub const MAPPED_OBJECT_2: super::ReadWrite<u32> = super::ReadWrite::object_with_default(
+            0x1601,
+            0x02,
             "Mapped object 2",
-            rt::Range::Full,
-            rt::Initial::Value(1618608160),
-            "",
-            rt::Flags::NONE,
+            0x607A0020,
         );
         /// Access to the entries of RPDO 2 mapping: 0x1601.
-        #[derive(Debug)]
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -764,13 +695,11 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1800:00, UNSIGNED8, ro, default 2.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1800, 0x00),
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+            0x1800,
+            0x00,
             "Highest sub-index supported",
-            rt::Range::Full,
-            rt::Initial::Value(2),
-            "",
-            rt::Flags::NONE,
+            2,
         );
         /// COB-ID.
         ///
@@ -786,16 +715,13 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1800:02, UNSIGNED8, rw, default 255.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1800, 0x02),
+        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+            0x1800,
+            0x02,
             "Transmission type",
-            rt::Range::Full,
-            rt::Initial::Value(255),
-            "",
-            rt::Flags::NONE,
+            255,
         );
         /// Access to the entries of TPDO 1 communication: 0x1800.
-        #[derive(Debug)]
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -824,13 +750,11 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1801:00, UNSIGNED8, ro, default 2.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x1801, 0x00),
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+            0x1801,
+            0x00,
             "Highest sub-index supported",
-            rt::Range::Full,
-            rt::Initial::Value(2),
-            "",
-            rt::Flags::NONE,
+            2,
         );
         /// COB-ID.
         ///
@@ -846,16 +770,13 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1801:02, UNSIGNED8, rw, default 1.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1801, 0x02),
+        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+            0x1801,
+            0x02,
             "Transmission type",
-            rt::Range::Full,
-            rt::Initial::Value(1),
-            "",
-            rt::Flags::NONE,
+            1,
         );
         /// Access to the entries of TPDO 2 communication: 0x1801.
-        #[derive(Debug)]
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -880,31 +801,25 @@ pub mod objects {
     ///
     /// RECORD 0x1A00.
     pub mod tpdo_1_mapping {
-        use ::lexibus as rt;
         /// Number of mapped objects.
         ///
         /// 0x1A00:00, UNSIGNED8, rw, default 1.
-        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1A00, 0x00),
+        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+            0x1A00,
+            0x00,
             "Number of mapped objects",
-            rt::Range::Full,
-            rt::Initial::Value(1),
-            "",
-            rt::Flags::NONE,
+            1,
         );
         /// Mapped object 1.
         ///
-        /// 0x1A00:01, UNSIGNED32, rw, default 1614872592.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1A00, 0x01),
+        /// 0x1A00:01, UNSIGNED32, rw, default 0x60410010.
+        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWrite::object_with_default(
+            0x1A00,
+            0x01,
             "Mapped object 1",
-            rt::Range::Full,
-            rt::Initial::Value(1614872592),
-            "",
-            rt::Flags::NONE,
+            0x60410010,
         );
         /// Access to the entries of TPDO 1 mapping: 0x1A00.
-        #[derive(Debug)]
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -925,42 +840,34 @@ pub mod objects {
     ///
     /// RECORD 0x1A01.
     pub mod tpdo_2_mapping {
-        use ::lexibus as rt;
         /// Number of mapped objects.
         ///
         /// 0x1A01:00, UNSIGNED8, rw, default 2.
-        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1A01, 0x00),
+        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+            0x1A01,
+            0x00,
             "Number of mapped objects",
-            rt::Range::Full,
-            rt::Initial::Value(2),
-            "",
-            rt::Flags::NONE,
+            2,
         );
         /// Mapped object 1.
         ///
-        /// 0x1A01:01, UNSIGNED32, rw, default 1614872592.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1A01, 0x01),
+        /// 0x1A01:01, UNSIGNED32, rw, default 0x60410010.
+        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWrite::object_with_default(
+            0x1A01,
+            0x01,
             "Mapped object 1",
-            rt::Range::Full,
-            rt::Initial::Value(1614872592),
-            "",
-            rt::Flags::NONE,
+            0x60410010,
         );
         /// Mapped object 2.
         ///
-        /// 0x1A01:02, UNSIGNED32, rw, default 1617166368.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<u32> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x1A01, 0x02),
+        /// 0x1A01:02, UNSIGNED32, rw, default 0x60640020.
+        pub const MAPPED_OBJECT_2: super::ReadWrite<u32> = super::ReadWrite::object_with_default(
+            0x1A01,
+            0x02,
             "Mapped object 2",
-            rt::Range::Full,
-            rt::Initial::Value(1617166368),
-            "",
-            rt::Flags::NONE,
+            0x60640020,
         );
         /// Access to the entries of TPDO 2 mapping: 0x1A01.
-        #[derive(Debug)]
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -984,35 +891,27 @@ pub mod objects {
     /// Motor temperature.
     ///
     /// 0x2000:00, REAL32, ro.
-    pub const MOTOR_TEMPERATURE: ReadOnly<f32> = ReadOnly::new(
-        rt::OnCanOpen::canopen(0x2000, 0x00),
+    pub const MOTOR_TEMPERATURE: ReadOnly<f32> = ReadOnly::object(
+        0x2000,
+        0x00,
         "Motor temperature",
-        rt::Range::Full,
-        rt::Initial::Unknown,
-        "",
-        rt::Flags::NONE,
     );
     /// Application name.
     ///
     /// 0x2001:00, VISIBLE_STRING, rw, default "axis".
-    pub const APPLICATION_NAME: ReadWrite<rt::VisibleString> = ReadWrite::new(
-        rt::OnCanOpen::canopen(0x2001, 0x00),
+    pub const APPLICATION_NAME: ReadWrite<rt::VisibleString> = ReadWrite::object_with_default(
+        0x2001,
+        0x00,
         "Application name",
-        rt::Range::Full,
-        rt::Initial::Value("axis"),
-        "",
-        rt::Flags::NONE,
+        "axis",
     );
     /// Firmware image.
     ///
     /// 0x2002:00, DOMAIN, wo.
-    pub const FIRMWARE_IMAGE: WriteOnly<rt::Domain> = WriteOnly::new(
-        rt::OnCanOpen::canopen(0x2002, 0x00),
+    pub const FIRMWARE_IMAGE: WriteOnly<rt::Domain> = WriteOnly::object(
+        0x2002,
+        0x00,
         "Firmware image",
-        rt::Range::Full,
-        rt::Initial::Unknown,
-        "",
-        rt::Flags::NONE,
     );
     /// Analogue inputs.
     ///
@@ -1022,13 +921,11 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x2010:00, UNSIGNED8, ro, default 2.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x2010, 0x00),
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+            0x2010,
+            0x00,
             "Highest sub-index supported",
-            rt::Range::Full,
-            rt::Initial::Value(2),
-            "",
-            rt::Flags::NONE,
+            2,
         );
         /// Input 1.
         ///
@@ -1053,7 +950,6 @@ pub mod objects {
             rt::Flags::TPDO,
         );
         /// Access to the entries of Analogue inputs: 0x2010.
-        #[derive(Debug)]
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -1077,13 +973,10 @@ pub mod objects {
     /// Encoder counts.
     ///
     /// 0x2020:00, INTEGER24, ro.
-    pub const ENCODER_COUNTS: ReadOnly<rt::Int<24>> = ReadOnly::new(
-        rt::OnCanOpen::canopen(0x2020, 0x00),
+    pub const ENCODER_COUNTS: ReadOnly<rt::Int<24>> = ReadOnly::object(
+        0x2020,
+        0x00,
         "Encoder counts",
-        rt::Range::Full,
-        rt::Initial::Unknown,
-        "",
-        rt::Flags::NONE,
     );
     /// Controlword.
     ///
@@ -1155,42 +1048,34 @@ pub mod objects {
     ///
     /// ARRAY 0x607D.
     pub mod software_position_limit {
-        use ::lexibus as rt;
         /// Highest sub-index supported.
         ///
         /// 0x607D:00, UNSIGNED8, ro, default 2.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x607D, 0x00),
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+            0x607D,
+            0x00,
             "Highest sub-index supported",
-            rt::Range::Full,
-            rt::Initial::Value(2),
-            "",
-            rt::Flags::NONE,
+            2,
         );
         /// Min position limit.
         ///
-        /// 0x607D:01, INTEGER32, rw, default \-1000000.
-        pub const MIN_POSITION_LIMIT: super::ReadWrite<i32> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x607D, 0x01),
+        /// 0x607D:01, INTEGER32, rw, default -1000000.
+        pub const MIN_POSITION_LIMIT: super::ReadWrite<i32> = super::ReadWrite::object_with_default(
+            0x607D,
+            0x01,
             "Min position limit",
-            rt::Range::Full,
-            rt::Initial::Value(-1000000),
-            "",
-            rt::Flags::NONE,
+            -1000000,
         );
         /// Max position limit.
         ///
         /// 0x607D:02, INTEGER32, rw, default 1000000.
-        pub const MAX_POSITION_LIMIT: super::ReadWrite<i32> = super::ReadWrite::new(
-            rt::OnCanOpen::canopen(0x607D, 0x02),
+        pub const MAX_POSITION_LIMIT: super::ReadWrite<i32> = super::ReadWrite::object_with_default(
+            0x607D,
+            0x02,
             "Max position limit",
-            rt::Range::Full,
-            rt::Initial::Value(1000000),
-            "",
-            rt::Flags::NONE,
+            1000000,
         );
         /// Access to the entries of Software position limit: 0x607D.
-        #[derive(Debug)]
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
@@ -1269,9 +1154,7 @@ pub mod pdo {
                 return Err(rt::LengthError::new(Self::LEN, data.len()));
             }
             let word = rt::pdo::from_bytes(data);
-            let pdo = Self {
-                controlword: word as u16,
-            };
+            let pdo = Self { controlword: word as u16 };
             Ok(pdo)
         }
         /// The writes that set the PDO up in the device with its default identifier.
@@ -1304,7 +1187,8 @@ pub mod pdo {
             Ok(pdo) => pdo.pack(),
             Err(_) => panic!(),
         };
-        assert!(rt::pdo::from_bytes(&packed) == word);
+        let packed = rt::pdo::from_bytes(&packed);
+        assert!(packed == word);
     };
     /// RPDO 2: RPDO 2 mapping.
     ///
@@ -1380,7 +1264,8 @@ pub mod pdo {
             Ok(pdo) => pdo.pack(),
             Err(_) => panic!(),
         };
-        assert!(rt::pdo::from_bytes(&packed) == word);
+        let packed = rt::pdo::from_bytes(&packed);
+        assert!(packed == word);
     };
     /// TPDO 1: TPDO 1 mapping.
     ///
@@ -1414,9 +1299,7 @@ pub mod pdo {
                 return Err(rt::LengthError::new(Self::LEN, data.len()));
             }
             let word = rt::pdo::from_bytes(data);
-            let pdo = Self {
-                statusword: word as u16,
-            };
+            let pdo = Self { statusword: word as u16 };
             Ok(pdo)
         }
         /// The writes that set the PDO up in the device with its default identifier.
@@ -1449,7 +1332,8 @@ pub mod pdo {
             Ok(pdo) => pdo.pack(),
             Err(_) => panic!(),
         };
-        assert!(rt::pdo::from_bytes(&packed) == word);
+        let packed = rt::pdo::from_bytes(&packed);
+        assert!(packed == word);
     };
     /// TPDO 2: TPDO 2 mapping.
     ///
@@ -1525,7 +1409,8 @@ pub mod pdo {
             Ok(pdo) => pdo.pack(),
             Err(_) => panic!(),
         };
-        assert!(rt::pdo::from_bytes(&packed) == word);
+        let packed = rt::pdo::from_bytes(&packed);
+        assert!(packed == word);
     };
 }
 /// All entries, by index and sub-index.

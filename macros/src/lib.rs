@@ -2,11 +2,13 @@
 //!
 //! It is re-exported by the runtime crate under its feature `macros`, and used from there:
 //!
-//! ```ignore
+//! ```
 //! lexibus::dictionary! {
 //!     /// The drive of axis 1.
-//!     pub mod drive = "drive.eds";
+//!     pub mod drive = "../dictionaries/demo-drive.eds";
 //! }
+//!
+//! assert_eq!(drive::objects::TARGET_POSITION.name(), "Target position");
 //! ```
 
 use std::path::{Path, PathBuf};
@@ -22,18 +24,21 @@ use syn::{Attribute, Ident, LitBool, LitStr, Token, Visibility};
 
 /// A module with the typed bindings of a device description.
 ///
-/// ```ignore
+/// ```
+/// use lexibus::dictionary;
+///
 /// dictionary! {
 ///     /// The drive of axis 1.
-///     pub mod drive = "drive.eds";
+///     pub mod drive = "../dictionaries/demo-drive.eds";
 /// }
 /// ```
 ///
 /// The path is relative to the folder of the calling crate. Behind it, options may follow in braces:
 ///
-/// ```ignore
+/// ```
+/// # use lexibus::dictionary;
 /// dictionary! {
-///     pub mod drive = "drive.eds" {
+///     pub mod drive = "../dictionaries/demo-drive.eds" {
 ///         device_name: "Axis",           // name of the device's type
 ///         accessors: false,              // handles only
 ///         pdos: false,                   // no PDO structs

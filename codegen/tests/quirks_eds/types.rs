@@ -46,7 +46,7 @@ fn e53_octet_strings() {
     for text in ["01a105", "01 a1 05", "0x01a105", "01A105"] {
         assert_default(OCTETS, text, Value::Bytes(vec![0x01, 0xA1, 0x05]), &[]);
     }
-    for text in ["01a", "xyz"] {
+    for text in ["01a", "xyz", "0", "0x", "1,5", "01-a1"] {
         assert_default(OCTETS, text, raw(text), &["EDS037"]);
     }
 }

@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use super::literal;
-use crate::ir::{Item, Limits, Value};
+use super::value_type;
+use crate::ir::{Item, Limits, Type, Value};
 
 /// Text as one line of Markdown without any markup.
 pub(super) fn escape(text: &str) -> String {
@@ -59,7 +60,7 @@ fn facts(item: &Item) -> String {
         (false, false) => {}
     }
     if let Some(default) = &item.default {
-        let _ = write!(line, ", default {}", value(default));
+        let _ = write!(line, ", default {}", typed(default, item.ty));
     }
     if let Some(range) = limits(&item.limits) {
         let _ = write!(line, ", {range}");
@@ -68,10 +69,17 @@ fn facts(item: &Item) -> String {
         let _ = write!(line, ", in {}", escape(&quantity.unit));
     }
     if let Some(configured) = item.configured.as_ref().and_then(|configured| configured.value.as_ref()) {
-        let _ = write!(line, ", configured to {}", value(configured));
+        let _ = write!(line, ", configured to {}", typed(configured, item.ty));
     }
     line.push('.');
     line
+}
+
+fn typed(shown: &Value, ty: Type) -> String {
+    match shown {
+        Value::Int(number) => value_type::number(*number, matches!(ty, Type::Unsigned(_))),
+        other => value(other),
+    }
 }
 
 fn value(value: &Value) -> String {

@@ -85,7 +85,7 @@ impl ValueType {
             }
             (_, Value::Int(value)) => {
                 let (low, high) = self.integers()?;
-                (low..=high).contains(value).then(|| value.to_string())
+                (low..=high).contains(value).then(|| number(*value, low == 0))
             }
             _ => None,
         }
@@ -154,6 +154,11 @@ impl ValueType {
         let write = |value: Option<f64>| value.and_then(|value| self.literal(&Value::Real(value)));
         Some((write(low), write(high)))
     }
+}
+
+/// A number as people write it: large unsigned ones are mostly bit patterns, addresses and signatures.
+pub(super) fn number(value: i128, unsigned: bool) -> String {
+    if unsigned && value > 0xFFFF { format!("{value:#X}").replacen("0X", "0x", 1) } else { value.to_string() }
 }
 
 #[cfg(test)]

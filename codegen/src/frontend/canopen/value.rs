@@ -216,15 +216,13 @@ impl Converter<'_> {
         let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")).unwrap_or(text);
         let nibbles: Option<Vec<u8>> = digits
             .chars()
-            .filter(|c| !matches!(c, ' ' | '\t' | ',' | '-' | ':'))
-            .map(|c| c.to_digit(16).map(|digit| digit as u8))
+            .filter(|digit| !matches!(digit, ' ' | '\t'))
+            .map(|digit| digit.to_digit(16).map(|digit| digit as u8))
             .collect();
         match nibbles {
-            Some(nibbles) if nibbles.len() % 2 == 0 => {
+            Some(nibbles) if !nibbles.is_empty() && nibbles.len() % 2 == 0 => {
                 Value::Bytes(nibbles.chunks_exact(2).map(|pair| pair[0] << 4 | pair[1]).collect())
             }
-            // A lone 0 is how tools write "nothing" for every type.
-            Some(nibbles) if nibbles == [0] => Value::Bytes(vec![0]),
             _ => {
                 let message = format!("`{text}` isn't made of pairs of hexadecimal digits");
                 self.report(&codes::BAD_OCTETS, span, message, "kept as text");

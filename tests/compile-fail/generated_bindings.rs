@@ -1,0 +1,26 @@
+//! The names of a drive's own bindings, and what they refuse.
+
+use lexibus::{CanOpen, Client, Object};
+use lexibus_drives::demo_drive::DemoDrive;
+
+struct Bus;
+
+impl Client for Bus {
+    type Bus = CanOpen;
+    type Error = ();
+
+    fn read(&mut self, _: Object, _: &mut [u8]) -> Result<usize, ()> {
+        Ok(0)
+    }
+
+    fn write(&mut self, _: Object, _: &[u8]) -> Result<(), ()> {
+        Ok(())
+    }
+}
+
+fn main() {
+    let mut drive = DemoDrive::new(Bus);
+    let _ = drive.statusword().write(0);
+    let _ = drive.target_position().write("far");
+    let _ = drive.target_postion();
+}
