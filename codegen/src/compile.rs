@@ -80,6 +80,9 @@ pub fn read(source: Source, options: &Options) -> Compilation {
         Some(Format::Xdd) => xdd::read(&source, file, aliases, &mut diagnostics),
         _ => None,
     };
+    // What tells a DCF from an EDS is the place in a network that it gives the device, whatever its file is called.
+    let commissioned = device.as_ref().is_some_and(|device| device.commissioning.is_some());
+    let format = if format == Some(Format::Eds) && commissioned { Some(Format::Dcf) } else { format };
     let catalog = device.zip(format).map(|(device, format)| Catalog {
         files: vec![FileInfo {
             name: source.name().to_owned(),

@@ -187,3 +187,9 @@ fn results_do_not_depend_on_the_number_of_jobs() {
     assert_eq!(out(&one), out(&many));
     assert!(out(&one).lines().count() >= 20);
 }
+
+#[test]
+fn the_command_line_and_the_build_script_give_the_same_bytes() {
+    let by_builder = lexibus_codegen::Builder::new().quiet().generate(DEMO).expect("bindings");
+    assert_eq!(out(&lexibus(&["generate", DEMO])), by_builder);
+}

@@ -139,135 +139,21 @@ fn edit() -> impl Strategy<Value = Edit> {
 }
 
 /// What values, keys, headers and elements are made of, and what they had better not be made of.
+#[rustfmt::skip]
 const WORDS: &[&str] = &[
-    "",
-    "0",
-    "1",
-    "-1",
-    "7",
-    "8",
-    "9",
-    "254",
-    "255",
-    "256",
-    "65535",
-    "012",
-    "018",
-    "0x",
-    "0x0",
-    "0x7",
-    "0xFFFF",
-    "0x10000",
-    "0xFFFFFFFF",
-    "0x100000000",
-    "-0x80000000",
-    "0x8000000000000000",
-    "18446744073709551615",
-    "-9223372036854775808",
-    "99999999999999999999999999999999999999",
-    "1.5",
-    "1,5",
-    "1e999",
-    "-0.0",
-    "nan",
-    "0x7FC00000",
-    "$NODEID",
-    "$NODEID+0x180",
-    "0x80+$NODEID",
-    "$NODEID+99999999999999999999999999999999999999",
-    "$X",
-    "0x60400010",
-    "0x604100FF",
-    "0x00050008",
-    "0x1A000120",
-    "0xFFFFFFFE",
-    "ro",
-    "rw",
-    "rww",
-    "const",
-    "readWrite",
-    "true",
-    "\"",
-    "\"a\"",
-    "a\\",
-    "\\\"",
-    "*/",
-    "/*",
-    "//!",
-    "///",
-    "{}",
-    "{{",
-    "r#\"",
-    "'",
-    "`",
-    "${x}",
-    "%s",
-    "#",
-    " # x",
-    ";",
-    "; x",
-    " ",
-    "\t",
-    "=",
-    "==",
-    "[",
-    "]",
-    "[]",
-    "[2000]",
-    "\n[2000]\n",
-    "\n[2000sub0]\n",
-    "\n[2000subFF]\n",
-    "\n[1A00sub1]\n",
-    "\n[2000Name]\n1=x\n",
-    "\n[2000Value]\n9=x\n",
-    "\n[M1SubExt2000]\nCount=0;2\n",
-    "\nCompactSubObj=254\n",
-    "\nSubNumber=3\n",
-    "\nObjectType=9\n",
-    "\nCompactPDO=0x17\n",
-    "\nNrOfTXPDO=512\n",
-    "\n../x.dcf\n",
-    "self",
-    "crate",
-    "fn",
-    "async",
-    "_",
-    "Self",
-    "1st",
-    "Gerät µ°",
-    "日本",
-    "\u{202e}",
-    "\u{feff}",
-    "\u{1b}[31m",
-    "\0",
-    "\r",
-    "\n",
-    "\u{1a}",
-    "é",
-    "\u{301}",
-    "ß",
-    "İ",
-    "<",
-    ">",
-    "</",
-    "/>",
-    "<!--",
-    "-->",
-    "<![CDATA[",
-    "]]>",
-    "<?x?>",
-    "&",
-    "&amp;",
-    "&#0;",
-    "&#x10FFFF;",
-    "&lt;!",
-    "&x;",
-    "<!DOCTYPE a [<!ENTITY x \"y\">]>",
-    "UID_1",
-    "FFFF",
-    "1A00",
-    "0001",
-    "2000",
+    "", "0", "1", "-1", "7", "8", "9", "254", "255", "256", "65535", "012", "018", "0x", "0x0", "0x7", "0xFFFF",
+    "0x10000", "0xFFFFFFFF", "0x100000000", "-0x80000000", "0x8000000000000000", "18446744073709551615",
+    "-9223372036854775808", "99999999999999999999999999999999999999", "1.5", "1,5", "1e999", "-0.0", "nan",
+    "0x7FC00000", "$NODEID", "$NODEID+0x180", "0x80+$NODEID", "$NODEID+99999999999999999999999999999999999999", "$X",
+    "0x60400010", "0x604100FF", "0x00050008", "0x1A000120", "0xFFFFFFFE", "ro", "rw", "rww", "const", "readWrite",
+    "true", "\"", "\"a\"", "a\\", "\\\"", "*/", "/*", "//!", "///", "{}", "{{", "r#\"", "'", "`", "${x}", "%s", "#",
+    " # x", ";", "; x", " ", "\t", "=", "==", "[", "]", "[]", "[2000]", "\n[2000]\n", "\n[2000sub0]\n",
+    "\n[2000subFF]\n", "\n[1A00sub1]\n", "\n[2000Name]\n1=x\n", "\n[2000Value]\n9=x\n",
+    "\n[M1SubExt2000]\nCount=0;2\n", "\nCompactSubObj=254\n", "\nSubNumber=3\n", "\nObjectType=9\n",
+    "\nCompactPDO=0x17\n", "\nNrOfTXPDO=512\n", "\n../x.dcf\n", "self", "crate", "fn", "async", "_", "Self", "1st",
+    "Gerät µ°", "日本", "\u{202e}", "\u{feff}", "\u{1b}[31m", "\0", "\r", "\n", "\u{1a}", "é", "\u{301}", "ß", "İ", "<",
+    ">", "</", "/>", "<!--", "-->", "<![CDATA[", "]]>", "<?x?>", "&", "&amp;", "&#0;", "&#x10FFFF;", "&lt;!", "&x;",
+    "<!DOCTYPE a [<!ENTITY x \"y\">]>", "UID_1", "FFFF", "1A00", "0001", "2000",
 ];
 
 /// The changes of a file, or of a part of it.
@@ -445,207 +331,49 @@ fn noise() {
     hold(1500, 0, (name(), noise), |(name, bytes)| ((*name).to_owned(), bytes.clone()));
 }
 
+const KEYS: &str = "\
+    ParameterName ObjectType DataType AccessType DefaultValue LowLimit HighLimit PDOMapping SubNumber CompactSubObj \
+    ObjFlags ParameterValue Denotation NrOfEntries 1 2 SupportedObjects NrOfRXPDO NrOfTXPDO CompactPDO Granularity \
+    GroupMessaging Dummy0005 ProductName VendorNumber NodeID Lines Line1 Count ObjExtend NrOfSeg Type1 PPOffset1 \
+    BaudRate_10 EDSVersion Unit";
+
+const SECTIONS: &str = "\
+    FileInfo DeviceInfo DummyUsage Comments MandatoryObjects OptionalObjects ManufacturerObjects DeviceComissioning \
+    SupportedModules ConnectedModules DynamicChannels Tools 1000 1018 1018sub0 1018sub1 1400 1400sub1 1600 1600sub0 \
+    1600sub1 1600sub2 1800 1A00 1A00sub0 1A00sub1 1F80 2000 2000sub0 2000sub1 2000subFF 2000Name 2000Value \
+    2000Denotation 2000ObjectLinks 6040 6041 6060 607A A0 00A0 0005 M1ModuleInfo M1FixedObjects M1Fixed2000 \
+    M1Fixed2000sub1 M1SubExtends M1SubExt2000 M1Comments x";
+
+/// One of the words of a list.
+fn one_of(list: &'static str) -> impl Strategy<Value = &'static str> + Clone {
+    select(list.split(' ').collect::<Vec<_>>())
+}
+
 /// The words of an EDS in any order, a line each or not.
 #[test]
 fn texts_of_the_words_of_an_eds() {
-    let key = select(
-        &[
-            "ParameterName",
-            "ObjectType",
-            "DataType",
-            "AccessType",
-            "DefaultValue",
-            "LowLimit",
-            "HighLimit",
-            "PDOMapping",
-            "SubNumber",
-            "CompactSubObj",
-            "ObjFlags",
-            "ParameterValue",
-            "Denotation",
-            "NrOfEntries",
-            "1",
-            "2",
-            "SupportedObjects",
-            "NrOfRXPDO",
-            "NrOfTXPDO",
-            "CompactPDO",
-            "Granularity",
-            "GroupMessaging",
-            "Dummy0005",
-            "ProductName",
-            "VendorNumber",
-            "NodeID",
-            "Lines",
-            "Line1",
-            "Count",
-            "ObjExtend",
-            "NrOfSeg",
-            "Type1",
-            "PPOffset1",
-            "BaudRate_10",
-            "EDSVersion",
-            "Unit",
-        ][..],
-    );
-    let section = select(
-        &[
-            "FileInfo",
-            "DeviceInfo",
-            "DummyUsage",
-            "Comments",
-            "MandatoryObjects",
-            "OptionalObjects",
-            "ManufacturerObjects",
-            "DeviceComissioning",
-            "SupportedModules",
-            "ConnectedModules",
-            "DynamicChannels",
-            "Tools",
-            "1000",
-            "1018",
-            "1018sub0",
-            "1018sub1",
-            "1400",
-            "1400sub1",
-            "1600",
-            "1600sub0",
-            "1600sub1",
-            "1600sub2",
-            "1800",
-            "1A00",
-            "1A00sub0",
-            "1A00sub1",
-            "1F80",
-            "2000",
-            "2000sub0",
-            "2000sub1",
-            "2000subFF",
-            "2000Name",
-            "2000Value",
-            "2000Denotation",
-            "2000ObjectLinks",
-            "6040",
-            "6041",
-            "6060",
-            "607A",
-            "A0",
-            "00A0",
-            "0005",
-            "M1ModuleInfo",
-            "M1FixedObjects",
-            "M1Fixed2000",
-            "M1Fixed2000sub1",
-            "M1SubExtends",
-            "M1SubExt2000",
-            "M1Comments",
-            "x",
-            "",
-        ][..],
-    );
     let line = prop_oneof![
-        3 => section.prop_map(|name| format!("[{name}]\n")),
-        8 => (key, select(WORDS)).prop_map(|(key, value)| format!("{key}={value}\n")),
+        3 => one_of(SECTIONS).prop_map(|name| format!("[{name}]\n")),
+        8 => (one_of(KEYS), select(WORDS)).prop_map(|(key, value)| format!("{key}={value}\n")),
         1 => select(WORDS).prop_map(str::to_owned),
         1 => "\\PC{0,20}".prop_map(|text| text + "\n"),
     ];
     hold(1500, 80, (name(), vec(line, 0..120)), |(name, lines)| ((*name).to_owned(), lines.concat().into_bytes()));
 }
 
-const ELEMENTS: &[&str] = &[
-    "ISO15745ProfileContainer",
-    "ISO15745Profile",
-    "ProfileHeader",
-    "ProfileBody",
-    "DeviceIdentity",
-    "vendorName",
-    "vendorID",
-    "DeviceManager",
-    "DeviceFunction",
-    "ApplicationProcess",
-    "dataTypeList",
-    "struct",
-    "varDeclaration",
-    "array",
-    "subrange",
-    "enum",
-    "enumValue",
-    "derived",
-    "BOOL",
-    "UINT",
-    "DINT",
-    "STRING",
-    "dataTypeIDRef",
-    "parameterList",
-    "parameter",
-    "label",
-    "description",
-    "labelRef",
-    "allowedValues",
-    "value",
-    "range",
-    "minValue",
-    "maxValue",
-    "defaultValue",
-    "unit",
-    "property",
-    "templateList",
-    "parameterTemplate",
-    "allowedValuesTemplate",
-    "ApplicationLayers",
-    "CANopenObjectList",
-    "CANopenObject",
-    "CANopenSubObject",
-    "dummyUsage",
-    "dummy",
-    "dynamicChannels",
-    "dynamicChannel",
-    "moduleManagement",
-    "interfaceList",
-    "TransportLayers",
-    "PhysicalLayer",
-    "baudRate",
-    "supportedBaudRate",
-    "NetworkManagement",
-    "CANopenGeneralFeatures",
-    "CANopenMasterFeatures",
-    "deviceCommissioning",
-    "identity",
-    "x",
-];
+const ELEMENTS: &str = "\
+    ISO15745ProfileContainer ISO15745Profile ProfileHeader ProfileBody DeviceIdentity vendorName vendorID \
+    DeviceManager DeviceFunction ApplicationProcess dataTypeList struct varDeclaration array subrange enum enumValue \
+    derived BOOL UINT DINT STRING dataTypeIDRef parameterList parameter label description labelRef allowedValues \
+    value range minValue maxValue defaultValue unit property templateList parameterTemplate allowedValuesTemplate \
+    ApplicationLayers CANopenObjectList CANopenObject CANopenSubObject dummyUsage dummy dynamicChannels \
+    dynamicChannel moduleManagement interfaceList TransportLayers PhysicalLayer baudRate supportedBaudRate \
+    NetworkManagement CANopenGeneralFeatures CANopenMasterFeatures deviceCommissioning identity x";
 
-const ATTRIBUTES: &[&str] = &[
-    "index",
-    "subIndex",
-    "name",
-    "objectType",
-    "dataType",
-    "accessType",
-    "defaultValue",
-    "actualValue",
-    "lowLimit",
-    "highLimit",
-    "PDOmapping",
-    "objFlags",
-    "uniqueIDRef",
-    "uniqueID",
-    "subNumber",
-    "value",
-    "lang",
-    "access",
-    "size",
-    "lowerLimit",
-    "upperLimit",
-    "entry",
-    "nodeID",
-    "granularity",
-    "nrOfRxPDO",
-    "xsi:type",
-    "xmlns",
-    "templateIDRef",
-    "multiplier",
-    "denotation",
-];
+const ATTRIBUTES: &str = "\
+    index subIndex name objectType dataType accessType defaultValue actualValue lowLimit highLimit PDOmapping \
+    objFlags uniqueIDRef uniqueID subNumber value lang access size lowerLimit upperLimit entry nodeID granularity \
+    nrOfRxPDO xsi:type xmlns templateIDRef multiplier denotation";
 
 fn escape(word: &str) -> String {
     word.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
@@ -654,8 +382,8 @@ fn escape(word: &str) -> String {
 /// An element with attributes, text and children.
 fn element() -> impl Strategy<Value = String> {
     // An attribute twice is no XML.
-    let attributes = (subsequence(ATTRIBUTES, 0..6), vec(select(WORDS), 6));
-    let open = (select(ELEMENTS), attributes).prop_map(|(name, (keys, values))| {
+    let attributes = (subsequence(ATTRIBUTES.split(' ').collect::<Vec<_>>(), 0..6), vec(select(WORDS), 6));
+    let open = (one_of(ELEMENTS), attributes).prop_map(|(name, (keys, values))| {
         let written = keys.iter().zip(&values).map(|(key, value)| format!(" {key}=\"{}\"", escape(value)));
         (name, written.collect::<String>())
     });
@@ -686,9 +414,9 @@ fn trees_of_the_elements_of_an_xdd() {
 #[test]
 fn texts_of_the_words_of_an_xdd() {
     let part = prop_oneof![
-        4 => (select(ELEMENTS), select(ATTRIBUTES), select(WORDS), select(&["/>", ">", "", ">\n", "/>\n"][..]))
+        4 => (one_of(ELEMENTS), one_of(ATTRIBUTES), select(WORDS), select(&["/>", ">", "", ">\n", "/>\n"][..]))
             .prop_map(|(element, attribute, word, end)| format!("<{element} {attribute}=\"{word}\"{end}")),
-        2 => select(ELEMENTS).prop_map(|element| format!("</{element}>")),
+        2 => one_of(ELEMENTS).prop_map(|element| format!("</{element}>")),
         1 => select(WORDS).prop_map(str::to_owned),
         1 => element(),
     ];

@@ -18,9 +18,9 @@ use lexibus_codegen::ir::{Access, Configured, Device, Extension, Group, Item, Ma
 use lexibus_codegen::source::Source;
 
 /// Codes on the line of a value that say that it was read as something else, or couldn't be read.
-const ABOUT_THE_VALUE: [&str; 19] = [
-    "EDS014", "EDS015", "EDS016", "EDS021", "EDS022", "EDS023", "EDS024", "EDS027", "EDS028", "EDS029", "EDS030",
-    "EDS032", "EDS033", "EDS036", "EDS037", "EDS039", "EDS047", "EDS064", "EDS067",
+const ABOUT_THE_VALUE: [&str; 16] = [
+    "EDS014", "EDS015", "EDS016", "EDS022", "EDS023", "EDS024", "EDS027", "EDS028", "EDS029", "EDS030", "EDS032",
+    "EDS033", "EDS037", "EDS047", "EDS064", "EDS067",
 ];
 
 /// Codes on the line of a header, or of an empty entry, that say that an item has no data type, and so is read-only.
@@ -589,9 +589,8 @@ fn mappable(text: &str, access: Access) -> Option<Mappable> {
 }
 
 /// Reads a text both ways.
-fn compared(name: &str, text: &str) -> Option<Tally> {
-    let compilation = check(Source::new(name, text.as_bytes().to_vec()), &Options::default());
-    compilation.catalog.is_some().then(|| compare(text, &compilation))
+fn compared(name: &str, text: &str) -> Tally {
+    compare(text, &check(Source::new(name, text.as_bytes().to_vec()), &Options::default()))
 }
 
 #[test]
@@ -625,67 +624,15 @@ fn none_lost(tally: &Tally) {
 }
 
 /// Spellings that the corpus has for one type or another, and some that nobody should write.
+#[rustfmt::skip]
 const SPELLINGS: [&str; 60] = [
-    "0",
-    "1",
-    "2",
-    "7",
-    "00",
-    "001",
-    "012",
-    "018",
-    "00000005",
-    "-1",
-    "-0",
-    "-012",
-    "0x0",
-    "0X1a",
-    "0xff",
-    "0xFFFFFFFF",
-    "0x80000000",
-    "0x8000000000000000",
-    "0xFFFFFFFFFFFFFFFF",
-    "0x3FC00000",
-    "0x3FF8000000000000",
-    "0x02",
-    "-0x77359400",
-    "65536",
-    "4294967296",
-    "18446744073709551615",
-    "-8388608",
-    "99999999999999999999999999999999999999999999",
-    "1.5",
-    "1,5",
-    "0.0",
-    "-3.402823E+38",
-    "1e3",
-    "1e999",
-    "nan",
-    "inf",
-    "true",
-    "FALSE",
-    "yes",
-    "$NODEID",
-    "$NODEID+0x180",
-    "$nodeid + 5",
-    "0x80+$NODEID",
-    "$NODEID+1+2",
-    "$NODEID-1",
-    "$MY_NODE_ID+0x200",
-    "10h",
-    "FFh",
-    "10UL",
-    "01a105",
-    "01 a1 05",
-    "0x01a105",
-    "0x123",
-    "abc",
-    "@ABCD",
-    "\"abc\"",
-    "5 ; five",
-    "0x3ED ; prevent # homing",
-    "7 # seven",
-    "rw",
+    "0", "1", "2", "7", "00", "001", "012", "018", "00000005", "-1", "-0", "-012", "0x0", "0X1a", "0xff",
+    "0xFFFFFFFF", "0x80000000", "0x8000000000000000", "0xFFFFFFFFFFFFFFFF", "0x3FC00000", "0x3FF8000000000000",
+    "0x02", "-0x77359400", "65536", "4294967296", "18446744073709551615", "-8388608",
+    "99999999999999999999999999999999999999999999", "1.5", "1,5", "0.0", "-3.402823E+38", "1e3", "1e999", "nan",
+    "inf", "true", "FALSE", "yes", "$NODEID", "$NODEID+0x180", "$nodeid + 5", "0x80+$NODEID", "$NODEID+1+2",
+    "$NODEID-1", "$MY_NODE_ID+0x200", "10h", "FFh", "10UL", "01a105", "01 a1 05", "0x01a105", "0x123", "abc", "@ABCD",
+    "\"abc\"", "5 ; five", "0x3ED ; a # b", "7 # seven", "rw",
 ];
 
 /// Without the corpus: every spelling, for every type, as each of the values of an object.
@@ -704,23 +651,24 @@ fn every_spelling_of_every_type_is_read_or_reported() {
             index += 1;
         }
     }
-    let tally = compared("x.eds", &text).expect("a device");
+    let tally = compared("x.eds", &text);
     none_lost(&tally);
-    assert!(tally.same.values().sum::<usize>() > 8_000, "{:?}", tally.same);
+    let (same, reported): (usize, usize) = (tally.same.values().sum(), tally.reported.values().sum());
+    eprintln!("{same} are the same, {reported} are reported: {:?}", tally.reported);
+    assert!(same > 10_000 && reported > 3_000, "only {same} are the same and {reported} reported");
 }
 
 /// The comparison itself: what the compiler read from one text is held against another.
 #[test]
 fn whatever_is_lost_or_changed_is_seen() {
-    let text =
-        "[DeviceInfo]\nProductName=x\n[2000]\nParameterName=Speed\nObjectType=7\nDataType=0x0004\nAccessType=rw\n\
-                DefaultValue=5 ; five\nLowLimit=-0x10\nHighLimit=0x20\nPDOMapping=1\nUnit=rpm\nParameterValue=7\n\
+    let text = "[DeviceInfo]\nProductName=x\n[2000]\nParameterName=Speed\nObjectType=7\nDataType=0x0004\n\
+                AccessType=rw\nDefaultValue=5 ; five\nLowLimit=-0x10\nHighLimit=0x20\nPDOMapping=1\nUnit=rpm\nParameterValue=7\n\
                 [2001]\nParameterName=List\nObjectType=9\nSubNumber=2\n[2001sub0]\nParameterName=Count\nDataType=5\n\
                 AccessType=const\nDefaultValue=1\n[2001sub1]\nParameterName=First\nDataType=9\nAccessType=ro\n\
                 DefaultValue=a ; b\n[2002]\nParameterName=Compact\nObjectType=8\nDataType=6\nAccessType=rww\n\
                 CompactSubObj=3\nDefaultValue=$NODEID+9\n[2002Name]\nNrOfEntries=1\n2=Second\n[2002Value]\n\
                 NrOfEntries=1\n3=0x99\n";
-    none_lost(&compared("x.dcf", text).expect("a device"));
+    none_lost(&compared("x.dcf", text));
     let compilation = check(Source::new("x.dcf", text.as_bytes().to_vec()), &Options::default());
     for (from, to) in [
         ("=Speed", "=Sped"),

@@ -1,26 +1,16 @@
 //! What the compiler emits passes `rustc` with every warning denied, and clippy.
 
 mod compile_support;
+mod corpus_support;
 
 use std::collections::HashSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Mutex;
 
 use compile_support::compile;
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
-
-fn corpus() -> Option<Vec<PathBuf>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus/eds");
-    let Ok(entries) = std::fs::read_dir(&folder) else {
-        eprintln!("skipped: {} isn't there", folder.display());
-        return None;
-    };
-    let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry of the corpus").path()).collect();
-    files.sort();
-    Some(files)
-}
 
 fn everything() -> RustOptions {
     RustOptions { table: Presence::Always, ..RustOptions::default() }
@@ -32,37 +22,36 @@ fn body(text: &str) -> &str {
 }
 
 /// One file of the corpus: its bindings where it has any, else the diagnostic that says why not.
-fn bindings(path: &Path) -> Option<String> {
+fn bindings(file: &corpus_support::File) -> Option<String> {
     let options = Options { rust: everything(), ..Options::default() };
-    let bytes = std::fs::read(path).expect("a file of the corpus");
-    let compilation = check(Source::new(path.to_string_lossy(), bytes), &options);
+    let compilation = check(Source::new(file.name.as_str(), file.bytes.clone()), &options);
     let text = compilation.rust(&options.rust);
-    assert!(text.is_some() || compilation.diagnostics.has_errors(), "{}: rejected in silence", path.display());
+    assert!(text.is_some() || compilation.diagnostics.has_errors(), "{}: rejected in silence", file.name);
     text
 }
 
 #[test]
 fn every_file_of_the_corpus_compiles_or_is_rejected_with_a_reason() {
-    let Some(files) = corpus() else { return };
+    let Some(files) = corpus_support::files() else { return };
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let queue = Mutex::new((files.into_iter(), HashSet::new()));
     let failures = Mutex::new(Vec::new());
     let next = || {
         let mut queue = queue.lock().expect("the queue");
         loop {
-            let path = queue.0.next()?;
-            let Some(text) = bindings(&path) else { continue };
+            let file = queue.0.next()?;
+            let Some(text) = bindings(&file) else { continue };
             // Many files differ in nothing that shows in their bindings.
             if queue.1.insert(body(&text).to_owned()) {
-                return Some((path, text));
+                return Some((file.name, text));
             }
         }
     };
     std::thread::scope(|scope| {
         for _ in 0..threads {
             scope.spawn(|| {
-                while let Some((path, text)) = next() {
-                    if let Err(message) = compile(&path.to_string_lossy(), &text) {
+                while let Some((name, text)) = next() {
+                    if let Err(message) = compile(&name, &text) {
                         failures.lock().expect("the failures").push(message);
                     }
                 }
@@ -126,7 +115,8 @@ fn pdos_of_every_shape_compile() {
     for (number, words) in mappings.iter().enumerate() {
         let index = 0x1A00 + number;
         eds += &format!("[{index:04X}]\nParameterName=Mapping\nObjectType=9\nSubNumber={}\n", words.len() + 1);
-        eds += &format!("[{index:04X}sub0]\nParameterName=n\nDataType=5\nAccessType=rw\nDefaultValue={}\n", words.len());
+        eds +=
+            &format!("[{index:04X}sub0]\nParameterName=n\nDataType=5\nAccessType=rw\nDefaultValue={}\n", words.len());
         for (sub, word) in words.iter().enumerate() {
             let section = format!("{index:04X}sub{:X}", sub + 1);
             eds += &format!("[{section}]\nParameterName=e\nDataType=7\nAccessType=rw\nDefaultValue={word:#x}\n");
@@ -143,7 +133,8 @@ fn pdos_of_every_shape_compile() {
 
 #[test]
 fn optional_implementations_are_gated() {
-    let eds = std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries/demo-drive.eds")).expect("the demo");
+    let eds =
+        std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries/demo-drive.eds")).expect("the demo");
     let rust = RustOptions {
         debug: Presence::Never,
         partial_eq: Presence::Feature("eq".into()),
@@ -157,5 +148,6 @@ fn optional_implementations_are_gated() {
     assert!(text.contains("#[cfg_attr(feature = \"serde\", derive(serde::Serialize, serde::Deserialize))]"));
     assert!(!text.contains("Debug"));
     // A crate without these features would be warned of them; that is its own business.
-    compile("gated", &format!("#[allow(unexpected_cfgs)]\nmod inner {{\n{text}\n}}\npub use inner::*;\n")).expect("it compiles");
+    compile("gated", &format!("#[allow(unexpected_cfgs)]\nmod inner {{\n{text}\n}}\npub use inner::*;\n"))
+        .expect("it compiles");
 }

@@ -406,7 +406,8 @@ fn object_in_the_wrong_list() {
     let checked = with("1=0x2000\n2=0x2001", "1=0x1400\n2=0x2001");
     assert!(checked.codes().contains(&"EDS045"));
     let vector = "[MandatoryObjects]\nSupportedObjects=4\n1=0x1000\n2=0x1001\n3=0x1018\n4=0x1008\n\
-                  [1008]\nParameterName=Name\nDataType=0x0009\nAccessType=const\n[OptionalObjects]\nSupportedObjects=0\n";
+                  [1008]\nParameterName=Name\nDataType=0x0009\nAccessType=const\n\
+                  [OptionalObjects]\nSupportedObjects=0\n";
     let checked = lints(vector);
     assert_eq!(checked.codes(), ["EDS045"]);
     assert_eq!(checked.places("EDS045"), [(6, 3)]);

@@ -1,21 +1,10 @@
 //! The generated Rust has the form that `prettyplease` would give it, for every file of the corpus.
 
-use std::path::{Path, PathBuf};
+mod corpus_support;
 
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::Presence;
-
-fn corpus() -> Option<Vec<PathBuf>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus/eds");
-    let Ok(entries) = std::fs::read_dir(&folder) else {
-        eprintln!("skipped: {} isn't there", folder.display());
-        return None;
-    };
-    let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("an entry of the corpus").path()).collect();
-    files.sort();
-    Some(files)
-}
 
 /// `prettyplease` drops comments that are no documentation: the header is all that we have of them.
 fn without_header(text: &str) -> String {
@@ -38,15 +27,14 @@ fn assert_canonical(name: &str, text: &str) {
 
 #[test]
 fn output_is_as_prettyplease_prints_it() {
-    let Some(files) = corpus() else { return };
+    let Some(files) = corpus_support::files() else { return };
     let mut compiled = 0;
-    for path in files {
-        let bytes = std::fs::read(&path).expect("a file of the corpus");
+    for file in files {
         let mut options = Options::default();
         options.rust.table = Presence::Feature("table".into());
-        let compilation = check(Source::new(path.to_string_lossy(), bytes), &options);
+        let compilation = check(Source::new(file.name.as_str(), file.bytes), &options);
         if let Some(text) = compilation.rust(&options.rust) {
-            assert_canonical(&path.to_string_lossy(), &text);
+            assert_canonical(&file.name, &text);
             compiled += 1;
         }
     }

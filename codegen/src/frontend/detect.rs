@@ -1,4 +1,4 @@
-//! Which format a file has, by its content; by its name only where the content doesn't tell.
+//! Which format a file has: by its content, but that EDS and DCF, which share every section, go by the name.
 
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::Format;

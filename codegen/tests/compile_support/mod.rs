@@ -17,7 +17,8 @@ pub fn compile(name: &str, bindings: &str) -> Result<(), String> {
     let (module, root) = (stem.with_extension("module.rs"), stem.with_extension("rs"));
     let lints = "#![no_std]\n#![deny(warnings, missing_docs, clippy::all)]\n//! Bindings.\n/// The device.\n";
     std::fs::write(&module, bindings).expect("a temporary file");
-    std::fs::write(&root, format!("{lints}pub mod device {{\n    include!({module:?});\n}}\n")).expect("a temporary file");
+    std::fs::write(&root, format!("{lints}pub mod device {{\n    include!({module:?});\n}}\n"))
+        .expect("a temporary file");
     let output = compiler()
         .args(["--edition", "2021", "--crate-type", "lib", "--emit", "metadata", "--crate-name", "bindings", "-o"])
         .arg(stem.with_extension("rmeta"))

@@ -177,7 +177,8 @@ fn e20_comment_behind_a_number() {
     }
     // No comment is lost, whatever it stands behind.
     let checked = read(
-        "[DeviceInfo]\nVendorName=Maker\nVendorNumber=1 ; assigned\nProductName=Pump\nProductNumber=2\nGranularity=8 ; grain\n\
+        "[DeviceInfo]\nVendorName=Maker\nVendorNumber=1 ; assigned\nProductName=Pump\nProductNumber=2\n\
+         Granularity=8 ; grain\n\
          [2000]\nParameterName=Speeds\nObjectType=0x8 ; array\nSubNumber=1 ; one\n\
          [2000sub0]\nParameterName=Count\nDataType=0x0005 ; byte\nAccessType=ro\nDefaultValue=0\n\
          [ManufacturerObjects]\nSupportedObjects=1 ; few\n1=0x2000 ; speeds\n",

@@ -99,7 +99,8 @@ fn e43_compact_sub_objects() {
 fn e43_counts_that_no_object_has() {
     let compact = |count: &str| {
         read(&format!(
-            "[2000]\nParameterName=Arr\nObjectType=8\nDataType=0x0005\nAccessType=rw\nSubNumber=0\nCompactSubObj={count}\n"
+            "[2000]\nParameterName=Arr\nObjectType=8\nDataType=0x0005\nAccessType=rw\nSubNumber=0\n\
+             CompactSubObj={count}\n"
         ))
     };
     let most = compact("0xFE");

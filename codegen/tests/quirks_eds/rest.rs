@@ -150,7 +150,8 @@ fn e65_unknown_sections() {
 fn e66_keys_of_the_header_in_other_case() {
     let checked = read(
         "[DeviceInfo]\nVendorname=Maker\nVendorNumber=1\nProductName=Pump\nProductNumber=2\nRevisionNumber=3\n\
-         NrOfRxPDO=0\nNrOfTxPDO=0\nBaudrate_125=1\nbaudrate_1000=1\nBaudRate_50=0\nSimpleBootupSlave=1\nLSS_supported=1\n",
+         NrOfRxPDO=0\nNrOfTxPDO=0\nBaudrate_125=1\nbaudrate_1000=1\nBaudRate_50=0\n\
+         SimpleBootupSlave=1\nLSS_supported=1\n",
     );
     let canopen = checked.device().canopen.as_ref().unwrap();
     assert_eq!(checked.device().identity.vendor_name, "Maker");
@@ -199,7 +200,8 @@ fn e67_versions_dates_and_times() {
 #[test]
 fn e68_both_spellings_of_commissioning() {
     for name in ["DeviceComissioning", "DeviceCommissioning", "devicecommissioning"] {
-        let text = file(&format!("[{name}]\nNodeID=17\nNodeName=Gerät\nBaudrate=250\nNetNumber=3\nCANopenManager=1\n"));
+        let own = "NodeID=17\nNodeName=Gerät\nBaudrate=250\nNetNumber=3\nCANopenManager=1";
+        let text = file(&format!("[{name}]\n{own}\n"));
         let checked = read_as(&text, "configuration", &Options::default());
         assert_eq!(checked.0.format, Some(Format::Dcf), "the section makes it a DCF");
         let own = checked.device().commissioning.as_ref().unwrap();
@@ -239,11 +241,12 @@ fn e70_compact_pdos() {
     assert_eq!(checked.default(0x1804, 1), Some(Value::Int(0x8000_0000)), "only four have an identifier by default");
     assert_eq!(checked.default(0x1400, 0), Some(Value::Int(5)));
     assert_eq!(checked.group(0x1600).origin.line, 0, "it stands nowhere");
-    assert!(checked.pdo(0x1A04).implicit);
+    let pdos = &checked.device().process_data.pdos;
+    let mappings: Vec<u16> = pdos.iter().filter(|pdo| pdo.implicit).map(|pdo| pdo.mapping_index).collect();
+    assert_eq!(mappings, [0x1600, 0x1601, 0x1A00, 0x1A01, 0x1A02, 0x1A03, 0x1A04]);
     let info = checked.info();
-    assert_eq!(info["devices"][0]["rx_pdos"].as_array().unwrap().len(), 2);
-    assert_eq!(info["devices"][0]["tx_pdos"].as_array().unwrap().len(), 5);
-    assert_eq!(info["devices"][0]["objects"], 3, "objects that follow from a number aren't declared");
+    assert_eq!(info["devices"][0]["rx_pdos"].as_array().unwrap().len(), 0);
+    assert_eq!(info["devices"][0]["objects"], 3, "what follows from a number isn't declared");
     assert_eq!(checked.codes(), [""; 0]);
 }
 
@@ -253,7 +256,8 @@ fn e71_modules() {
     let module = "[M1ModuleInfo]\nProductName=Eingänge\nProductVersion=1\nProductRevision=2\nOrderCode=X\n\
                   [M1Comments]\nLines=1\nLine1=note\n\
                   [M1SubExtends]\nNrOfEntries=1\n1=0x6000\n\
-                  [M1SubExt6000]\nParameterName=Input\nDataType=0x0005\nAccessType=ro\nPDOMapping=1\nCount=0;2\nObjExtend=1\n\
+                  [M1SubExt6000]\nParameterName=Input\nDataType=0x0005\nAccessType=ro\nPDOMapping=1\nCount=0;2\n\
+                  ObjExtend=1\n\
                   [M1FixedObjects]\nNrOfEntries=1\n1=0x2010\n\
                   [M1Fixed2010]\nParameterName=Filter\nObjectType=7\nDataType=0x0006\nAccessType=rw\n";
     let checked = read(&format!("{device}{module}"));
@@ -396,7 +400,8 @@ fn e77_sub_index_255_is_the_structure() {
 
 #[test]
 fn e78_ethernet_ip_eds() {
-    let text = "$ made by hand\n[File]\nDescText = \"Pump\";\nRevision = 1.0;\n[Device]\nVendCode = 1;\nProdName = \"Gerät\";\n";
+    let text = "$ made by hand\n[File]\nDescText = \"Pump\";\nRevision = 1.0;\n\
+                [Device]\nVendCode = 1;\nProdName = \"Gerät\";\n";
     let checked = read_as(text, "pump.eds", &Options::default());
     assert!(checked.0.catalog.is_none());
     assert_eq!(checked.codes(), ["EDS001"]);
@@ -478,7 +483,8 @@ fn e81_types_and_short_indices_among_the_objects() {
     assert_eq!(twice.places("EDS044"), [(10, 3)]);
     // An object that is no type, in the area of types.
     let object = read(
-        "[0100]\nParameterName=Speed\nObjectType=7\nDataType=0x0005\nAccessType=ro\n[OptionalObjects]\nSupportedObjects=0\n",
+        "[0100]\nParameterName=Speed\nObjectType=7\nDataType=0x0005\nAccessType=ro\n\
+         [OptionalObjects]\nSupportedObjects=0\n",
     );
     assert_eq!(object.codes(), ["EDS068"]);
     assert_eq!(object.places("EDS068"), [(1, 2)]);

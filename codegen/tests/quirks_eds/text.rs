@@ -113,7 +113,8 @@ fn e28_repeated_key() {
 fn e28_repeated_key_in_every_kind_of_section() {
     let checked = read(
         "[FileInfo]\nFileName=a\nFileName=b\nFileVersion=1\nFileRevision=1\nEDSVersion=4.0\n\
-         [DeviceInfo]\nVendorName=Maker\nVendorNumber=1\nProductName=Pump\nProductNumber=2\nBaudRate_250=1\nBaudRate_250=0\n\
+         [DeviceInfo]\nVendorName=Maker\nVendorNumber=1\nProductName=Pump\nProductNumber=2\n\
+         BaudRate_250=1\nBaudRate_250=0\n\
          [DummyUsage]\nDummy0005=1\nDummy0005=0\n\
          [Comments]\nLines=1\nLine1=a\nLine1=b\n\
          [DynamicChannels]\nNrOfSeg=1\nType1=5\nType1=6\n\

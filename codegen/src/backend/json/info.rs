@@ -40,9 +40,9 @@ pub struct DeviceInfo {
     pub objects: usize,
     /// Number of addressable sub-entries that the file declares, sub-index 0 included.
     pub entries: usize,
-    /// RPDOs.
+    /// RPDOs whose mapping the file describes.
     pub rx_pdos: Vec<PdoInfo>,
-    /// TPDOs.
+    /// TPDOs whose mapping the file describes.
     pub tx_pdos: Vec<PdoInfo>,
 }
 
@@ -94,6 +94,6 @@ fn device(device: &Device) -> DeviceInfo {
 }
 
 fn pdos(device: &Device, direction: Direction) -> Vec<PdoInfo> {
-    let own = device.process_data.pdos.iter().filter(|pdo| pdo.direction == direction);
+    let own = device.process_data.pdos.iter().filter(|pdo| pdo.direction == direction && !pdo.implicit);
     own.map(|pdo| PdoInfo { index: pdo.mapping_index, entries: pdo.entries.len(), bits: pdo.bits() }).collect()
 }
