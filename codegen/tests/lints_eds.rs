@@ -1,6 +1,7 @@
 //! The lints that a checker of EDS files is expected to have: each is triggered by a small vector, says where, and is
 //! silent on a file without the fault.
 
+mod compile_support;
 #[path = "quirks_eds/support.rs"]
 mod support;
 

@@ -1,7 +1,8 @@
 //! The forms that real EDS and DCF files have, row by row of the table of quirks: what each is read as, and whether
 //! there is a diagnostic. Every vector is read with each line end, with and without a byte order mark, and in UTF-8 and
-//! Windows-1252.
+//! Windows-1252, and what it compiles to passes `rustc` and clippy.
 
+mod compile_support;
 #[path = "quirks_eds/numbers.rs"]
 mod numbers;
 #[path = "quirks_eds/objects.rs"]

@@ -64,7 +64,7 @@ pub fn similar(name: &str) -> Option<&'static str> {
 macro_rules! codes {
     ($($id:ident $constant:ident $name:literal $class:ident $level:ident $summary:literal $explanation:literal)*) => {
         $(
-            #[doc = concat!("`", stringify!($id), "`: ", $summary, ".")]
+            #[doc = concat!("`", stringify!($id), "`, `", $name, "`.")]
             pub static $constant: Code = Code {
                 id: stringify!($id),
                 name: $name,

@@ -9,7 +9,9 @@ use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{Diagnostic, Level};
 use lexibus_codegen::ir::{Device, Group, Item, Pdo, Value};
 use lexibus_codegen::source::Source;
-use lexibus_codegen::RustOptions;
+use lexibus_codegen::{Presence, RustOptions};
+
+use crate::compile_support::compile;
 
 /// A checked file.
 pub struct Checked(pub Compilation);
@@ -173,7 +175,17 @@ pub fn read_as(text: &str, name: &str, options: &Options) -> Checked {
         let expected = !is_utf8 && other.catalog.is_some();
         assert_eq!(complaints, usize::from(expected), "{variant}: EDS013");
     }
+    compiles(&plain, text);
     Checked(plain)
+}
+
+/// What comes out is Rust without a warning, or there is an error that says why nothing does.
+fn compiles(checked: &Compilation, text: &str) {
+    let options = RustOptions { table: Presence::Always, ..RustOptions::default() };
+    match checked.rust(&options) {
+        Some(bindings) => compile(text, &bindings).unwrap_or_else(|message| panic!("{message}")),
+        None => assert!(checked.diagnostics.has_errors(), "rejected in silence:\n{text}"),
+    }
 }
 
 /// `text` with every line end, with and without a byte order mark, and in Windows-1252; and whether that is UTF-8.

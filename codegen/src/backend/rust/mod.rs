@@ -1,7 +1,7 @@
 //! The Rust back end: one module a device.
 //!
-//! [`emit`] turns a device into plain data ([`model`]), which the template `templates/rust/device.rs.txt` writes down.
-//! The template is the shape of the output; [`layout`] then breaks the lines that are too long, where and how
+//! [`emit`] turns a device into plain data (`model`), which the template `templates/rust/device.rs.txt` writes down.
+//! The template is the shape of the output; `layout` then breaks the lines that are too long, where and how
 //! `prettyplease` would.
 
 mod docs;

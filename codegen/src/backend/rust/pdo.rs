@@ -169,7 +169,9 @@ fn field_type(entry: &PdoEntry) -> FieldType {
         Type::TimeOfDay if is_whole => FieldType::Time("rt::TimeOfDay"),
         Type::TimeDifference if is_whole => FieldType::Time("rt::TimeDifference"),
         Type::Integer(_) if bits <= WORD => integer(true, bits),
-        Type::VisibleString(_) | Type::OctetString(_) | Type::UnicodeString(_) | Type::Domain if bits.is_multiple_of(8) => {
+        Type::VisibleString(_) | Type::OctetString(_) | Type::UnicodeString(_) | Type::Domain
+            if bits.is_multiple_of(8) =>
+        {
             FieldType::Bytes(bits / 8)
         }
         _ if bits > WORD => FieldType::Bytes(bits / 8),

@@ -158,7 +158,11 @@ impl ValueType {
 
 /// A number as people write it: large unsigned ones are mostly bit patterns, addresses and signatures.
 pub(super) fn number(value: i128, unsigned: bool) -> String {
-    if unsigned && value > 0xFFFF { format!("{value:#X}").replacen("0X", "0x", 1) } else { value.to_string() }
+    if unsigned && value > 0xFFFF {
+        format!("{value:#X}").replacen("0X", "0x", 1)
+    } else {
+        value.to_string()
+    }
 }
 
 #[cfg(test)]
