@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What rustc takes for generated bindings, per entry: benches/compile-time.sh DESCRIPTION [RUNS]
 #
-# Prints, for handles alone and for handles with accessors, the median of RUNS runs of `rustc --emit=metadata`, less
+# Prints, for handles alone, with accessors, and with PDO structs as well, the median of RUNS runs of `rustc --emit=metadata`, less
 # what rustc takes for an empty crate.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -25,9 +25,12 @@ median_ms() { # SOURCE
 entries=$("$target/release/lexibus" info --format json "$input" | grep -o '"entries":[0-9]*' | head -n 1 | cut -d: -f2)
 echo '#![no_std] extern crate lexibus;' > "$work/empty.rs"
 empty=$(median_ms "$work/empty.rs")
-for kind in handles accessors; do
+for kind in handles accessors everything; do
     options=()
-    [ "$kind" = handles ] && options=(--no-accessors --no-pdos)
+    case $kind in
+        handles) options=(--no-accessors --no-pdos) ;;
+        accessors) options=(--no-pdos) ;;
+    esac
     "$target/release/lexibus" generate "$input" -A warnings ${options[@]+"${options[@]}"} --out "$work/bindings.rs"
     printf '#![no_std]\npub mod device { include!("%s"); }\n' "$work/bindings.rs" > "$work/crate.rs"
     all=$(median_ms "$work/crate.rs")

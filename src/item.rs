@@ -93,6 +93,24 @@ impl<V: Value, A> Item<V, A, OnCanOpen> {
     pub const fn object_with_default(index: u16, sub_index: u8, name: &'static str, default: V::Native) -> Self {
         Self::new(OnCanOpen::canopen(index, sub_index), name, Range::Full, Initial::Value(default), "", Flags::NONE)
     }
+
+    /// An entry of a CANopen object dictionary that `flags` says more about, as into which PDOs it can be mapped.
+    #[must_use]
+    pub const fn flagged_object(index: u16, sub_index: u8, name: &'static str, flags: Flags) -> Self {
+        Self::new(OnCanOpen::canopen(index, sub_index), name, Range::Full, Initial::Unknown, "", flags)
+    }
+
+    /// The same, with the value after power-on.
+    #[must_use]
+    pub const fn flagged_object_with_default(
+        index: u16,
+        sub_index: u8,
+        name: &'static str,
+        flags: Flags,
+        default: V::Native,
+    ) -> Self {
+        Self::new(OnCanOpen::canopen(index, sub_index), name, Range::Full, Initial::Value(default), "", flags)
+    }
 }
 
 // Derived, these would ask for `V: Copy` and `A: Copy`.

@@ -215,6 +215,22 @@ pub mod objects {
     pub type ReadWrite<V> = rt::Item<V, rt::Rw, rt::OnCanOpen>;
     /// An entry that can be read and never changes.
     pub type Constant<V> = rt::Item<V, rt::Const, rt::OnCanOpen>;
+    type ConstantVisibleString = Constant<rt::VisibleString>;
+    type ReadOnlyF32 = ReadOnly<f32>;
+    type ReadOnlyI16 = ReadOnly<i16>;
+    type ReadOnlyI32 = ReadOnly<i32>;
+    type ReadOnlyI8 = ReadOnly<i8>;
+    type ReadOnlyInt24 = ReadOnly<rt::Int<24>>;
+    type ReadOnlyU16 = ReadOnly<u16>;
+    type ReadOnlyU32 = ReadOnly<u32>;
+    type ReadOnlyU8 = ReadOnly<u8>;
+    type ReadWriteI32 = ReadWrite<i32>;
+    type ReadWriteI8 = ReadWrite<i8>;
+    type ReadWriteU16 = ReadWrite<u16>;
+    type ReadWriteU32 = ReadWrite<u32>;
+    type ReadWriteU8 = ReadWrite<u8>;
+    type ReadWriteVisibleString = ReadWrite<rt::VisibleString>;
+    type WriteOnlyDomain = WriteOnly<rt::Domain>;
     /// Access to an entry that can be read.
     pub type ReadOnlyAccess<'c, C, V> = rt::Accessor<'c, C, V, rt::Ro, rt::OnCanOpen>;
     /// Access to an entry that can be written.
@@ -226,7 +242,7 @@ pub mod objects {
     /// Device type.
     ///
     /// 0x1000:00, UNSIGNED32, ro, default 0x20192.
-    pub const DEVICE_TYPE: ReadOnly<u32> = ReadOnly::object_with_default(
+    pub const DEVICE_TYPE: ReadOnly<u32> = ReadOnlyU32::object_with_default(
         0x1000,
         0x00,
         "Device type",
@@ -235,13 +251,12 @@ pub mod objects {
     /// Error register.
     ///
     /// 0x1001:00, UNSIGNED8, ro, mappable into TPDOs, default 0.
-    pub const ERROR_REGISTER: ReadOnly<u8> = ReadOnly::new(
-        rt::OnCanOpen::canopen(0x1001, 0x00),
+    pub const ERROR_REGISTER: ReadOnly<u8> = ReadOnlyU8::flagged_object_with_default(
+        0x1001,
+        0x00,
         "Error register",
-        rt::Range::Full,
-        rt::Initial::Value(0),
-        "",
         rt::Flags::TPDO,
+        0,
     );
     /// Pre-defined error field.
     ///
@@ -250,7 +265,7 @@ pub mod objects {
         /// NrOfObjects.
         ///
         /// 0x1003:00, UNSIGNED8, ro, default 4.
-        pub const NR_OF_OBJECTS: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+        pub const NR_OF_OBJECTS: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1003,
             0x00,
             "NrOfObjects",
@@ -259,7 +274,7 @@ pub mod objects {
         /// Pre-defined error field1.
         ///
         /// 0x1003:01, UNSIGNED32, ro.
-        pub const PRE_DEFINED_ERROR_FIELD1: super::ReadOnly<u32> = super::ReadOnly::object(
+        pub const PRE_DEFINED_ERROR_FIELD1: super::ReadOnly<u32> = super::ReadOnlyU32::object(
             0x1003,
             0x01,
             "Pre-defined error field1",
@@ -267,7 +282,7 @@ pub mod objects {
         /// Pre-defined error field2.
         ///
         /// 0x1003:02, UNSIGNED32, ro.
-        pub const PRE_DEFINED_ERROR_FIELD2: super::ReadOnly<u32> = super::ReadOnly::object(
+        pub const PRE_DEFINED_ERROR_FIELD2: super::ReadOnly<u32> = super::ReadOnlyU32::object(
             0x1003,
             0x02,
             "Pre-defined error field2",
@@ -275,7 +290,7 @@ pub mod objects {
         /// Pre-defined error field3.
         ///
         /// 0x1003:03, UNSIGNED32, ro.
-        pub const PRE_DEFINED_ERROR_FIELD3: super::ReadOnly<u32> = super::ReadOnly::object(
+        pub const PRE_DEFINED_ERROR_FIELD3: super::ReadOnly<u32> = super::ReadOnlyU32::object(
             0x1003,
             0x03,
             "Pre-defined error field3",
@@ -283,7 +298,7 @@ pub mod objects {
         /// Pre-defined error field4.
         ///
         /// 0x1003:04, UNSIGNED32, ro.
-        pub const PRE_DEFINED_ERROR_FIELD4: super::ReadOnly<u32> = super::ReadOnly::object(
+        pub const PRE_DEFINED_ERROR_FIELD4: super::ReadOnly<u32> = super::ReadOnlyU32::object(
             0x1003,
             0x04,
             "Pre-defined error field4",
@@ -326,7 +341,7 @@ pub mod objects {
     /// COB-ID SYNC message.
     ///
     /// 0x1005:00, UNSIGNED32, rw, default 128.
-    pub const COB_ID_SYNC_MESSAGE: ReadWrite<u32> = ReadWrite::object_with_default(
+    pub const COB_ID_SYNC_MESSAGE: ReadWrite<u32> = ReadWriteU32::object_with_default(
         0x1005,
         0x00,
         "COB-ID SYNC message",
@@ -335,7 +350,7 @@ pub mod objects {
     /// Manufacturer device name.
     ///
     /// 0x1008:00, VISIBLE_STRING, const, default "Demo Drive".
-    pub const MANUFACTURER_DEVICE_NAME: Constant<rt::VisibleString> = Constant::object_with_default(
+    pub const MANUFACTURER_DEVICE_NAME: Constant<rt::VisibleString> = ConstantVisibleString::object_with_default(
         0x1008,
         0x00,
         "Manufacturer device name",
@@ -344,7 +359,7 @@ pub mod objects {
     /// Manufacturer software version.
     ///
     /// 0x100A:00, VISIBLE_STRING, const, default "1.0".
-    pub const MANUFACTURER_SOFTWARE_VERSION: Constant<rt::VisibleString> = Constant::object_with_default(
+    pub const MANUFACTURER_SOFTWARE_VERSION: Constant<rt::VisibleString> = ConstantVisibleString::object_with_default(
         0x100A,
         0x00,
         "Manufacturer software version",
@@ -357,7 +372,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1010:00, UNSIGNED8, ro, default 1.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1010,
             0x00,
             "Highest sub-index supported",
@@ -366,7 +381,7 @@ pub mod objects {
         /// Save all parameters.
         ///
         /// 0x1010:01, UNSIGNED32, rw, default 1.
-        pub const SAVE_ALL_PARAMETERS: super::ReadWrite<u32> = super::ReadWrite::object_with_default(
+        pub const SAVE_ALL_PARAMETERS: super::ReadWrite<u32> = super::ReadWriteU32::object_with_default(
             0x1010,
             0x01,
             "Save all parameters",
@@ -392,7 +407,7 @@ pub mod objects {
     /// COB-ID EMCY.
     ///
     /// 0x1014:00, UNSIGNED32, rw, default \$NODEID+0x80.
-    pub const COB_ID_EMCY: ReadWrite<u32> = ReadWrite::new(
+    pub const COB_ID_EMCY: ReadWrite<u32> = ReadWriteU32::new(
         rt::OnCanOpen::canopen(0x1014, 0x00),
         "COB-ID EMCY",
         rt::Range::Full,
@@ -403,7 +418,7 @@ pub mod objects {
     /// Producer heartbeat time.
     ///
     /// 0x1017:00, UNSIGNED16, rw, default 0.
-    pub const PRODUCER_HEARTBEAT_TIME: ReadWrite<u16> = ReadWrite::object_with_default(
+    pub const PRODUCER_HEARTBEAT_TIME: ReadWrite<u16> = ReadWriteU16::object_with_default(
         0x1017,
         0x00,
         "Producer heartbeat time",
@@ -416,7 +431,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1018:00, UNSIGNED8, ro, default 4.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1018,
             0x00,
             "Highest sub-index supported",
@@ -425,7 +440,7 @@ pub mod objects {
         /// Vendor-ID.
         ///
         /// 0x1018:01, UNSIGNED32, ro, default 0.
-        pub const VENDOR_ID: super::ReadOnly<u32> = super::ReadOnly::object_with_default(
+        pub const VENDOR_ID: super::ReadOnly<u32> = super::ReadOnlyU32::object_with_default(
             0x1018,
             0x01,
             "Vendor-ID",
@@ -434,7 +449,7 @@ pub mod objects {
         /// Product code.
         ///
         /// 0x1018:02, UNSIGNED32, ro, default 16417.
-        pub const PRODUCT_CODE: super::ReadOnly<u32> = super::ReadOnly::object_with_default(
+        pub const PRODUCT_CODE: super::ReadOnly<u32> = super::ReadOnlyU32::object_with_default(
             0x1018,
             0x02,
             "Product code",
@@ -443,7 +458,7 @@ pub mod objects {
         /// Revision number.
         ///
         /// 0x1018:03, UNSIGNED32, ro, default 0x10000.
-        pub const REVISION_NUMBER: super::ReadOnly<u32> = super::ReadOnly::object_with_default(
+        pub const REVISION_NUMBER: super::ReadOnly<u32> = super::ReadOnlyU32::object_with_default(
             0x1018,
             0x03,
             "Revision number",
@@ -452,7 +467,7 @@ pub mod objects {
         /// Serial number.
         ///
         /// 0x1018:04, UNSIGNED32, ro.
-        pub const SERIAL_NUMBER: super::ReadOnly<u32> = super::ReadOnly::object(
+        pub const SERIAL_NUMBER: super::ReadOnly<u32> = super::ReadOnlyU32::object(
             0x1018,
             0x04,
             "Serial number",
@@ -494,7 +509,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1400:00, UNSIGNED8, ro, default 2.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1400,
             0x00,
             "Highest sub-index supported",
@@ -503,7 +518,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1400:01, UNSIGNED32, rw, default \$NODEID+0x200.
-        pub const COB_ID: super::ReadWrite<u32> = super::ReadWrite::new(
+        pub const COB_ID: super::ReadWrite<u32> = super::ReadWriteU32::new(
             rt::OnCanOpen::canopen(0x1400, 0x01),
             "COB-ID",
             rt::Range::Full,
@@ -514,7 +529,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1400:02, UNSIGNED8, rw, default 255.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1400,
             0x02,
             "Transmission type",
@@ -549,7 +564,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1401:00, UNSIGNED8, ro, default 2.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1401,
             0x00,
             "Highest sub-index supported",
@@ -558,7 +573,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1401:01, UNSIGNED32, rw, default \$NODEID+0x300.
-        pub const COB_ID: super::ReadWrite<u32> = super::ReadWrite::new(
+        pub const COB_ID: super::ReadWrite<u32> = super::ReadWriteU32::new(
             rt::OnCanOpen::canopen(0x1401, 0x01),
             "COB-ID",
             rt::Range::Full,
@@ -569,7 +584,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1401:02, UNSIGNED8, rw, default 1.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1401,
             0x02,
             "Transmission type",
@@ -603,7 +618,7 @@ pub mod objects {
         /// Number of mapped objects.
         ///
         /// 0x1600:00, UNSIGNED8, rw, default 1.
-        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1600,
             0x00,
             "Number of mapped objects",
@@ -612,7 +627,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1600:01, UNSIGNED32, rw, default 0x60400010.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWrite::object_with_default(
+        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWriteU32::object_with_default(
             0x1600,
             0x01,
             "Mapped object 1",
@@ -642,7 +657,7 @@ pub mod objects {
         /// Number of mapped objects.
         ///
         /// 0x1601:00, UNSIGNED8, rw, default 2.
-        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1601,
             0x00,
             "Number of mapped objects",
@@ -651,7 +666,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1601:01, UNSIGNED32, rw, default 0x60400010.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWrite::object_with_default(
+        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWriteU32::object_with_default(
             0x1601,
             0x01,
             "Mapped object 1",
@@ -660,7 +675,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// 0x1601:02, UNSIGNED32, rw, default 0x607A0020.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<u32> = super::ReadWrite::object_with_default(
+        pub const MAPPED_OBJECT_2: super::ReadWrite<u32> = super::ReadWriteU32::object_with_default(
             0x1601,
             0x02,
             "Mapped object 2",
@@ -695,7 +710,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1800:00, UNSIGNED8, ro, default 2.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1800,
             0x00,
             "Highest sub-index supported",
@@ -704,7 +719,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1800:01, UNSIGNED32, rw, default \$NODEID+0x180.
-        pub const COB_ID: super::ReadWrite<u32> = super::ReadWrite::new(
+        pub const COB_ID: super::ReadWrite<u32> = super::ReadWriteU32::new(
             rt::OnCanOpen::canopen(0x1800, 0x01),
             "COB-ID",
             rt::Range::Full,
@@ -715,7 +730,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1800:02, UNSIGNED8, rw, default 255.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1800,
             0x02,
             "Transmission type",
@@ -750,7 +765,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1801:00, UNSIGNED8, ro, default 2.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1801,
             0x00,
             "Highest sub-index supported",
@@ -759,7 +774,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1801:01, UNSIGNED32, rw, default \$NODEID+0x280.
-        pub const COB_ID: super::ReadWrite<u32> = super::ReadWrite::new(
+        pub const COB_ID: super::ReadWrite<u32> = super::ReadWriteU32::new(
             rt::OnCanOpen::canopen(0x1801, 0x01),
             "COB-ID",
             rt::Range::Full,
@@ -770,7 +785,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1801:02, UNSIGNED8, rw, default 1.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1801,
             0x02,
             "Transmission type",
@@ -804,7 +819,7 @@ pub mod objects {
         /// Number of mapped objects.
         ///
         /// 0x1A00:00, UNSIGNED8, rw, default 1.
-        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1A00,
             0x00,
             "Number of mapped objects",
@@ -813,7 +828,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1A00:01, UNSIGNED32, rw, default 0x60410010.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWrite::object_with_default(
+        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWriteU32::object_with_default(
             0x1A00,
             0x01,
             "Mapped object 1",
@@ -843,7 +858,7 @@ pub mod objects {
         /// Number of mapped objects.
         ///
         /// 0x1A01:00, UNSIGNED8, rw, default 2.
-        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWrite::object_with_default(
+        pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1A01,
             0x00,
             "Number of mapped objects",
@@ -852,7 +867,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1A01:01, UNSIGNED32, rw, default 0x60410010.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWrite::object_with_default(
+        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWriteU32::object_with_default(
             0x1A01,
             0x01,
             "Mapped object 1",
@@ -861,7 +876,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// 0x1A01:02, UNSIGNED32, rw, default 0x60640020.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<u32> = super::ReadWrite::object_with_default(
+        pub const MAPPED_OBJECT_2: super::ReadWrite<u32> = super::ReadWriteU32::object_with_default(
             0x1A01,
             0x02,
             "Mapped object 2",
@@ -891,7 +906,7 @@ pub mod objects {
     /// Motor temperature.
     ///
     /// 0x2000:00, REAL32, ro.
-    pub const MOTOR_TEMPERATURE: ReadOnly<f32> = ReadOnly::object(
+    pub const MOTOR_TEMPERATURE: ReadOnly<f32> = ReadOnlyF32::object(
         0x2000,
         0x00,
         "Motor temperature",
@@ -899,7 +914,7 @@ pub mod objects {
     /// Application name.
     ///
     /// 0x2001:00, VISIBLE_STRING, rw, default "axis".
-    pub const APPLICATION_NAME: ReadWrite<rt::VisibleString> = ReadWrite::object_with_default(
+    pub const APPLICATION_NAME: ReadWrite<rt::VisibleString> = ReadWriteVisibleString::object_with_default(
         0x2001,
         0x00,
         "Application name",
@@ -908,7 +923,7 @@ pub mod objects {
     /// Firmware image.
     ///
     /// 0x2002:00, DOMAIN, wo.
-    pub const FIRMWARE_IMAGE: WriteOnly<rt::Domain> = WriteOnly::object(
+    pub const FIRMWARE_IMAGE: WriteOnly<rt::Domain> = WriteOnlyDomain::object(
         0x2002,
         0x00,
         "Firmware image",
@@ -921,7 +936,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x2010:00, UNSIGNED8, ro, default 2.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x2010,
             0x00,
             "Highest sub-index supported",
@@ -930,23 +945,19 @@ pub mod objects {
         /// Input 1.
         ///
         /// 0x2010:01, INTEGER16, ro, mappable into TPDOs.
-        pub const INPUT_1: super::ReadOnly<i16> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x2010, 0x01),
+        pub const INPUT_1: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_object(
+            0x2010,
+            0x01,
             "Input 1",
-            rt::Range::Full,
-            rt::Initial::Unknown,
-            "",
             rt::Flags::TPDO,
         );
         /// Input 2.
         ///
         /// 0x2010:02, INTEGER16, ro, mappable into TPDOs.
-        pub const INPUT_2: super::ReadOnly<i16> = super::ReadOnly::new(
-            rt::OnCanOpen::canopen(0x2010, 0x02),
+        pub const INPUT_2: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_object(
+            0x2010,
+            0x02,
             "Input 2",
-            rt::Range::Full,
-            rt::Initial::Unknown,
-            "",
             rt::Flags::TPDO,
         );
         /// Access to the entries of Analogue inputs: 0x2010.
@@ -973,7 +984,7 @@ pub mod objects {
     /// Encoder counts.
     ///
     /// 0x2020:00, INTEGER24, ro.
-    pub const ENCODER_COUNTS: ReadOnly<rt::Int<24>> = ReadOnly::object(
+    pub const ENCODER_COUNTS: ReadOnly<rt::Int<24>> = ReadOnlyInt24::object(
         0x2020,
         0x00,
         "Encoder counts",
@@ -981,29 +992,26 @@ pub mod objects {
     /// Controlword.
     ///
     /// 0x6040:00, UNSIGNED16, rww, mappable into RPDOs, default 0.
-    pub const CONTROLWORD: ReadWrite<u16> = ReadWrite::new(
-        rt::OnCanOpen::canopen(0x6040, 0x00),
+    pub const CONTROLWORD: ReadWrite<u16> = ReadWriteU16::flagged_object_with_default(
+        0x6040,
+        0x00,
         "Controlword",
-        rt::Range::Full,
-        rt::Initial::Value(0),
-        "",
         rt::Flags::RPDO,
+        0,
     );
     /// Statusword.
     ///
     /// 0x6041:00, UNSIGNED16, ro, mappable into TPDOs.
-    pub const STATUSWORD: ReadOnly<u16> = ReadOnly::new(
-        rt::OnCanOpen::canopen(0x6041, 0x00),
+    pub const STATUSWORD: ReadOnly<u16> = ReadOnlyU16::flagged_object(
+        0x6041,
+        0x00,
         "Statusword",
-        rt::Range::Full,
-        rt::Initial::Unknown,
-        "",
         rt::Flags::TPDO,
     );
     /// Modes of operation.
     ///
     /// 0x6060:00, INTEGER8, rw, mappable into any PDO, default 1, range \-128 to 8.
-    pub const MODES_OF_OPERATION: ReadWrite<i8> = ReadWrite::new(
+    pub const MODES_OF_OPERATION: ReadWrite<i8> = ReadWriteI8::new(
         rt::OnCanOpen::canopen(0x6060, 0x00),
         "Modes of operation",
         rt::Range::To(8),
@@ -1014,29 +1022,25 @@ pub mod objects {
     /// Modes of operation display.
     ///
     /// 0x6061:00, INTEGER8, ro, mappable into TPDOs.
-    pub const MODES_OF_OPERATION_DISPLAY: ReadOnly<i8> = ReadOnly::new(
-        rt::OnCanOpen::canopen(0x6061, 0x00),
+    pub const MODES_OF_OPERATION_DISPLAY: ReadOnly<i8> = ReadOnlyI8::flagged_object(
+        0x6061,
+        0x00,
         "Modes of operation display",
-        rt::Range::Full,
-        rt::Initial::Unknown,
-        "",
         rt::Flags::TPDO,
     );
     /// Position actual value.
     ///
     /// 0x6064:00, INTEGER32, ro, mappable into TPDOs.
-    pub const POSITION_ACTUAL_VALUE: ReadOnly<i32> = ReadOnly::new(
-        rt::OnCanOpen::canopen(0x6064, 0x00),
+    pub const POSITION_ACTUAL_VALUE: ReadOnly<i32> = ReadOnlyI32::flagged_object(
+        0x6064,
+        0x00,
         "Position actual value",
-        rt::Range::Full,
-        rt::Initial::Unknown,
-        "",
         rt::Flags::TPDO,
     );
     /// Target position.
     ///
     /// 0x607A:00, INTEGER32, rw, mappable into any PDO, default 0, range \-1000000 to 1000000.
-    pub const TARGET_POSITION: ReadWrite<i32> = ReadWrite::new(
+    pub const TARGET_POSITION: ReadWrite<i32> = ReadWriteI32::new(
         rt::OnCanOpen::canopen(0x607A, 0x00),
         "Target position",
         rt::Range::Between(-1000000, 1000000),
@@ -1051,7 +1055,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x607D:00, UNSIGNED8, ro, default 2.
-        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnly::object_with_default(
+        pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x607D,
             0x00,
             "Highest sub-index supported",
@@ -1060,7 +1064,7 @@ pub mod objects {
         /// Min position limit.
         ///
         /// 0x607D:01, INTEGER32, rw, default -1000000.
-        pub const MIN_POSITION_LIMIT: super::ReadWrite<i32> = super::ReadWrite::object_with_default(
+        pub const MIN_POSITION_LIMIT: super::ReadWrite<i32> = super::ReadWriteI32::object_with_default(
             0x607D,
             0x01,
             "Min position limit",
@@ -1069,7 +1073,7 @@ pub mod objects {
         /// Max position limit.
         ///
         /// 0x607D:02, INTEGER32, rw, default 1000000.
-        pub const MAX_POSITION_LIMIT: super::ReadWrite<i32> = super::ReadWrite::object_with_default(
+        pub const MAX_POSITION_LIMIT: super::ReadWrite<i32> = super::ReadWriteI32::object_with_default(
             0x607D,
             0x02,
             "Max position limit",
@@ -1099,7 +1103,7 @@ pub mod objects {
     /// Profile velocity.
     ///
     /// 0x6081:00, UNSIGNED32, rw, mappable into any PDO, default 1000, range 0 to 500000.
-    pub const PROFILE_VELOCITY: ReadWrite<u32> = ReadWrite::new(
+    pub const PROFILE_VELOCITY: ReadWrite<u32> = ReadWriteU32::new(
         rt::OnCanOpen::canopen(0x6081, 0x00),
         "Profile velocity",
         rt::Range::To(500000),
@@ -1110,7 +1114,7 @@ pub mod objects {
     /// Profile acceleration.
     ///
     /// 0x6083:00, UNSIGNED32, rw, default 10000, range 1 to 10000000.
-    pub const PROFILE_ACCELERATION: ReadWrite<u32> = ReadWrite::new(
+    pub const PROFILE_ACCELERATION: ReadWrite<u32> = ReadWriteU32::new(
         rt::OnCanOpen::canopen(0x6083, 0x00),
         "Profile acceleration",
         rt::Range::Between(1, 10000000),

@@ -89,7 +89,7 @@ pub struct Identity {
     pub others: Vec<(CompactString, u32)>,
 }
 
-/// What a file says about itself ([FileInfo] of CiA 306, ISO15745 ProfileHeader). Texts are kept as written.
+/// What a file says about itself (`[FileInfo]` of CiA 306, ISO15745 ProfileHeader). Texts are kept as written.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Header {
     /// Name of the file.
@@ -116,11 +116,11 @@ pub struct Header {
     pub modified_by: CompactString,
     /// The EDS from which a DCF was made (LastEDS).
     pub last_eds: CompactString,
-    /// Lines of [Comments].
+    /// Lines of `[Comments]`.
     pub comments: Vec<CompactString>,
 }
 
-/// What a device can on CANopen ([DeviceInfo], [DummyUsage], [DynamicChannels] of CiA 306).
+/// What a device can on CANopen (`[DeviceInfo]`, `[DummyUsage]`, `[DynamicChannels]` of CiA 306).
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CanOpenSettings {
     /// Supported bit rates in kbit/s.
@@ -181,7 +181,7 @@ pub struct DynamicChannel {
     pub max_number: Option<u32>,
 }
 
-/// The place of one device in a network ([DeviceComissioning] of CiA 306).
+/// The place of one device in a network (`[DeviceComissioning]` of CiA 306).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Commissioning {
     /// Node-ID, 1 to 127.
@@ -198,7 +198,7 @@ pub struct Commissioning {
     pub manager: bool,
     /// Serial number for layer setting services.
     pub lss_serial_number: Option<u32>,
-    /// Modules that are plugged in, by their number in the device description ([ConnectedModules]).
+    /// Modules that are plugged in, by their number in the device description (`[ConnectedModules]`).
     pub connected_modules: Vec<u16>,
 }
 

@@ -24,7 +24,7 @@ pub struct Slot {
     pub pdo_increment: u16,
 }
 
-/// A module of a modular device ([M1ModuleInfo] … of CiA 306, Module of ETG.2000, ModuleItem of GSDML).
+/// A module of a modular device (`[M1ModuleInfo]` … of CiA 306, Module of ETG.2000, ModuleItem of GSDML).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Module {
     /// Its number in the description, counted from 1, or its identifier.
@@ -55,7 +55,7 @@ pub struct Module {
     pub origin: Origin,
 }
 
-/// Sub-indices that a module adds to an object ([M<n>SubExt<index>] of CiA 306).
+/// Sub-indices that a module adds to an object (`[M<n>SubExt<index>]` of CiA 306).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SubExtension {
     /// Index of the object.

@@ -1,5 +1,7 @@
 //! The plain data that the template writes down.
 
+use std::collections::BTreeMap;
+
 use super::docs;
 use super::literal;
 use super::options::{Presence, RustOptions};
@@ -25,6 +27,8 @@ pub(super) struct Model<'a> {
     pub method_allow: Option<String>,
     pub objects: Vec<ObjectModel>,
     pub aliases: Vec<Alias>,
+    /// Private names of the types of handles: name, access and value.
+    pub handle_types: Vec<(String, &'static str, &'static str)>,
     pub pdos: Vec<PdoModel>,
     pub table: Option<Vec<EntryModel>>,
     pub table_feature: Option<String>,
@@ -64,6 +68,8 @@ pub(super) struct ItemModel {
     pub heading: String,
     pub access: &'static str,
     pub value: &'static str,
+    /// The private name of the handle's type: one without parameters, so that `rustc` has nothing to infer.
+    pub alias: String,
     /// The call that makes the handle, without its type.
     pub constructor: String,
     /// Whether a literal may resemble a mathematical constant.
@@ -129,8 +135,10 @@ impl<'a> Model<'a> {
     pub(super) fn new(device: &'a Device, file: &'a FileInfo, options: &'a RustOptions) -> Self {
         let objects = objects(device);
         let aliases = ALIASES.iter().filter(|alias| uses(&objects, alias.name)).copied().collect();
+        let handle_types = handle_types(&objects);
         let title = title(device);
         Model {
+            handle_types,
             options,
             compiler_version: env!("CARGO_PKG_VERSION"),
             interface_version: INTERFACE_VERSION,
@@ -244,6 +252,13 @@ fn alias(access: Access) -> &'static str {
     }
 }
 
+/// Each type of a handle once, sorted by name.
+fn handle_types(objects: &[ObjectModel]) -> Vec<(String, &'static str, &'static str)> {
+    let all = objects.iter().flat_map(|object| &object.items);
+    let names: BTreeMap<&str, &ItemModel> = all.map(|item| (item.alias.as_str(), item)).collect();
+    names.into_iter().map(|(name, item)| (name.to_owned(), item.access, item.value)).collect()
+}
+
 fn uses(objects: &[ObjectModel], alias: &str) -> bool {
     objects.iter().flat_map(|object| &object.items).any(|item| item.access == alias)
 }
@@ -326,6 +341,7 @@ fn item(item: &Item, name: &str, original: &str) -> ItemModel {
         heading: heading(original, &format!("0x{index:04X}:{sub:02X}")),
         access: alias(item.access),
         value: ty.path(),
+        alias: format!("{}{}", alias(item.access), ty.word()),
         constructor: constructor(item, ty, &literal::string(original)),
         real: ty.is_real() && (item.default.is_some() || !item.limits.is_empty()),
     }
@@ -336,17 +352,20 @@ fn constructor(item: &Item, ty: ValueType, name: &str) -> String {
     let (index, sub) = item.object().unwrap_or((0, 0));
     let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
     let (range, flags) = (ty.range(&item.limits), flags(item));
-    let has_more = range != "rt::Range::Full" || flags != "rt::Flags::NONE" || !unit.is_empty();
+    let initial = ty.initial(item.default.as_ref());
+    // Byte strings have the type of an array, which only a conversion of its own turns into a slice.
     let literal = item.default.as_ref().and_then(|value| ty.literal(value));
-    match (&item.default, literal) {
-        (None, _) if !has_more => format!("object(«0x{index:04X}¦ 0x{sub:02X}¦ {name}»)"),
-        // Byte strings have the type of an array, which only a conversion of its own turns into a slice.
-        (Some(_), Some(literal)) if !has_more && !matches!(ty, ValueType::Bytes(_)) => {
-            format!("object_with_default(«0x{index:04X}¦ 0x{sub:02X}¦ {name}¦ {literal}»)")
-        }
+    let literal = literal.filter(|_| !matches!(ty, ValueType::Bytes(_)));
+    let is_plain = range == "rt::Range::Full" && unit.is_empty();
+    let address = format!("0x{index:04X}¦ 0x{sub:02X}¦ {name}");
+    let is_flagged = flags != "rt::Flags::NONE";
+    match literal {
+        None if is_plain && initial == "rt::Initial::Unknown" && !is_flagged => format!("object(«{address}»)"),
+        None if is_plain && initial == "rt::Initial::Unknown" => format!("flagged_object(«{address}¦ {flags}»)"),
+        Some(literal) if is_plain && !is_flagged => format!("object_with_default(«{address}¦ {literal}»)"),
+        Some(literal) if is_plain => format!("flagged_object_with_default(«{address}¦ {flags}¦ {literal}»)"),
         _ => format!(
-            "new(«rt::OnCanOpen::canopen(0x{index:04X}, 0x{sub:02X})¦ {name}¦ {range}¦ {}¦ {}¦ {flags}»)",
-            ty.initial(item.default.as_ref()),
+            "new(«rt::OnCanOpen::canopen(0x{index:04X}, 0x{sub:02X})¦ {name}¦ {range}¦ {initial}¦ {}¦ {flags}»)",
             literal::string(unit),
         ),
     }

@@ -60,6 +60,13 @@ impl ValueType {
         }
     }
 
+    /// Its name as a part of another one: `U16`, `Int24`, `VisibleString`.
+    pub(super) fn word(self) -> String {
+        let mut letters = self.path().trim_start_matches("rt::").chars().filter(char::is_ascii_alphanumeric);
+        let first = letters.next().map(|first| first.to_ascii_uppercase());
+        first.into_iter().chain(letters).collect()
+    }
+
     /// Whether literals of the type may resemble a mathematical constant, which clippy would point out.
     pub(super) fn is_real(self) -> bool {
         matches!(self, ValueType::Native { real: 32 | 64, .. })

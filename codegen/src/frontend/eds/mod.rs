@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `sections` | what a section is, by its name |
 //! | `reader` | reading single entries |
-//! | `header` | [FileInfo], [DeviceInfo], [DummyUsage], [Comments], [DeviceComissioning], [DynamicChannels] |
+//! | `header` | `[FileInfo]`, `[DeviceInfo]`, `[DummyUsage]`, `[Comments]`, `[DeviceComissioning]`, `[DynamicChannels]` |
 //! | `lists` | the object lists, and what they say of objects that exist or don't |
 //! | `object` | an object and its sub-indices |
 //! | `compact` | CompactSubObj and the sections that refine it |

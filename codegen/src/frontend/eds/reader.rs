@@ -18,7 +18,7 @@ pub(super) struct Reader<'a, 'd> {
     pub link_spans: Vec<(u16, Span)>,
     /// Sections that refine an object that doesn't exist; kept as extensions of the device.
     pub orphan_sections: Vec<Section>,
-    /// The number of modules that [SupportedModules] announces, and where.
+    /// The number of modules that `[SupportedModules]` announces, and where.
     pub announced_modules: Option<(u32, Span)>,
     /// How many items were made from CompactSubObj and CompactPDO.
     pub derived_items: usize,

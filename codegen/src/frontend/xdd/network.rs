@@ -41,7 +41,7 @@ fn keep<const N: usize>(names: &[&str; N], fields: &[Option<Given<'_>>; N], exte
     }
 }
 
-/// `<dummy entry="Dummy0001=1"/>`: a line of [DummyUsage] in an attribute.
+/// `<dummy entry="Dummy0001=1"/>`: a line of `[DummyUsage]` in an attribute.
 fn dummy_usage<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
