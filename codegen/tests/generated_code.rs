@@ -7,7 +7,7 @@ use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Mutex;
 
-use compile_support::compile;
+use compile_support::{compile, compile_in};
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
@@ -92,6 +92,15 @@ fn no_name_or_text_breaks_out_of_the_code() {
         let compilation = check(Source::new("nasty \"*/.eds", NASTY_NAMES.into()), &options);
         let text = compilation.rust(&options.rust).expect("bindings");
         compile("nasty names", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
+    }
+}
+
+#[test]
+fn every_edition_of_rust_takes_it() {
+    let options = Options { rust: everything(), ..Options::default() };
+    let text = check(Source::new("names.eds", NASTY_NAMES.into()), &options).rust(&options.rust).expect("bindings");
+    for edition in ["2018", "2021", "2024"] {
+        compile_in(edition, edition, &text).unwrap_or_else(|message| panic!("{message}"));
     }
 }
 

@@ -11,6 +11,16 @@ use std::sync::OnceLock;
 ///
 /// What the compiler printed.
 pub fn compile(name: &str, bindings: &str) -> Result<(), String> {
+    compile_in("2021", name, bindings)
+}
+
+/// The same in another edition of Rust.
+///
+/// # Errors
+///
+/// What the compiler printed.
+#[allow(dead_code)] // Not every test that compiles asks for an edition.
+pub fn compile_in(edition: &str, name: &str, bindings: &str) -> Result<(), String> {
     static NUMBER: AtomicUsize = AtomicUsize::new(0);
     let number = NUMBER.fetch_add(1, Ordering::Relaxed);
     let stem = folder().join(format!("{}_{number}", std::process::id()));
@@ -20,7 +30,7 @@ pub fn compile(name: &str, bindings: &str) -> Result<(), String> {
     std::fs::write(&root, format!("{lints}pub mod device {{\n    include!({module:?});\n}}\n"))
         .expect("a temporary file");
     let output = compiler()
-        .args(["--edition", "2021", "--crate-type", "lib", "--emit", "metadata", "--crate-name", "bindings", "-o"])
+        .args(["--edition", edition, "--crate-type", "lib", "--emit", "metadata", "--crate-name", "bindings", "-o"])
         .arg(stem.with_extension("rmeta"))
         .arg("--extern")
         .arg(format!("lexibus={}", runtime().display()))
