@@ -170,6 +170,8 @@ fn wrong_calls_have_exit_code_2() {
         &["check", folder.to_str().expect("UTF-8")],
         &["generate", DEMO, DEMO],
         &["generate", DEMO, "--check"],
+        &["check", DEMO, "--jobs", "0"],
+        &["check", DEMO, "--jobs", "99999"],
     ] {
         assert_eq!(code(&lexibus(call)), 2, "{call:?}");
     }

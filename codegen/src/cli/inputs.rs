@@ -26,7 +26,7 @@ pub(super) fn each(
 ) -> Result<(), Failure> {
     let files = files(&inputs.paths)?;
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(inputs.jobs.unwrap_or(0))
+        .num_threads(threads(inputs.jobs, files.len()))
         .build()
         .map_err(|error| Failure::Usage(format!("can't start that many jobs: {error}")))?;
     let progress = progress(files.len());
@@ -46,6 +46,12 @@ pub(super) fn each(
     })?;
     progress.finish_and_clear();
     Ok(())
+}
+
+/// As many threads as were asked for, or as there are processors; never more than there is work for.
+fn threads(asked: Option<u16>, files: usize) -> usize {
+    let available = || std::thread::available_parallelism().map_or(1, usize::from);
+    asked.map_or_else(available, usize::from).clamp(1, files.max(1))
 }
 
 /// Passes results on in the order of `files`, however they come in.
