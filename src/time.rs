@@ -9,6 +9,8 @@ use crate::value::{decode_raw, encode_raw, Fixed, Value};
 
 /// A date with the time of day (CiA 301 7.1.6.5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TimeOfDay {
     /// Milliseconds after midnight, 28 bits.
     pub milliseconds: u32,
@@ -18,6 +20,8 @@ pub struct TimeOfDay {
 
 /// A time span (CiA 301 7.1.6.6).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TimeDifference {
     /// Milliseconds beyond the whole days, 28 bits.
     pub milliseconds: u32,

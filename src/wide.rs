@@ -12,10 +12,14 @@ use crate::value::{decode_raw, encode_raw, Fixed, Value};
 /// const _: u64 = lexibus::Uint::<64>::MAX.get();
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "u64", into = "u64"))]
 pub struct Uint<const BITS: u32>(u64);
 
 /// A signed integer of `BITS` bits, 1 to 63, in two's complement. Any other width doesn't compile.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(try_from = "i64", into = "i64"))]
 pub struct Int<const BITS: u32>(i64);
 
 const fn checked_width(bits: u32) -> u32 {
@@ -98,6 +102,34 @@ impl<const BITS: u32> Int<BITS> {
     #[must_use]
     pub const fn raw(self) -> u64 {
         self.0 as u64 & mask(Self::WIDTH)
+    }
+}
+
+impl<const BITS: u32> TryFrom<u64> for Uint<BITS> {
+    type Error = OutOfRange;
+
+    fn try_from(value: u64) -> Result<Self, OutOfRange> {
+        Self::new(value).ok_or(OutOfRange)
+    }
+}
+
+impl<const BITS: u32> From<Uint<BITS>> for u64 {
+    fn from(value: Uint<BITS>) -> Self {
+        value.get()
+    }
+}
+
+impl<const BITS: u32> TryFrom<i64> for Int<BITS> {
+    type Error = OutOfRange;
+
+    fn try_from(value: i64) -> Result<Self, OutOfRange> {
+        Self::new(value).ok_or(OutOfRange)
+    }
+}
+
+impl<const BITS: u32> From<Int<BITS>> for i64 {
+    fn from(value: Int<BITS>) -> Self {
+        value.get()
     }
 }
 

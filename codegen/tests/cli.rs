@@ -48,6 +48,10 @@ fn generate_writes_bindings_and_checks_them() {
     assert!(text.contains("pub struct DemoDrive<C>"));
     assert_eq!(out(&lexibus(&["generate", DEMO])), text, "standard output gets the same bytes");
 
+    let deeper = folder.join("new/folder/").to_string_lossy().into_owned();
+    assert_eq!(code(&lexibus(&["generate", DEMO, "--out", &deeper])), 0);
+    assert!(folder.join("new/folder/demo_drive.rs").is_file());
+
     assert_eq!(code(&lexibus(&["generate", DEMO, "--out", &path, "--check"])), 0);
     std::fs::write(&path, text + "\n").expect("a stale file");
     let stale = lexibus(&["generate", DEMO, "--out", &path, "--check"]);
@@ -100,6 +104,8 @@ fn findings_show_the_line_and_decide_the_exit_code() {
     assert_eq!(code(&lexibus(&["check", &path, "--strict"])), 1);
     assert_eq!(code(&lexibus(&["check", &path, "-D", "octal-number"])), 1);
     assert_eq!(code(&lexibus(&["check", &path, "--strict", "-A", "EDS020"])), 0);
+    assert_eq!(code(&lexibus(&["check", &path, "-D", "warnings", "-A", "warnings"])), 0, "the last setting counts");
+    assert_eq!(code(&lexibus(&["check", &path, "-A", "warnings", "-D", "warnings"])), 1, "the last setting counts");
     let coloured = lexibus(&["check", &path, "--color", "always"]);
     assert!(err(&coloured).contains('\u{1b}'));
 }
@@ -170,6 +176,7 @@ fn wrong_calls_have_exit_code_2() {
         &["check", folder.to_str().expect("UTF-8")],
         &["generate", DEMO, DEMO],
         &["generate", DEMO, "--check"],
+        &["generate", DEMO, "--runtime", "a b; c"],
         &["check", DEMO, "--jobs", "0"],
         &["check", DEMO, "--jobs", "99999"],
     ] {

@@ -1161,11 +1161,12 @@ pub mod pdo {
             let pdo = Self { controlword: word as u16 };
             Ok(pdo)
         }
-        /// The writes that set the PDO up in the device with its default identifier.
+        /// The writes that set the PDO up in the device with its default identifier, and switch it on.
         pub const fn configuration(node_id: rt::NodeId) -> [rt::SdoWrite; 6] {
             Self::configuration_as(Self::COB_ID.resolve(node_id))
         }
-        /// The same with the identifier `cob_id`: disable, clear, map, count, enable.
+        /// The writes that set the PDO up with the identifier `cob_id`: disable, clear, map, count, timing, enable. What
+        /// the device lets nobody write is left out.
         pub const fn configuration_as(cob_id: u32) -> [rt::SdoWrite; 6] {
             [
                 rt::SdoWrite::new_u32(0x1400, 0x01, cob_id | 0x8000_0000),
@@ -1173,7 +1174,7 @@ pub mod pdo {
                 rt::SdoWrite::new_u32(0x1600, 0x01, 0x6040_0010),
                 rt::SdoWrite::new_u8(0x1600, 0x00, 1),
                 rt::SdoWrite::new_u8(0x1400, 0x02, 255),
-                rt::SdoWrite::new_u32(0x1400, 0x01, cob_id),
+                rt::SdoWrite::new_u32(0x1400, 0x01, cob_id & 0x7FFF_FFFF),
             ]
         }
     }
@@ -1236,11 +1237,12 @@ pub mod pdo {
             };
             Ok(pdo)
         }
-        /// The writes that set the PDO up in the device with its default identifier.
+        /// The writes that set the PDO up in the device with its default identifier, and switch it on.
         pub const fn configuration(node_id: rt::NodeId) -> [rt::SdoWrite; 7] {
             Self::configuration_as(Self::COB_ID.resolve(node_id))
         }
-        /// The same with the identifier `cob_id`: disable, clear, map, count, enable.
+        /// The writes that set the PDO up with the identifier `cob_id`: disable, clear, map, count, timing, enable. What
+        /// the device lets nobody write is left out.
         pub const fn configuration_as(cob_id: u32) -> [rt::SdoWrite; 7] {
             [
                 rt::SdoWrite::new_u32(0x1401, 0x01, cob_id | 0x8000_0000),
@@ -1249,7 +1251,7 @@ pub mod pdo {
                 rt::SdoWrite::new_u32(0x1601, 0x02, 0x607A_0020),
                 rt::SdoWrite::new_u8(0x1601, 0x00, 2),
                 rt::SdoWrite::new_u8(0x1401, 0x02, 1),
-                rt::SdoWrite::new_u32(0x1401, 0x01, cob_id),
+                rt::SdoWrite::new_u32(0x1401, 0x01, cob_id & 0x7FFF_FFFF),
             ]
         }
     }
@@ -1306,11 +1308,12 @@ pub mod pdo {
             let pdo = Self { statusword: word as u16 };
             Ok(pdo)
         }
-        /// The writes that set the PDO up in the device with its default identifier.
+        /// The writes that set the PDO up in the device with its default identifier, and switch it on.
         pub const fn configuration(node_id: rt::NodeId) -> [rt::SdoWrite; 6] {
             Self::configuration_as(Self::COB_ID.resolve(node_id))
         }
-        /// The same with the identifier `cob_id`: disable, clear, map, count, enable.
+        /// The writes that set the PDO up with the identifier `cob_id`: disable, clear, map, count, timing, enable. What
+        /// the device lets nobody write is left out.
         pub const fn configuration_as(cob_id: u32) -> [rt::SdoWrite; 6] {
             [
                 rt::SdoWrite::new_u32(0x1800, 0x01, cob_id | 0x8000_0000),
@@ -1318,7 +1321,7 @@ pub mod pdo {
                 rt::SdoWrite::new_u32(0x1A00, 0x01, 0x6041_0010),
                 rt::SdoWrite::new_u8(0x1A00, 0x00, 1),
                 rt::SdoWrite::new_u8(0x1800, 0x02, 255),
-                rt::SdoWrite::new_u32(0x1800, 0x01, cob_id),
+                rt::SdoWrite::new_u32(0x1800, 0x01, cob_id & 0x7FFF_FFFF),
             ]
         }
     }
@@ -1381,11 +1384,12 @@ pub mod pdo {
             };
             Ok(pdo)
         }
-        /// The writes that set the PDO up in the device with its default identifier.
+        /// The writes that set the PDO up in the device with its default identifier, and switch it on.
         pub const fn configuration(node_id: rt::NodeId) -> [rt::SdoWrite; 7] {
             Self::configuration_as(Self::COB_ID.resolve(node_id))
         }
-        /// The same with the identifier `cob_id`: disable, clear, map, count, enable.
+        /// The writes that set the PDO up with the identifier `cob_id`: disable, clear, map, count, timing, enable. What
+        /// the device lets nobody write is left out.
         pub const fn configuration_as(cob_id: u32) -> [rt::SdoWrite; 7] {
             [
                 rt::SdoWrite::new_u32(0x1801, 0x01, cob_id | 0x8000_0000),
@@ -1394,7 +1398,7 @@ pub mod pdo {
                 rt::SdoWrite::new_u32(0x1A01, 0x02, 0x6064_0020),
                 rt::SdoWrite::new_u8(0x1A01, 0x00, 2),
                 rt::SdoWrite::new_u8(0x1801, 0x02, 1),
-                rt::SdoWrite::new_u32(0x1801, 0x01, cob_id),
+                rt::SdoWrite::new_u32(0x1801, 0x01, cob_id & 0x7FFF_FFFF),
             ]
         }
     }

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::diagnostics::{render, Levels, Severity};
 use lexibus_codegen::source::Source;
-use lexibus_codegen::Level;
+use lexibus_codegen::{Level, Presence};
 use proc_macro2::{Span, TokenStream};
 use quote::{quote, quote_spanned};
 use syn::parse::{Parse, ParseStream};
@@ -42,6 +42,8 @@ use syn::{Attribute, Ident, LitBool, LitStr, Token, Visibility};
 ///         device_name: "Axis",           // name of the device's type
 ///         accessors: false,              // handles only
 ///         pdos: false,                   // no PDO structs
+///         table: true,                   // a table of all entries; also false, or the name of a feature
+///         debug: true, partial_eq: true, // traits of generated types, likewise; also defmt and serde
 ///         strict: true,                  // repairs of the description are errors
 ///         deny: "EDS049",                // the level of a code; also allow and warn; may be repeated
 ///         node_id_alias: "$MY_NODE_ID",  // another name of $NODEID
@@ -50,7 +52,8 @@ use syn::{Attribute, Ident, LitBool, LitStr, Token, Visibility};
 /// ```
 ///
 /// Errors of the description appear at the path, with the line that causes them, and so do its warnings, as uses of a
-/// deprecated constant: it is how a macro can warn. Cargo and editors track the file.
+/// deprecated constant: it is how a macro can warn. In a crate that denies warnings, `#[allow(deprecated)]` on the
+/// module lets them pass. Cargo and editors track the file.
 #[proc_macro]
 pub fn dictionary(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     let call = syn::parse_macro_input!(input as Call);
@@ -98,6 +101,11 @@ fn parse_options(input: ParseStream<'_>, options: &mut Options) -> syn::Result<(
             "runtime" => options.rust.runtime = input.parse::<LitStr>()?.value(),
             "accessors" => options.rust.accessors = input.parse::<LitBool>()?.value,
             "pdos" => options.rust.pdos = input.parse::<LitBool>()?.value,
+            "table" => options.rust.table = presence(input)?,
+            "debug" => options.rust.debug = presence(input)?,
+            "partial_eq" => options.rust.partial_eq = presence(input)?,
+            "defmt" => options.rust.defmt = presence(input)?,
+            "serde" => options.rust.serde = presence(input)?,
             "strict" => strict = input.parse::<LitBool>()?.value,
             "node_id_alias" => options.node_id_aliases.push(input.parse::<LitStr>()?.value()),
             "allow" => levels.push((input.parse::<LitStr>()?, Level::Allow)),
@@ -105,8 +113,8 @@ fn parse_options(input: ParseStream<'_>, options: &mut Options) -> syn::Result<(
             "deny" => levels.push((input.parse::<LitStr>()?, Level::Deny)),
             other => {
                 let message = format!(
-                    "there is no option `{other}`; there are device_name, runtime, accessors, pdos, strict, allow, warn, \
-                     deny and node_id_alias"
+                    "there is no option `{other}`; there are device_name, runtime, accessors, pdos, table, debug, \
+                     partial_eq, defmt, serde, strict, allow, warn, deny and node_id_alias"
                 );
                 return Err(syn::Error::new(key.span(), message));
             }
@@ -120,6 +128,15 @@ fn parse_options(input: ParseStream<'_>, options: &mut Options) -> syn::Result<(
         options.levels.set(&code.value(), level).map_err(|error| syn::Error::new(code.span(), error))?;
     }
     Ok(())
+}
+
+/// `true`, `false`, or the name of the feature behind which it is.
+fn presence(input: ParseStream<'_>) -> syn::Result<Presence> {
+    if input.peek(LitBool) {
+        let always = input.parse::<LitBool>()?.value;
+        return Ok(if always { Presence::Always } else { Presence::Never });
+    }
+    Ok(Presence::Feature(input.parse::<LitStr>()?.value()))
 }
 
 fn expand(call: &Call) -> syn::Result<TokenStream> {
@@ -155,13 +172,13 @@ fn absolute(path: &str) -> PathBuf {
     folder.join(Path::new(path))
 }
 
-/// The greatest number of warnings that are shown one by one.
-const MAX_WARNINGS: usize = 16;
+/// The greatest number of findings that are shown one by one.
+const MAX_SHOWN: usize = 16;
 
 /// A use of a deprecated constant for every warning: a macro of stable Rust has no other way to warn.
 fn warnings(compilation: &Compilation, span: Span) -> Vec<TokenStream> {
     let list = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Warning);
-    let mut notes: Vec<String> = list.clone().take(MAX_WARNINGS).map(|warning| compilation.one_line(warning)).collect();
+    let mut notes: Vec<String> = list.clone().take(MAX_SHOWN).map(|warning| compilation.one_line(warning)).collect();
     let hidden = list.count() - notes.len();
     if hidden > 0 {
         notes.push(format!("{hidden} more warnings; `lexibus check` shows all of them"));
@@ -180,6 +197,6 @@ fn warnings(compilation: &Compilation, span: Span) -> Vec<TokenStream> {
 
 fn errors(compilation: &Compilation) -> String {
     let errors = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
-    let rendered = errors.map(|error| render::terminal::render(error, &compilation.sources, false));
+    let rendered = errors.take(MAX_SHOWN).map(|error| render::terminal::render(error, &compilation.sources, false));
     format!("the device description has errors\n\n{}", rendered.collect::<Vec<_>>().join("\n\n"))
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use super::Failure;
@@ -58,6 +58,9 @@ pub(super) struct Inputs {
     /// Report this code as an error.
     #[arg(short = 'D', long = "deny", value_name = "CODE")]
     pub deny: Vec<String>,
+    /// The three lists above in the order of the command line: the last setting of a code counts.
+    #[arg(skip)]
+    pub levels: Vec<(String, Level)>,
     /// Another name that formulas use for $NODEID.
     #[arg(long, value_name = "NAME")]
     pub node_id_alias: Vec<String>,
@@ -135,7 +138,7 @@ pub(super) struct Generate {
     #[arg(long, value_name = "NAME")]
     pub device_name: Option<String>,
     /// Path of the runtime crate.
-    #[arg(long, value_name = "PATH", default_value = "::lexibus")]
+    #[arg(long, value_name = "PATH", default_value = "::lexibus", value_parser = rust_path)]
     pub runtime: String,
     /// Handles only: no device type with accessor methods.
     #[arg(long)]
@@ -160,6 +163,16 @@ pub(super) struct Generate {
     pub serde: Presence,
 }
 
+fn rust_path(text: &str) -> Result<String, String> {
+    let is_name = |name: &str| {
+        !name.is_empty() && name.chars().all(|letter| letter.is_alphanumeric() || matches!(letter, '_' | '#'))
+    };
+    match text.strip_prefix("::").unwrap_or(text).split("::").all(is_name) {
+        true => Ok(text.to_owned()),
+        false => Err("expected a path of Rust, such as ::lexibus or crate::rt".to_owned()),
+    }
+}
+
 fn presence(text: &str) -> Result<Presence, String> {
     match (text, text.strip_prefix("feature=")) {
         ("always", _) => Ok(Presence::Always),
@@ -169,14 +182,45 @@ fn presence(text: &str) -> Result<Presence, String> {
     }
 }
 
+impl Arguments {
+    /// The arguments of this process, with the levels in the order in which they stand.
+    pub(super) fn parse_in_order() -> Self {
+        let matches = Arguments::command().get_matches();
+        let mut arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
+        let inputs = match &mut arguments.command {
+            Command::Generate(generate) => &mut generate.inputs,
+            Command::Check(check) => &mut check.inputs,
+            Command::Info(info) => &mut info.inputs,
+            Command::Dump(dump) => &mut dump.inputs,
+            Command::Explain { .. } | Command::Completions { .. } => return arguments,
+        };
+        if let Some((_, matches)) = matches.subcommand() {
+            inputs.order_levels(matches);
+        }
+        arguments
+    }
+}
+
 impl Inputs {
+    fn order_levels(&mut self, matches: &ArgMatches) {
+        let settings = [
+            ("allow", &self.allow, Level::Allow),
+            ("warn", &self.warn, Level::Warn),
+            ("deny", &self.deny, Level::Deny),
+        ];
+        let mut placed = Vec::new();
+        for (name, codes, level) in settings {
+            let places = matches.indices_of(name).into_iter().flatten();
+            placed.extend(places.zip(codes).map(|(place, code)| (place, code.clone(), level)));
+        }
+        placed.sort_by_key(|&(place, ..)| place);
+        self.levels = placed.into_iter().map(|(_, code, level)| (code, level)).collect();
+    }
+
     pub(super) fn options(&self) -> Result<Options, Failure> {
         let mut levels = if self.strict { Levels::strict() } else { Levels::lenient() };
-        let settings = [(&self.allow, Level::Allow), (&self.warn, Level::Warn), (&self.deny, Level::Deny)];
-        for (codes, level) in settings {
-            for code in codes {
-                levels.set(code, level).map_err(|error| Failure::Usage(error.to_string()))?;
-            }
+        for (code, level) in &self.levels {
+            levels.set(code, *level).map_err(|error| Failure::Usage(error.to_string()))?;
         }
         Ok(Options { levels, node_id_aliases: self.node_id_alias.clone(), ..Options::default() })
     }
@@ -201,7 +245,6 @@ impl Generate {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn arguments_are_consistent() {

@@ -38,14 +38,16 @@ struct Target<'g> {
 impl<'g> Target<'g> {
     fn new(generate: &'g Generate) -> Result<Self, Failure> {
         let many = generate.inputs.paths.len() > 1 || generate.inputs.paths.iter().any(|path| path.is_dir());
-        let is_folder = generate.out.as_ref().is_some_and(|out| many || out.is_dir());
+        let names_folder = |out: &PathBuf| out.is_dir() || out.as_os_str().to_string_lossy().ends_with(['/', '\\']);
+        let is_folder = generate.out.as_ref().is_some_and(|out| many || names_folder(out));
         if many && generate.out.as_ref().is_some_and(|out| out.is_file()) {
             return Err(Failure::Usage("several inputs need a folder to write to, and --out is a file".into()));
         }
         if many && generate.out.is_none() {
             return Err(Failure::Usage("several inputs need a folder to write to: name one with --out".into()));
         }
-        if let Some(out) = generate.out.as_ref().filter(|_| is_folder && !generate.check) {
+        let folder = generate.out.as_deref().and_then(|out| if is_folder { Some(out) } else { out.parent() });
+        if let Some(out) = folder.filter(|out| !generate.check && !out.as_os_str().is_empty()) {
             std::fs::create_dir_all(out)
                 .map_err(|error| Failure::Usage(format!("can't make the folder {}: {error}", out.display())))?;
         }

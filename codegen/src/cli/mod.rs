@@ -10,7 +10,7 @@ mod report;
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser};
+use clap::CommandFactory;
 
 use crate::backend::json;
 use crate::compile::{self, Options};
@@ -25,20 +25,26 @@ const USAGE: u8 = 2;
 
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
-    match run(Arguments::parse()) {
+    match run(Arguments::parse_in_order()) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(FAILED),
-        // Whoever reads our output has gone: there is nobody to tell.
-        Err(Failure::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(Failure::Output(error)) => {
-            eprintln!("error: can't write the output: {error}");
+            // Where whoever reads our output has gone, there is nobody to tell; but the work isn't done.
+            if error.kind() != std::io::ErrorKind::BrokenPipe {
+                say(&format!("error: can't write the output: {error}"));
+            }
             ExitCode::from(FAILED)
         }
         Err(Failure::Usage(message)) => {
-            eprintln!("error: {message}\n\nFor more information, try '--help'.");
+            say(&format!("error: {message}\n\nFor more information, try '--help'."));
             ExitCode::from(USAGE)
         }
     }
+}
+
+/// A line for people. That standard error can't be written is nothing that could be reported.
+fn say(line: &str) {
+    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 /// Why a command ended early.
@@ -64,7 +70,9 @@ fn run(arguments: Arguments) -> Result<bool, Failure> {
         Command::Dump(dump) => dump_files(&dump.inputs),
         Command::Explain { code } => explain(code.as_deref()),
         Command::Completions { shell } => {
-            clap_complete::generate(shell, &mut Arguments::command(), "lexibus", &mut std::io::stdout());
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "lexibus", &mut script);
+            std::io::stdout().lock().write_all(&script)?;
             Ok(true)
         }
     }

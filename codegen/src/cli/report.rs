@@ -75,7 +75,7 @@ impl Reporter {
     /// An error that isn't about the text of an input.
     pub(super) fn error(&mut self, message: &str) {
         self.errors += 1;
-        eprintln!("error: {message}");
+        super::say(&format!("error: {message}"));
     }
 
     /// Whether there was no error; prints what is printed once.
@@ -83,7 +83,7 @@ impl Reporter {
         match self.format {
             MessageFormat::Text if self.is_result || self.errors + self.warnings > 0 => {
                 let files = if self.files == 1 { "1 file" } else { &format!("{} files", self.files) };
-                eprintln!("{files}: {}", render::summary(self.errors, self.warnings));
+                super::say(&format!("{files}: {}", render::summary(self.errors, self.warnings)));
             }
             MessageFormat::Sarif => {
                 let text = render::sarif::document(&self.kept, &self.sources, env!("CARGO_PKG_VERSION"));

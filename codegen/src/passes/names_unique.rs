@@ -65,7 +65,8 @@ pub fn unique_up_to(wishes: &[Wish<'_>], reserved: &[&str], case: Case, length: 
 
 fn plain(wish: &Wish<'_>, case: Case, length: usize) -> String {
     let words = words(wish.name);
-    let words = if words.is_empty() { self::words(&wish.fallback) } else { words };
+    // A fallback is an address, which is no text to find words in.
+    let words = if words.is_empty() { wish.fallback.split(' ').map(str::to_ascii_lowercase).collect() } else { words };
     let mut name = write(&words, case);
     if name.len() > length {
         // Whole words where one ends in the second half, so that the rest still reads as a name.
@@ -273,10 +274,7 @@ mod tests {
     #[test]
     fn equal_names_all_get_their_address() {
         assert_eq!(names(&[("A", "2000"), ("b", "2001"), ("a", "2002")]), ["a_2000", "b", "a_2002"]);
-        assert_eq!(
-            names(&[("", "2000"), ("?!", "200A"), ("new", "2002")]),
-            ["object_2000", "object_200_a", "new_2002"]
-        );
+        assert_eq!(names(&[("", "2000"), ("?!", "200A"), ("new", "2002")]), ["object_2000", "object_200a", "new_2002"]);
     }
 
     #[test]

@@ -25,7 +25,12 @@ pub struct Source {
     original: Option<Vec<u8>>,
     line_starts: OnceLock<Vec<u32>>,
     digest: OnceLock<String>,
+    /// Number of characters before each multiple of [`STRIDE`] bytes, so that a column in a long line is found at once.
+    characters: OnceLock<Vec<u32>>,
 }
+
+/// Bytes between two counts of characters.
+const STRIDE: usize = 1024;
 
 /// The largest input that is read: spans are 32-bit offsets.
 pub const MAX_INPUT_BYTES: usize = u32::MAX as usize / 4;
@@ -37,7 +42,15 @@ impl Source {
     /// has a meaning, and [`Source::encoding`] tells so.
     pub fn new(name: impl Into<String>, bytes: Vec<u8>) -> Self {
         let (text, encoding, original) = decode::decode(bytes);
-        Source { name: name.into(), text, encoding, original, line_starts: OnceLock::new(), digest: OnceLock::new() }
+        Source {
+            name: name.into(),
+            text,
+            encoding,
+            original,
+            line_starts: OnceLock::new(),
+            digest: OnceLock::new(),
+            characters: OnceLock::new(),
+        }
     }
 
     /// Reads the file at `path`.
@@ -104,8 +117,25 @@ impl Source {
         let line = starts.partition_point(|&start| start <= offset).max(1);
         let start = starts[line - 1] as usize;
         let end = (offset as usize).clamp(start, self.text.len());
-        let column = self.text.get(start..end).map_or(end - start, |before| before.chars().count());
-        Position { line: line as u32, column: column as u32 + 1 }
+        let column = self.characters_before(end) - self.characters_before(start);
+        Position { line: line as u32, column: column + 1 }
+    }
+
+    /// Number of characters that begin before the byte `offset`.
+    fn characters_before(&self, offset: usize) -> u32 {
+        let begins = |bytes: &[u8]| bytes.iter().filter(|&&byte| byte & 0xC0 != 0x80).count() as u32;
+        let counts = self.characters.get_or_init(|| {
+            let mut total = 0;
+            let chunks = self.text.as_bytes().chunks(STRIDE);
+            std::iter::once(0)
+                .chain(chunks.map(|chunk| {
+                    total += begins(chunk);
+                    total
+                }))
+                .collect()
+        });
+        let whole = (offset / STRIDE).min(counts.len() - 1);
+        counts[whole] + begins(&self.text.as_bytes()[whole * STRIDE..offset])
     }
 
     /// The text of line `line` (counted from 1) without its line end.
@@ -147,6 +177,9 @@ mod tests {
         assert_eq!(source.line(3), "Gerät=1");
         assert_eq!(source.line(4), "z");
         assert_eq!(source.line(9), "");
+        let long = Source::new("x.xdd", "ä".repeat(5000).into_bytes());
+        assert_eq!(long.position(2 * 4321), Position { line: 1, column: 4322 });
+        assert_eq!(long.position(10_000), Position { line: 1, column: 5001 });
     }
 
     #[test]

@@ -92,12 +92,15 @@ fn value(value: &Value) -> String {
 }
 
 fn limits(limits: &Limits) -> Option<String> {
-    match (&limits.low, &limits.high) {
+    let depends = [&limits.low, &limits.high].into_iter().any(|limit| matches!(limit, Some(Value::NodeId(_))));
+    let text = match (&limits.low, &limits.high) {
         (Some(low), Some(high)) => Some(format!("range {} to {}", value(low), value(high))),
         (Some(low), None) => Some(format!("at least {}", value(low))),
         (None, Some(high)) => Some(format!("at most {}", value(high))),
         (None, None) => None,
-    }
+    };
+    // What depends on the node-ID is known only at run time.
+    text.map(|text| if depends { text + " (not checked)" } else { text })
 }
 
 fn documentation(item: &Item, lines: &mut Vec<String>) {

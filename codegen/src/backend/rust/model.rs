@@ -128,6 +128,9 @@ const RESERVED: [&str; 26] = [
     "crate",
 ];
 
+/// The generated module uses these names itself.
+const RESERVED_FOR_DEVICE: [&str; 4] = ["Self", "C", "Option", "Result"];
+
 /// Constants of an object have nothing to clash with.
 const RESERVED_IN_OBJECT: [&str; 4] = ["self", "super", "crate", "rt"];
 
@@ -197,8 +200,9 @@ fn name_of(device: &Device, file: &FileInfo, chosen: Option<&str>, case: Case) -
     let stem = file_name(file);
     let stem = stem.rsplit_once('.').map_or(stem.as_str(), |(stem, _)| stem);
     let names = [chosen.unwrap_or(""), &device.name, stem, "device"];
-    let wish = |name| Wish { name, fallback: String::new(), suffix: "device".into() };
-    let candidates = names.iter().map(|name| names_unique::unique(&[wish(*name)], &["Self"], case).remove(0));
+    let wish = |name| Wish { name, fallback: String::new(), suffix: "Device".into() };
+    let candidates =
+        names.iter().map(|name| names_unique::unique(&[wish(*name)], &RESERVED_FOR_DEVICE, case).remove(0));
     let name = candidates.into_iter().find(|name| !name.is_empty() && name != "_device").unwrap_or_default();
     names_unique::escaped(&name)
 }
@@ -469,7 +473,7 @@ fn data_type(ty: crate::ir::Type) -> &'static str {
 /// The default as the bytes that an SDO upload gives.
 fn raw_initial(item: &Item, ty: ValueType) -> String {
     let bytes = match item.default.as_ref() {
-        Some(Value::NodeId(offset)) if u64::try_from(*offset).is_ok() => {
+        Some(Value::NodeId(offset)) if ty.initial(item.default.as_ref()) != "rt::Initial::Unknown" => {
             return format!("rt::table::RawInitial::NodeId({offset:#x})");
         }
         Some(value) if ty.literal(value).is_some() => raw_bytes(value, item.ty),

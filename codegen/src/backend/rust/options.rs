@@ -29,9 +29,10 @@ pub struct RustOptions {
     pub debug: Presence,
     /// `PartialEq` on generated types.
     pub partial_eq: Presence,
-    /// `defmt::Format` on generated types; the compiling crate needs `defmt`.
+    /// `defmt::Format` on generated types; the compiling crate needs `defmt`, and `lexibus` its feature of that name.
     pub defmt: Presence,
-    /// `serde::Serialize` and `Deserialize` on generated types; the compiling crate needs `serde`.
+    /// `serde::Serialize` and `Deserialize` on generated types; the compiling crate needs `serde`, and `lexibus` its
+    /// feature of that name.
     pub serde: Presence,
 }
 

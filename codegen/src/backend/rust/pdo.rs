@@ -29,6 +29,8 @@ pub(super) struct PdoModel {
     pub covered: String,
     pub cob_id: Option<String>,
     pub configuration: Vec<String>,
+    /// Whether the default identifier is one.
+    pub has_identifier: bool,
 }
 
 /// A field.
@@ -83,6 +85,7 @@ fn model(device: &Device, pdo: &Pdo, options: &RustOptions) -> Option<PdoModel> 
         word,
         cob_id: cob_id(pdo),
         configuration: configuration(device, pdo),
+        has_identifier: has_identifier(pdo),
     })
 }
 
@@ -302,11 +305,26 @@ fn configuration(device: &Device, pdo: &Pdo) -> Vec<String> {
     }
     let mut writes = vec![write("u32", communication.index, 1, "cob_id | 0x8000_0000")];
     writes.extend(mapping_writes(device, pdo));
-    if let Some(transmission) = communication.transmission_type.filter(|_| communication.writable.contains(&2)) {
-        writes.push(write("u8", communication.index, 2, &transmission.to_string()));
+    let timing = [
+        (2, "u8", communication.transmission_type.map(u16::from)),
+        (3, "u16", communication.inhibit_time),
+        (5, "u16", communication.event_timer),
+        (6, "u8", communication.sync_start.map(u16::from)),
+    ];
+    for (sub, ty, value) in timing {
+        if let Some(value) = value.filter(|_| communication.writable.contains(&sub)) {
+            writes.push(write(ty, communication.index, sub, &value.to_string()));
+        }
     }
-    writes.push(write("u32", communication.index, 1, "cob_id"));
+    writes.push(write("u32", communication.index, 1, "cob_id & 0x7FFF_FFFF"));
     writes
+}
+
+/// Whether the default names an identifier at all; a PDO that is switched off by default often doesn't.
+fn has_identifier(pdo: &Pdo) -> bool {
+    const IDENTIFIER: i128 = 0x1FFF_FFFF;
+    let value = pdo.communication.as_ref().and_then(|communication| communication.cob_id.as_ref());
+    matches!(value, Some(Value::NodeId(base) | Value::Int(base)) if base & IDENTIFIER != 0)
 }
 
 fn mapping_writes(device: &Device, pdo: &Pdo) -> Vec<String> {

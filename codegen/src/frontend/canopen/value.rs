@@ -83,7 +83,7 @@ impl Converter<'_> {
         self.quirk(number, text, span);
         match number.parsed {
             Parsed::Int { value, hex } => self.fit(value, hex, text, span, ty, role),
-            Parsed::NodeId(offset) => Value::NodeId(offset),
+            Parsed::NodeId(offset) => self.fit_formula(offset, text, span, ty),
             Parsed::UnknownFormula => {
                 self.unknown_formula(text, span);
                 raw(text)
@@ -121,6 +121,17 @@ impl Converter<'_> {
             "kept as it is",
         );
         Value::Int(value)
+    }
+
+    /// A formula whose results, for the node-IDs 1 to 127, the type may not have.
+    fn fit_formula(&mut self, offset: i128, text: &str, span: Span, ty: Type) -> Value {
+        if let Some((low, high)) = ty.integer_range() {
+            if offset + 1 < low || offset + 127 > high {
+                let message = format!("{text} doesn't fit {ty} for every node-ID from 1 to 127");
+                self.report(&codes::OUT_OF_TYPE, span, message, "kept as it is");
+            }
+        }
+        Value::NodeId(offset)
     }
 
     /// `0.0` for an integer; any other text is kept.
@@ -183,11 +194,11 @@ impl Converter<'_> {
             return Value::Real(value);
         }
         match number::parse(text, self.aliases).parsed {
-            Parsed::NodeId(offset) => Value::NodeId(offset),
             Parsed::UnknownFormula => {
                 self.unknown_formula(text, span);
                 raw(text)
             }
+            // No real number follows from a node-ID.
             _ => self.illegal(text, span, ty),
         }
     }
@@ -291,7 +302,11 @@ fn raw(text: &str) -> Value {
 /// A decimal real number; not the words that Rust also reads (`inf`, `nan`).
 fn finite(text: &str) -> Option<f64> {
     let numeric = text.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-' | b'+' | b'e' | b'E'));
-    numeric.then(|| text.parse::<f64>().ok()).flatten().filter(|value| value.is_finite())
+    let value = numeric.then(|| text.parse::<f64>().ok()).flatten().filter(|value| value.is_finite())?;
+    // A number too small for the type must not become zero in silence.
+    let mantissa = text.split(['e', 'E']).next().unwrap_or(text);
+    let is_zero = !mantissa.bytes().any(|byte| matches!(byte, b'1'..=b'9'));
+    (value != 0.0 || is_zero).then_some(value)
 }
 
 #[cfg(test)]
@@ -330,7 +345,7 @@ mod tests {
         assert_eq!(value("0x02", Type::Real32), (Some(Value::Real(2.0)), vec!["EDS030"]));
         assert_eq!(value("0x3FF8000000000000", Type::Real64), (Some(Value::Real(1.5)), vec![]));
         assert_eq!(value("-3.402823E+38", Type::Real32), (Some(Value::Real(-3.402823E+38)), vec![]));
-        for text in ["nan", "inf", "0x7FC00000", "0x+1", "1e999"] {
+        for text in ["nan", "inf", "0x7FC00000", "0x+1", "1e999", "1e-400", "$NODEID+1"] {
             assert_eq!(value(text, Type::Real32).1, ["EDS022"], "{text}");
         }
     }

@@ -13,9 +13,13 @@ use crate::syntax::ini::{Entry, Section};
 /// Adds the sub-indices 0 to `count` that the group doesn't describe one by one.
 pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, count: u8) {
     let Some(index) = group.index() else { return };
+    let is_first_beyond = reader.derived_items <= limits::MAX_DERIVED_ITEMS;
     reader.derived_items += usize::from(count) + 1;
     if reader.derived_items > limits::MAX_DERIVED_ITEMS {
-        return reader.too_many_derived(raw.origin.span);
+        if is_first_beyond {
+            reader.too_many_derived(raw.origin.span);
+        }
+        return;
     }
     let described: Vec<u8> = group.items.iter().filter_map(|item| Some(item.object()?.1)).collect();
     let missing = |sub: u8| described.binary_search(&sub).is_err();
