@@ -37,7 +37,8 @@ fn macro_crate(name: &str, eds: &str, options: &str) -> PathBuf {
     std::fs::create_dir_all(folder.join("src")).expect("a folder for temporary files");
     let manifest = format!(
         "[package]\nname = \"{name}\"\nversion = \"0.1.0\"\nedition = \"2021\"\n[workspace]\n[dependencies]\n\
-         lexibus = {{ path = {:?}, features = [\"macros\"] }}\n",
+         lexibus = {{ path = {:?}, features = [\"macros\", \"serde\", \"defmt\"] }}\n\
+         serde = {{ version = \"1\", default-features = false, features = [\"derive\"] }}\ndefmt = \"1\"\n",
         root()
     );
     std::fs::write(folder.join("Cargo.toml"), manifest).expect("a manifest");
@@ -72,4 +73,24 @@ fn the_macro_warns_and_refuses_unknown_options() {
     let folder = macro_crate("macro-option", VALVE, "colour: true");
     let errors = text(&cargo(&folder, &["check", "--quiet"]).stderr);
     assert!(errors.contains("there is no option `colour`"), "{errors}");
+}
+
+/// A TPDO with an INTEGER24, three single bits and a time: values of the runtime's own types.
+const SENSOR: &str = "[DeviceInfo]\nProductName=Sensor\nGranularity=1\nNrOfRXPDO=0\nNrOfTXPDO=2\n\
+    [1A00]\nParameterName=Mapping\nObjectType=9\n\
+    [1A00sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=2\n\
+    [1A00sub1]\nParameterName=a\nDataType=7\nAccessType=ro\nDefaultValue=0x20000018\n\
+    [1A00sub2]\nParameterName=b\nDataType=7\nAccessType=ro\nDefaultValue=0x20010003\n\
+    [1A01]\nParameterName=Mapping\nObjectType=9\n\
+    [1A01sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=1\n\
+    [1A01sub1]\nParameterName=a\nDataType=7\nAccessType=ro\nDefaultValue=0x20020030\n\
+    [2000]\nParameterName=Position\nDataType=0x10\nAccessType=ro\nPDOMapping=1\n\
+    [2001]\nParameterName=Bits\nDataType=5\nAccessType=ro\nPDOMapping=1\n\
+    [2002]\nParameterName=Time\nDataType=0x0C\nAccessType=ro\nPDOMapping=1\n";
+
+#[test]
+fn traits_of_other_crates_reach_every_generated_type() {
+    let folder = macro_crate("macro-traits", SENSOR, "serde: true, defmt: true, allow: \"warnings\"");
+    let output = cargo(&folder, &["check", "--quiet"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
 }
