@@ -425,7 +425,7 @@ mod tests {
     fn what_has_no_place_is_in_the_message() {
         let diagnostic =
             Diagnostic::new(&codes::NOT_AN_EDS, Span::default(), "no section").help("take another").fix("[1000]");
-        let sources = [Source::new("/tmp/x y.eds", Vec::new())];
+        let sources = [Source::new("/drives/x y.eds", Vec::new())];
         insta::assert_snapshot!(format!("{:#}", log(&[diagnostic], &sources)["runs"][0]["results"][0]), @r#"
         {
           "level": "error",
@@ -433,7 +433,7 @@ mod tests {
             {
               "physicalLocation": {
                 "artifactLocation": {
-                  "uri": "file:///tmp/x%20y.eds"
+                  "uri": "file:///drives/x%20y.eds"
                 }
               }
             }
