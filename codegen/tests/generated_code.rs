@@ -83,7 +83,8 @@ const NASTY_NAMES: &str = "[DeviceInfo]\nProductName=\n\
     [200C]\nParameterName=client\nDataType=0x001B\nAccessType=rw\nDefaultValue=0xFFFFFFFFFFFFFFFF\n\
     [200D]\nParameterName=\u{65e5}\u{672c}\nDataType=0x000B\nAccessType=rw\nDefaultValue=\u{65e5}\n\
     [200E]\nParameterName=a very long name that goes on and on and on and says nothing, nothing at all, for ever and ever\n\
-    DataType=0x0007\nAccessType=rw\nDefaultValue=$NODEID+0x600\n";
+    DataType=0x0007\nAccessType=rw\nDefaultValue=$NODEID+0x600\n\
+    [200F]\nParameterName=below\nDataType=0x0004\nAccessType=rw\nDefaultValue=$NODEID+-5\n";
 
 #[test]
 fn no_name_or_text_breaks_out_of_the_code() {

@@ -69,6 +69,7 @@ impl fmt::Display for Value {
             Value::Text(value) => write!(f, "{value:?}"),
             Value::Bytes(bytes) => bytes.iter().try_for_each(|byte| write!(f, "{byte:02X}")),
             Value::NodeId(0) => write!(f, "$NODEID"),
+            Value::NodeId(offset @ ..0) => write!(f, "$NODEID+{offset}"),
             Value::NodeId(offset) => write!(f, "$NODEID+{offset:#X}"),
             Value::Time { milliseconds, days } => write!(f, "{days} d {milliseconds} ms"),
             Value::Raw(text) => write!(f, "`{text}`"),

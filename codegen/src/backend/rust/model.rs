@@ -472,10 +472,11 @@ fn data_type(ty: crate::ir::Type) -> &'static str {
 
 /// The default as the bytes that an SDO upload gives.
 fn raw_initial(item: &Item, ty: ValueType) -> String {
+    let formula = item.default.as_ref().and_then(|value| ty.formula(value));
+    if let Some(offset) = formula.and_then(|offset| u64::try_from(offset).ok()) {
+        return format!("rt::table::RawInitial::NodeId({offset:#x})");
+    }
     let bytes = match item.default.as_ref() {
-        Some(Value::NodeId(offset)) if ty.initial(item.default.as_ref()) != "rt::Initial::Unknown" => {
-            return format!("rt::table::RawInitial::NodeId({offset:#x})");
-        }
         Some(value) if ty.literal(value).is_some() => raw_bytes(value, item.ty),
         _ => None,
     };

@@ -98,12 +98,21 @@ impl ValueType {
         }
     }
 
+    /// What a formula adds to the node-ID; `None` for another value, or a sum that the type doesn't have.
+    pub(super) fn formula(self, value: &Value) -> Option<i128> {
+        let (low, high) = self.integers()?;
+        match value {
+            Value::NodeId(offset) if (low..=high).contains(offset) => Some(*offset),
+            _ => None,
+        }
+    }
+
     /// An `Initial` of the type.
     pub(super) fn initial(self, value: Option<&Value>) -> String {
-        if let (Some(Value::NodeId(offset)), Some((low, high))) = (value, self.integers()) {
-            if (low..=high).contains(offset) {
-                return format!("rt::Initial::NodeId({offset:#x})");
-            }
+        if let Some(offset) = value.and_then(|value| self.formula(value)) {
+            // A negative number in hexadecimal would be its two's complement.
+            let offset = if offset < 0 { offset.to_string() } else { format!("{offset:#x}") };
+            return format!("rt::Initial::NodeId({offset})");
         }
         match value.and_then(|value| self.literal(value)) {
             Some(literal) if matches!(self, ValueType::Bytes(_)) => format!("rt::Initial::bytes(«{literal}»)"),

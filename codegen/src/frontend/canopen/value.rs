@@ -284,6 +284,7 @@ impl Converter<'_> {
         let fix = match number.parsed {
             Parsed::Int { value, hex: true } => format!("{value:#x}"),
             Parsed::Int { value, hex: false } => value.to_string(),
+            Parsed::NodeId(offset @ ..0) => format!("$NODEID+{offset}"),
             Parsed::NodeId(offset) => format!("$NODEID+{offset:#x}"),
             _ => return,
         };
