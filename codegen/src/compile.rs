@@ -2,10 +2,10 @@
 
 use crate::backend::rust::{self, RustOptions};
 use crate::diagnostics::{Diagnostic, Diagnostics, Levels};
-use crate::frontend::{detect, eds, xdd};
+use crate::frontend::{detect, eds, esi, gsdml, xdd};
 use crate::ir::{Catalog, FileInfo, Format};
 use crate::passes;
-use crate::source::{FileId, Source};
+use crate::source::{FileId, References, Source};
 
 /// What a caller may choose.
 #[derive(Clone, Debug, Default)]
@@ -75,24 +75,31 @@ pub fn read(source: Source, options: &Options) -> Compilation {
         }
     };
     let aliases = &options.node_id_aliases;
-    let device = match format {
+    let mut references = References::new(&source);
+    let catalog = match format {
         Some(Format::Eds | Format::Dcf) => eds::read(&source, file, aliases, &mut diagnostics),
         Some(Format::Xdd) => xdd::read(&source, file, aliases, &mut diagnostics),
+        Some(Format::Esi) => esi::read(&source, file, &mut references, &mut diagnostics),
+        Some(Format::Gsdml) => gsdml::read(&source, file, &mut diagnostics),
         _ => None,
     };
     // What tells a DCF from an EDS is the place in a network that it gives the device, whatever its file is called.
-    let commissioned = device.as_ref().is_some_and(|device| device.commissioning.is_some());
+    let mut devices = catalog.iter().flat_map(|catalog| &catalog.devices);
+    let commissioned = devices.any(|device| device.commissioning.is_some());
     let format = if format == Some(Format::Eds) && commissioned { Some(Format::Dcf) } else { format };
-    let catalog = device.zip(format).map(|(device, format)| Catalog {
-        files: vec![FileInfo {
-            name: source.name().to_owned(),
-            format,
-            encoding: source.encoding(),
-            sha256: source.sha256().to_owned(),
-        }],
-        devices: vec![device],
+    let mut others = references.into_sources();
+    let mut sources = vec![source];
+    sources.append(&mut others);
+    let catalog = catalog.zip(format).map(|(mut catalog, format)| {
+        catalog.files = sources.iter().map(|source| file_info(source, format)).collect();
+        catalog
     });
-    Compilation { sources: vec![source], catalog, diagnostics, format }
+    Compilation { sources, catalog, diagnostics, format }
+}
+
+fn file_info(source: &Source, format: Format) -> FileInfo {
+    let (name, sha256) = (source.name().to_owned(), source.sha256().to_owned());
+    FileInfo { name, format, encoding: source.encoding(), sha256 }
 }
 
 /// Reads `source` and checks it: the IR that every back end starts from.

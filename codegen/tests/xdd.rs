@@ -5,15 +5,23 @@ use std::path::PathBuf;
 use lexibus_codegen::diagnostics::{Diagnostics, Severity};
 use lexibus_codegen::frontend::{eds, xdd};
 use lexibus_codegen::ir::{
-    Access, Category, Device, GroupKind, Item, Mappable, ObjectCode, Scale, Shape, Storage, Type, TypeId, Value,
+    Access, Catalog, Category, Device, Fit, GroupKind, Item, Mappable, ObjectCode, Scale, Shape, Storage, Type, TypeId,
+    Value,
 };
 use lexibus_codegen::source::{FileId, Source};
 
 fn read(text: &str) -> (Option<Device>, Diagnostics) {
     let mut diagnostics = Diagnostics::default();
     let source = Source::new("test.xdd", text.as_bytes().to_vec());
-    let device = xdd::read(&source, FileId(0), &[], &mut diagnostics);
+    let device = only(xdd::read(&source, FileId(0), &[], &mut diagnostics));
     (device, diagnostics)
+}
+
+/// The one device of a catalogue.
+fn only(catalog: Option<Catalog>) -> Option<Device> {
+    let mut devices = catalog?.devices;
+    assert_eq!(devices.len(), 1);
+    devices.pop()
 }
 
 fn codes(diagnostics: &Diagnostics) -> Vec<&'static str> {
@@ -468,7 +476,7 @@ fn comparable(device: &Device) -> serde_json::Value {
 fn the_same_device_gives_the_same_ir() {
     let mut diagnostics = Diagnostics::default();
     let source = Source::new("same.eds", EDS.as_bytes().to_vec());
-    let expected = eds::read(&source, FileId(0), &[], &mut diagnostics).unwrap();
+    let expected = only(eds::read(&source, FileId(0), &[], &mut diagnostics)).unwrap();
     assert!(diagnostics.list().is_empty(), "{:#?}", diagnostics.list());
     assert_eq!(expected.groups.len(), 14);
     let expected = comparable(&expected);
@@ -641,7 +649,8 @@ fn the_network_profile() {
     assert_eq!((device.identity.vendor_id, device.identity.product_code), (Some(0x100), Some(0x1234)));
     assert_eq!((device.header.file_name.as_str(), device.header.description.as_str()), ("x.xdd", "a thing"));
     let slot = &device.slots[0];
-    assert_eq!((slot.number, slot.name.as_str(), slot.instances, slot.fits[0].as_str()), (1, "Bus", (0, 4), "IO"));
+    assert_eq!((slot.number, slot.name.as_str(), slot.instances), (1, "Bus", (0, 4)));
+    assert_eq!(slot.fits, [Fit::Name("IO".into())]);
     let canopen = device.canopen.as_deref().unwrap();
     assert_eq!((canopen.bit_rates.as_slice(), canopen.auto_bit_rate), (&[100, 250][..], true));
     assert_eq!((canopen.dummies.as_slice(), canopen.dummies_given), (&[5, 7][..], true));
@@ -707,11 +716,11 @@ fn files_of_another_kind_are_told_apart() {
     assert_eq!(error(&container("", "").replace("_CANopen", "_EtherCAT")), ["XDD003"]);
     assert_eq!(error(&container("", "").replace("_CANopen", "_Powerlink")), ["XDD002"]);
     assert_eq!(error(&container("", "").replace("_CANopen", "_Powerlink_Modular_Head")), ["XDD002"]);
-    assert_eq!(error(""), ["XDD001"]);
-    assert_eq!(error(&container("<DeviceIdentity>", "")), ["XDD001"]);
-    assert_eq!(error(&container("", "<ApplicationLayers a=1/>")), ["XDD001"]);
-    assert_eq!(error(&container("", "").replace("</ISO15745ProfileContainer>", "")), ["XDD001"]);
-    assert_eq!(error(&format!("{}<x/>", container("", ""))), ["XDD001"]);
+    assert_eq!(error(""), ["XML001"]);
+    assert_eq!(error(&container("<DeviceIdentity>", "")), ["XML001"]);
+    assert_eq!(error(&container("", "<ApplicationLayers a=1/>")), ["XML001"]);
+    assert_eq!(error(&container("", "").replace("</ISO15745ProfileContainer>", "")), ["XML001"]);
+    assert_eq!(error(&format!("{}<x/>", container("", ""))), ["XML001"]);
     assert_eq!(error(&container(&"<x>".repeat(100_000), "")), ["IO003"]);
 }
 
@@ -730,7 +739,7 @@ fn an_unknown_entity_is_kept_as_text() {
     let text = container("<DeviceIdentity><productName>A&nbsp;&amp;&bomb;</productName></DeviceIdentity>", "")
         .replace("<ISO15745ProfileContainer", "<!DOCTYPE x [<!ENTITY bomb 'xxxxxxxxxx'>]>\n<ISO15745ProfileContainer");
     let (device, diagnostics) = read(&text);
-    assert_eq!((device.unwrap().name.as_str(), codes(&diagnostics)), ("A&nbsp;&&bomb;", vec!["XDD009", "XDD009"]));
+    assert_eq!((device.unwrap().name.as_str(), codes(&diagnostics)), ("A&nbsp;&&bomb;", vec!["XML002", "XML002"]));
 }
 
 #[test]
@@ -806,9 +815,13 @@ fn real_files_have_as_many_objects_as_counted() {
             *seen.entry(diagnostic.code.id).or_insert(0) += 1;
         }
         eprintln!("{name}: {seen:?}");
-        let subs: usize =
-            device.groups.iter().filter(|g| g.object_code().unwrap().has_subs()).map(|g| g.items.len()).sum();
-        assert_eq!((device.groups.len(), subs), (number("objects"), number("subobjects")), "{name}");
+        let subs: usize = device.devices[0]
+            .groups
+            .iter()
+            .filter(|g| g.object_code().unwrap().has_subs())
+            .map(|g| g.items.len())
+            .sum();
+        assert_eq!((device.devices[0].groups.len(), subs), (number("objects"), number("subobjects")), "{name}");
     }
 }
 
@@ -832,7 +845,7 @@ fn no_cut_and_no_damage_panics() {
             let (device, diagnostics) = read(bytes[..cut].to_vec());
             assert!(device.is_none() && diagnostics.has_errors(), "{name} cut at {cut}");
             let errors = codes(&diagnostics);
-            let fatal = errors.iter().filter(|&&code| code == "XDD001" || code == "XDD002").count();
+            let fatal = errors.iter().filter(|&&code| code == "XML001" || code == "XDD002").count();
             assert_eq!(fatal, 1, "{name} cut at {cut}: {errors:?}");
         }
         if !own {
@@ -854,8 +867,8 @@ fn a_real_device_gives_the_same_ir() {
     let mut diagnostics = Diagnostics::default();
     let eds = source("CANopenNode__CANopenNode__DS301_profile.eds");
     let xdd = source("CANopenNode__CANopenNode__DS301_profile.xpd");
-    let mut expected = eds::read(&eds, FileId(0), &[], &mut diagnostics).unwrap();
-    let mut actual = xdd::read(&xdd, FileId(0), &[], &mut diagnostics).unwrap();
+    let mut expected = only(eds::read(&eds, FileId(0), &[], &mut diagnostics)).unwrap();
+    let mut actual = only(xdd::read(&xdd, FileId(0), &[], &mut diagnostics)).unwrap();
     // The XPD also keeps the objects that are switched off.
     let enabled: Vec<_> = expected.groups.iter().map(|group| group.index()).collect();
     actual.groups.retain(|group| enabled.contains(&group.index()));

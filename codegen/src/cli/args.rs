@@ -43,7 +43,7 @@ pub(super) enum Command {
 /// Files to read, and how.
 #[derive(Debug, Args)]
 pub(super) struct Inputs {
-    /// Device descriptions, and folders of them (searched for .eds, .dcf, .xdd, .xdc and .xpd).
+    /// Device descriptions, and folders of them (searched for .eds, .dcf, .xdd, .xdc, .xpd and .xml).
     #[arg(required = true, value_name = "FILE")]
     pub paths: Vec<PathBuf>,
     /// Turn every repair of the input into an error.

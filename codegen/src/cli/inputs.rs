@@ -13,7 +13,7 @@ use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::source::{FileId, Source, Span};
 
 /// Endings of the files that a folder is searched for.
-const ENDINGS: [&str; 5] = ["eds", "dcf", "xdd", "xdc", "xpd"];
+const ENDINGS: [&str; 6] = ["eds", "dcf", "xdd", "xdc", "xpd", "xml"];
 
 /// Folders deeper than this are not searched, so that a link to its own parent ends.
 const MAX_FOLDER_DEPTH: usize = 32;

@@ -88,7 +88,7 @@ codes! {
     IO002 UNKNOWN_FORMAT "unknown-format" Error Deny
         "the file is no device description"
         "Neither the content nor the name of the file looks like any format that Lexibus reads: EDS, DCF (CiA \
-        306), XDD or XDC (CiA 311). The message says what the file looks like where that is known."
+        306), XDD, XDC (CiA 311), ESI (ETG.2000) or GSDML. The message says what the file looks like where that is known."
     IO003 INPUT_TOO_LARGE "input-too-large" Error Deny
         "the description exceeds a limit"
         "A description declares more elements, or nests them deeper, than any real device does, so that reading it \
@@ -338,10 +338,26 @@ codes! {
     EDS071 HEX_COUNT "hex-count" Lint Warn
         "a number of entries is in hexadecimal"
         "The number of entries of a list is read as decimal by many tools, which then see an empty list."
-    XDD001 MALFORMED_XML "malformed-xml" Error Deny
+    XML001 MALFORMED_XML "malformed-xml" Error Deny
         "the XML isn't well formed"
         "The file can't be read further than to this place: a tag isn't closed, an attribute isn't quoted, or the \
         file was cut off."
+    XML002 ENTITY_REFERENCE "entity-reference" Repair Warn
+        "an entity isn't one of the five of XML"
+        "Lexibus expands no entities other than those that XML itself defines, so that a small file can't grow \
+        into a large one. The reference is kept as text."
+    XML003 WRONG_ENCODING "wrong-encoding" Repair Warn
+        "the file isn't in the encoding that it declares"
+        "The XML declaration names an encoding (UTF-8 where there is none), and the bytes are of another one. Bytes \
+        that are UTF-8 were read as such whatever is declared, all others as declared, or else as Windows-1252."
+    XML004 SECOND_ROOT "second-root" Repair Warn
+        "something follows the root element"
+        "A document has one root element, and nothing but comments behind it. What follows was left out: often it is \
+        the rest of an older, longer version of the file."
+    XML005 REFERENCED_FILE "referenced-file" Lint Warn
+        "a file that the description refers to wasn't read"
+        "References are followed to files beside the description or in folders below it, never elsewhere. What the \
+        file would have added is missing."
     XDD002 POWERLINK_XDD "powerlink-xdd" Error Deny
         "a POWERLINK XDD was given"
         "Ethernet POWERLINK uses XDD files of the same outer form (EPSG 311), with other communication profiles. \
@@ -365,10 +381,6 @@ codes! {
     XDD008 MISSING_INDEX "missing-index" Repair Warn
         "an object has no usable index"
         "Without an index or sub-index in hexadecimal digits the object can't be addressed; it is left out."
-    XDD009 ENTITY_REFERENCE "entity-reference" Repair Warn
-        "an entity isn't one of the five of XML"
-        "Lexibus expands no entities other than those that XML itself defines, so that a small file can't grow \
-        into a large one. The reference is kept as text."
     PDO001 MAPPED_OBJECT_MISSING "mapped-object-missing" Lint Warn
         "a PDO maps an object that doesn't exist"
         "The mapping names an index and sub-index that this file doesn't describe. The field is kept as raw bits."

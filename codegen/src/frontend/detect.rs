@@ -29,30 +29,48 @@ pub fn format(source: &Source, file: FileId) -> Result<Format, Box<Diagnostic>> 
 
 fn unknown(span: Span, message: &str) -> Diagnostic {
     Diagnostic::new(&codes::UNKNOWN_FORMAT, span, message)
-        .help("Lexibus reads EDS and DCF files (CiA 306), XDD and XDC files (CiA 311)")
+        .help("Lexibus reads EDS and DCF files (CiA 306), XDD and XDC files (CiA 311), ESI (ETG.2000) and GSDML files")
 }
 
-fn xml(start: &str, span: Span) -> Result<Format, Box<Diagnostic>> {
-    let Some(root) = root_element(start) else {
+fn xml(text: &str, span: Span) -> Result<Format, Box<Diagnostic>> {
+    let Some(root) = root_element(text) else {
         return Err(Box::new(Diagnostic::new(&codes::MALFORMED_XML, span, "the file has no root element")));
     };
     let (root, offset) = root;
     let start = span.start + offset as u32;
     let at = Span::new(span.file, start, start + root.len() as u32);
     match root.rsplit(':').next().unwrap_or(root) {
+        "ISO15745Profile" if is_gsdml(text) => Ok(Format::Gsdml),
         "ISO15745ProfileContainer" | "ISO15745Profile" => Ok(Format::Xdd),
-        "EtherCATInfo" | "EtherCATInfoList" | "EtherCATModule" | "EtherCATDict" => {
-            Err(Box::new(unknown(at, "this is EtherCAT slave information (ESI), which isn't read yet")))
+        "EtherCATInfo" | "EtherCATInfoList" | "EtherCATModule" | "EtherCATDict" | "EtherCATDiag" => Ok(Format::Esi),
+        "EtherCATConfig" => {
+            let message = "this is the configuration of an EtherCAT network (ENI), not the description of a device";
+            Err(Box::new(unknown(at, message).label("made by a master's tool from ESI files")))
+        }
+        name if name.starts_with("EtherCAT") || name == "SscToolConfiguration" => {
+            let message = format!("this is no EtherCAT slave information: the root is <{name}>");
+            Err(Box::new(unknown(at, &message).label("expected EtherCATInfo or EtherCATInfoList")))
         }
         other => Err(Box::new(unknown(at, &format!("<{other}> is the root of no device description")).label("here"))),
     }
 }
 
+/// Whether an ISO 15745 profile is that of a PROFINET device: a CANopen XDD has the same root element.
+fn is_gsdml(text: &str) -> bool {
+    let head = head(text);
+    ["/GSDML/", "GSDML-DeviceProfile", "<DeviceAccessPointList"].iter().any(|mark| head.contains(mark))
+}
+
+/// The start of a text.
+fn head(text: &str) -> &str {
+    let end = (0..=LOOK_AHEAD.min(text.len())).rev().find(|&end| text.is_char_boundary(end)).unwrap_or(0);
+    &text[..end]
+}
+
 /// Name of the first element, and where it stands.
 fn root_element(text: &str) -> Option<(&str, usize)> {
     let mut at = 0;
-    let end = (0..=LOOK_AHEAD.min(text.len())).rev().find(|&end| text.is_char_boundary(end)).unwrap_or(0);
-    let head = &text[..end];
+    let head = head(text);
     while let Some(open) = head[at..].find('<') {
         let start = at + open + 1;
         let rest = &head[start..];
@@ -157,6 +175,11 @@ mod tests {
         assert_eq!(detect("a.eds", ""), Err("IO002"));
         assert_eq!(detect("a.xdc", "set_max_delay -from [get_pins x]"), Err("IO002"));
         assert_eq!(detect("a.xml", "<html>"), Err("IO002"));
-        assert_eq!(detect("a.xml", "<!-- "), Err("XDD001"));
+        assert_eq!(detect("a.xml", "<e:EtherCATInfo>"), Ok(Format::Esi));
+        assert_eq!(detect("a.xml", "<EtherCATTest>"), Err("IO002"));
+        let gsdml = "<ISO15745Profile xmlns='http://www.profibus.com/GSDML/2003/11/DeviceProfile'>";
+        assert_eq!(detect("a.xml", gsdml), Ok(Format::Gsdml));
+        assert_eq!(detect("a.xml", "<ISO15745Profile>"), Ok(Format::Xdd));
+        assert_eq!(detect("a.xml", "<!-- "), Err("XML001"));
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Condition, LocalText, Scale, Value};
+use super::{CompactString, Condition, Scale, Texts, Value};
 
 /// Access rights of an item, seen from the bus (CiA 306; ETG.2000 Flags/Access).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -104,17 +104,12 @@ pub enum Binding {
     },
     /// Modbus registers, or single bits.
     Register(Box<RegisterBinding>),
-    /// Bytes of a PROFINET record.
+    /// Bits of a record of a PROFINET submodule.
     Record {
-        /// API number.
-        api: u32,
-        /// Slot.
-        slot: u16,
-        /// Subslot.
-        subslot: u16,
         /// Record index.
         index: u16,
-        /// First bit.
+        /// First bit: bit 0 is the least significant one of the first byte. A number of several bytes is big-endian and
+        /// begins at bit 0 of its first byte.
         bit_offset: u32,
         /// Number of bits.
         bits: u32,
@@ -223,7 +218,7 @@ pub struct Quantity {
     /// Symbol of the unit of the physical value (`rpm`, `0.1 A`), as the source has it.
     pub unit: CompactString,
     /// The unit in other languages.
-    pub units: Vec<LocalText>,
+    pub units: Texts,
     /// How the raw number relates to the physical one.
     pub scale: Option<Scale>,
     /// Raw values that aren't numbers, with their meaning (0xFFFF = check off).
@@ -249,6 +244,14 @@ pub struct Behaviour {
     pub self_clearing: bool,
     /// Whether it can be written only once.
     pub write_once: bool,
+    /// Whether the backup of a device keeps it (Backup of ETG.2000).
+    pub backup: bool,
+    /// Whether it is a setting of the application (Setting of ETG.2000).
+    pub setting: bool,
+    /// Its role in functional safety (SafetyMapping of ETG.2000: `si`, `so`, `sio`, `sp`).
+    pub safety: Option<CompactString>,
+    /// Whether a tool doesn't show it (Visible of GSDML).
+    pub hidden: bool,
     /// Communication states in which reading is allowed (ETG.2000 ReadRestrictions); empty = all.
     pub read_states: Vec<CompactString>,
     /// Communication states in which writing is allowed (ETG.2000 WriteRestrictions); empty = all.

@@ -2,7 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Device};
+use super::{
+    CodeTable, CompactString, Device, Family, Graphic, Module, ModuleId, ModuleUse, Places, Submodule, Texts, TypeDef,
+    UnitDiagnosis,
+};
 use crate::source::{Encoding, Origin, Span};
 
 /// The devices of one vendor, as one or more files describe them.
@@ -10,8 +13,33 @@ use crate::source::{Encoding, Origin, Span};
 pub struct Catalog {
     /// The files that were read; spans refer to them by position.
     pub files: Vec<FileInfo>,
-    /// The devices, in the order of the source.
+    /// The devices, in the order of the source. A device access point of GSDML is a device.
     pub devices: Vec<Device>,
+    /// Modules that can be plugged into them.
+    pub modules: Vec<Module>,
+    /// Submodules of PROFINET modules and device access points.
+    pub submodules: Vec<Submodule>,
+    /// Types that items of submodules name. (Those of devices and modules are their own.)
+    pub types: Vec<TypeDef>,
+    /// Codes that all devices share: channel diagnosis, log book.
+    pub code_tables: Vec<CodeTable>,
+    /// User structures of PROFINET diagnosis.
+    pub unit_diagnoses: Vec<UnitDiagnosis>,
+    /// Families that devices and modules belong to.
+    pub families: Vec<Family>,
+    /// Pictures that devices and modules refer to.
+    pub graphics: Vec<Graphic>,
+    /// What the source says beyond that.
+    pub extensions: Vec<Extension>,
+}
+
+impl Catalog {
+    /// A catalogue of one device with modules of its own.
+    pub fn of_device(mut device: Device, modules: Vec<Module>) -> Self {
+        let places = (0..modules.len()).map(|position| ModuleId(position as u32));
+        device.modules.extend(places.map(|module| ModuleUse { module, places: Places::default() }));
+        Catalog { devices: vec![device], modules, ..Catalog::default() }
+    }
 }
 
 /// The formats that Lexibus reads.
@@ -100,7 +128,7 @@ pub struct Documentation {
     /// A description in English, or in the source's only language.
     pub text: String,
     /// The same in other languages.
-    pub translations: Vec<LocalText>,
+    pub translations: Texts,
     /// Page, line or clause of the manual that the element was taken from.
     pub cite: Option<CompactString>,
 }

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    CodeTable, CompactString, Doubt, Extension, Framing, Group, LocalText, Message, Module, Procedure, ProcessData,
-    Slot, StateMachine, TypeDef, Value,
+    CodeTable, CompactString, Documentation, Doubt, EtherCatSettings, Extension, Framing, Group, Message, Module,
+    ModuleUse, Procedure, ProcessData, ProfinetSettings, Slot, StateMachine, SubmoduleUse, Texts, TypeDef, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -14,13 +14,23 @@ pub struct Device {
     /// What it is called.
     pub name: CompactString,
     /// The name in other languages.
-    pub names: Vec<LocalText>,
+    pub names: Texts,
+    /// Its identifier in the source, where it has one (ID of a device access point).
+    pub id: CompactString,
+    /// Whether the source describes no device, only a dictionary that devices refer to (EtherCATDict of ETG.2000).
+    pub dictionary_only: bool,
     /// Who made it and which one it is.
     pub identity: Identity,
     /// What the file says about itself.
     pub header: Header,
     /// What the device can on CANopen.
     pub canopen: Option<Box<CanOpenSettings>>,
+    /// What the device can on EtherCAT.
+    pub ethercat: Option<Box<EtherCatSettings>>,
+    /// What the device can on PROFINET.
+    pub profinet: Option<Box<ProfinetSettings>>,
+    /// Device profiles that it follows, by number (402 = drives, 5001 = modular device).
+    pub profiles: Vec<u32>,
     /// The place of this one device in a network (DCF, XDC).
     pub commissioning: Option<Box<Commissioning>>,
     /// Types that it defines.
@@ -32,7 +42,9 @@ pub struct Device {
     /// Slots of a modular device.
     pub slots: Vec<Slot>,
     /// Modules that can be plugged in.
-    pub modules: Vec<Module>,
+    pub modules: Vec<ModuleUse>,
+    /// Submodules of a device access point itself, and those that can be plugged into it.
+    pub submodules: Vec<SubmoduleUse>,
     /// Request and reply frames of a command protocol.
     pub messages: Vec<Message>,
     /// How frames of the command protocol are delimited and checked.
@@ -47,6 +59,8 @@ pub struct Device {
     pub variants: Vec<Variant>,
     /// How the objects of further axes follow from those of the first.
     pub axes: Option<AxisRule>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
     /// Contradictions of the source.
     pub doubts: Vec<Doubt>,
     /// What the source says beyond that.
@@ -60,6 +74,11 @@ impl Device {
     pub fn object(&self, index: u16) -> Option<&Group> {
         let position = self.groups.binary_search_by_key(&Some(index), Group::index).ok()?;
         self.groups.get(position)
+    }
+
+    /// The modules that can be plugged in, of those of the catalogue.
+    pub fn own_modules<'m>(&self, modules: &'m [Module]) -> impl Iterator<Item = &'m Module> + use<'m, '_> {
+        self.modules.iter().filter_map(|own| modules.get(own.module.0 as usize))
     }
 
     /// The item at an index and sub-index.

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use super::{
-    Access, Availability, Behaviour, Binding, CompactString, Documentation, Doubt, Extension, Limits, LocalText,
-    Mappable, Quantity, Type, Value,
+    Access, Availability, Behaviour, Binding, CompactString, Documentation, Doubt, Extension, Limits, Mappable,
+    Quantity, Texts, Type, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -15,7 +15,7 @@ pub struct Item {
     /// Its name as the source spells it (ParameterName in CiA 306); may be empty.
     pub name: CompactString,
     /// The name in other languages.
-    pub names: Vec<LocalText>,
+    pub names: Texts,
     /// Where it is found on each bus.
     pub bindings: SmallVec<[Binding; 1]>,
     /// Its type.
@@ -55,7 +55,7 @@ impl Item {
     pub fn new(binding: Binding) -> Self {
         Item {
             name: CompactString::default(),
-            names: Vec::new(),
+            names: Texts::default(),
             bindings: SmallVec::from_buf([binding]),
             ty: Type::Opaque(None),
             access: Access::ReadOnly,
@@ -129,7 +129,7 @@ pub struct Group {
     /// Its name as the source spells it; may be empty.
     pub name: CompactString,
     /// The name in other languages.
-    pub names: Vec<LocalText>,
+    pub names: Texts,
     /// What it is.
     pub kind: GroupKind,
     /// Its items, by sub-index or in the order of the source.
@@ -155,7 +155,7 @@ impl Group {
     pub fn object(index: u16, code: ObjectCode) -> Self {
         Group {
             name: CompactString::default(),
-            names: Vec::new(),
+            names: Texts::default(),
             kind: GroupKind::Object { index, code, category: None },
             items: Vec::new(),
             links: Vec::new(),
@@ -209,20 +209,28 @@ pub enum GroupKind {
     },
     /// A chapter of a register table.
     Chapter,
-    /// A parameter record (GSDML), by API, slot and subslot of the submodule that holds it.
-    Record {
-        /// Record index.
-        index: u16,
-        /// Length in bytes.
-        length: u32,
-        /// Order of transfer at start-up.
-        transfer_sequence: u16,
-    },
+    /// A parameter record of a PROFINET submodule.
+    Record(Box<Record>),
     /// A fixed process image.
     Image {
         /// Length in bytes.
         length: u32,
     },
+}
+
+/// What a parameter record of a PROFINET submodule is (ParameterRecordDataItem of GSDML).
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Record {
+    /// Record index.
+    pub index: u16,
+    /// Length in bytes.
+    pub length: u32,
+    /// Order of transfer at start-up; 0 = any.
+    pub transfer_sequence: u16,
+    /// Whether a change while the device runs disturbs it, where given (`ChangeableWithBump`).
+    pub changeable_with_bump: Option<bool>,
+    /// Fixed bytes, by offset; bytes that neither a constant nor an item covers are 0.
+    pub constants: Vec<(u32, Vec<u8>)>,
 }
 
 /// Whether an object has to exist.

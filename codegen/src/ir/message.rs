@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Availability, CompactString, Direction, Documentation, Doubt, LocalText, Scale, Type, Value};
+use super::{Availability, CompactString, Direction, Documentation, Doubt, Scale, Texts, Type, Value};
 use crate::source::Origin;
 
 /// A request and its reply.
@@ -123,7 +123,7 @@ pub struct CodeRow {
     /// Its name.
     pub name: CompactString,
     /// The name in other languages.
-    pub names: Vec<LocalText>,
+    pub names: Texts,
     /// Cause and remedy.
     pub documentation: Option<Box<Documentation>>,
     /// The other columns.

@@ -10,7 +10,8 @@
 //! - A [`Type`] is either basic or names a [`TypeDef`]: a bit field, an enumeration, an array, a record.
 //! - [`ProcessData`] is what is exchanged cyclically: PDOs with exact bit positions, sync managers, submodule data.
 //! - A [`Message`] is a request or reply frame of a drive that speaks a command protocol.
-//! - [`Module`]s extend a modular device; [`CodeTable`]s, [`StateMachine`]s and [`Procedure`]s are what a manual tells
+//! - [`Module`]s and [`Submodule`]s extend a modular device; they belong to the catalogue, because several devices may
+//!   take the same ones. [`CodeTable`]s, [`StateMachine`]s and [`Procedure`]s are what a manual tells
 //!   beside the dictionary.
 //!
 //! Every element knows its [`Origin`](crate::source::Origin), and where the source contradicts itself a [`Doubt`] says
@@ -21,20 +22,26 @@
 mod behaviour;
 mod catalog;
 mod device;
+mod ethercat;
 mod item;
 mod message;
 mod module;
 mod process_data;
+mod profinet;
+mod shared;
 mod types;
 mod value;
 
 pub use behaviour::*;
 pub use catalog::*;
 pub use device::*;
+pub use ethercat::*;
 pub use item::*;
 pub use message::*;
 pub use module::*;
 pub use process_data::*;
+pub use profinet::*;
+pub use shared::*;
 pub use types::*;
 pub use value::*;
 

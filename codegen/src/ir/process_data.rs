@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Type, Value};
+use super::{CompactString, Extension, Texts, Type, Value};
 use crate::source::Origin;
 
 /// Cyclic data of a device or a module.
@@ -49,6 +49,24 @@ pub struct Pdo {
     pub sync_manager: Option<u8>,
     /// Mapping objects of PDOs that can't be assigned together with this one.
     pub excludes: Vec<u16>,
+    /// Sync managers to which it can't be assigned (ExcludedSm of ETG.2000).
+    pub excluded_sync_managers: Vec<u8>,
+    /// The sync unit that it belongs to (ETG.2000).
+    pub sync_unit: Option<u8>,
+    /// Whether its index grows with the slot of its module.
+    pub depends_on_slot: bool,
+    /// Whether its index grows with the slot group of its module.
+    pub depends_on_slot_group: bool,
+    /// Whether it carries no data of its own and isn't assigned (Virtual of ETG.2000).
+    pub is_virtual: bool,
+    /// Whether the PDO of a module takes its place (OverwrittenByModule).
+    pub overwritten_by_module: bool,
+    /// Oversampling, where it is sampled several times a cycle.
+    pub oversampling: Option<Box<Oversampling>>,
+    /// The name in other languages.
+    pub names: Texts,
+    /// What the source says beyond that.
+    pub extensions: Vec<Extension>,
     /// Whether no section describes it and it follows from NrOfRXPDO or NrOfTXPDO and CompactPDO (CiA 306).
     pub implicit: bool,
     /// Where it is declared.
@@ -56,6 +74,34 @@ pub struct Pdo {
 }
 
 impl Pdo {
+    /// A PDO with nothing but an index.
+    pub fn new(direction: Direction, mapping_index: u16) -> Self {
+        let first = if direction == Direction::Receive { 0x1600 } else { 0x1A00 };
+        Pdo {
+            direction,
+            number: mapping_index.wrapping_sub(first),
+            name: CompactString::default(),
+            mapping_index,
+            communication: None,
+            entries: Vec::new(),
+            fixed: false,
+            mandatory: false,
+            sync_manager: None,
+            excludes: Vec::new(),
+            excluded_sync_managers: Vec::new(),
+            sync_unit: None,
+            depends_on_slot: false,
+            depends_on_slot_group: false,
+            is_virtual: false,
+            overwritten_by_module: false,
+            oversampling: None,
+            names: Texts::default(),
+            extensions: Vec::new(),
+            implicit: false,
+            origin: Origin::default(),
+        }
+    }
+
     /// Length in bits.
     pub fn bits(&self) -> u32 {
         self.entries.iter().map(|entry| entry.bits).sum()
@@ -103,8 +149,49 @@ pub struct PdoEntry {
     pub name: CompactString,
     /// Its type: that of the mapped item, or the source's own.
     pub ty: Type,
+    /// Whether it can't be taken out of the mapping (Fixed of ETG.2000).
+    pub fixed: bool,
+    /// Whether its index grows with the slot of its module.
+    pub depends_on_slot: bool,
+    /// Whether its index grows with the slot group of its module.
+    pub depends_on_slot_group: bool,
+    /// The name in other languages.
+    pub names: Texts,
     /// Where the entry stands.
     pub origin: Origin,
+}
+
+impl PdoEntry {
+    /// An entry of an object that nobody described yet: raw bits.
+    pub fn new(index: u16, sub_index: u8, bits: u32) -> Self {
+        PdoEntry {
+            index,
+            sub_index,
+            bit_offset: 0,
+            bits,
+            kind: PdoEntryKind::Unknown,
+            name: CompactString::default(),
+            ty: Type::Opaque(None),
+            fixed: false,
+            depends_on_slot: false,
+            depends_on_slot_group: false,
+            names: Texts::default(),
+            origin: Origin::default(),
+        }
+    }
+}
+
+/// Several samples of a PDO in one cycle (OSFac, OSMin, OSMax, OSIndexInc of ETG.2000).
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Oversampling {
+    /// Number of samples by default.
+    pub factor: Option<u16>,
+    /// Least number of samples.
+    pub min: Option<u16>,
+    /// Greatest number of samples.
+    pub max: Option<u16>,
+    /// What the index grows by from sample to sample.
+    pub index_increment: Option<u16>,
 }
 
 /// What a PDO entry is.
@@ -126,6 +213,8 @@ pub struct SyncManager {
     pub number: u8,
     /// Mailbox or process data, and the direction.
     pub purpose: SyncManagerPurpose,
+    /// The same as the source spells it.
+    pub label: CompactString,
     /// Physical start address.
     pub start_address: u16,
     /// Length in bytes by default.
@@ -136,6 +225,12 @@ pub struct SyncManager {
     pub control: u8,
     /// Whether it is enabled.
     pub enable: bool,
+    /// Whether it is used in Op only.
+    pub op_only: bool,
+    /// Whether it exists for the description's sake only (Virtual of ETG.2000).
+    pub is_virtual: bool,
+    /// Where it is declared.
+    pub origin: Origin,
 }
 
 /// What a sync manager is for.

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Documentation, LocalText, Value};
+use super::{CompactString, Documentation, Texts, Value};
 use crate::source::Origin;
 
 /// The type of an item: basic, or the position of a [`TypeDef`] in its device.
@@ -33,13 +33,64 @@ pub enum Type {
     TimeDifference,
     /// DOMAIN (0x0F): a block of data of any length.
     Domain,
+    /// A type of time of IEC 61158-6 that CANopen doesn't have.
+    Time(TimeFormat),
     /// A type that the source names or numbers and nobody defines: raw bytes. The number is the source's code, if any.
     Opaque(Option<u32>),
-    /// A type of the device, by its position in [`Device::types`](super::Device::types).
+    /// A type that the source defines.
     Named(TypeId),
 }
 
-/// Position of a [`TypeDef`] in its device.
+/// Types of time of IEC 61158-6-10, all big-endian on PROFINET.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TimeFormat {
+    /// Date: 7 bytes.
+    Date,
+    /// TimeOfDay without date indication: 4 bytes, milliseconds after midnight.
+    TimeOfDay,
+    /// TimeDifference without date indication: 4 bytes, milliseconds.
+    TimeDifference,
+    /// NetworkTime: 8 bytes.
+    NetworkTime,
+    /// NetworkTimeDifference: 8 bytes.
+    NetworkTimeDifference,
+    /// TimeStamp: 12 bytes.
+    TimeStamp,
+    /// TimeStampDifference: 12 bytes.
+    TimeStampDifference,
+    /// TimeStampDifferenceShort: 8 bytes.
+    TimeStampDifferenceShort,
+}
+
+impl TimeFormat {
+    /// Length in bytes.
+    pub fn bytes(self) -> u32 {
+        match self {
+            TimeFormat::Date => 7,
+            TimeFormat::TimeOfDay | TimeFormat::TimeDifference => 4,
+            TimeFormat::NetworkTime | TimeFormat::NetworkTimeDifference | TimeFormat::TimeStampDifferenceShort => 8,
+            TimeFormat::TimeStamp | TimeFormat::TimeStampDifference => 12,
+        }
+    }
+
+    /// The name in IEC 61158-6-10.
+    pub fn name(self) -> &'static str {
+        match self {
+            TimeFormat::Date => "Date",
+            TimeFormat::TimeOfDay => "TimeOfDay without date indication",
+            TimeFormat::TimeDifference => "TimeDifference without date indication",
+            TimeFormat::NetworkTime => "NetworkTime",
+            TimeFormat::NetworkTimeDifference => "NetworkTimeDifference",
+            TimeFormat::TimeStamp => "TimeStamp",
+            TimeFormat::TimeStampDifference => "TimeStampDifference",
+            TimeFormat::TimeStampDifferenceShort => "TimeStampDifferenceShort",
+        }
+    }
+}
+
+/// Position of a [`TypeDef`] in the types of what holds it: the device's, the module's, or for everything in a PROFINET
+/// submodule [`Catalog::types`](super::Catalog::types).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct TypeId(pub u32);
 
@@ -52,6 +103,7 @@ impl Type {
             Type::Real32 => Some(32),
             Type::Real64 => Some(64),
             Type::TimeOfDay | Type::TimeDifference => Some(48),
+            Type::Time(format) => Some(8 * format.bytes()),
             _ => None,
         }
     }
@@ -119,6 +171,7 @@ impl fmt::Display for Type {
             Type::TimeOfDay => f.write_str("TIME_OF_DAY"),
             Type::TimeDifference => f.write_str("TIME_DIFFERENCE"),
             Type::Domain => f.write_str("DOMAIN"),
+            Type::Time(format) => f.write_str(format.name()),
             Type::Opaque(Some(code)) => write!(f, "type {code:#06X}"),
             Type::Opaque(None) => f.write_str("unknown type"),
             Type::Named(TypeId(id)) => write!(f, "type #{id}"),
@@ -263,7 +316,7 @@ pub struct EnumValue {
     /// Whether the value, or the range, is reserved or left to the vendor.
     pub zone: Option<Zone>,
     /// The name in other languages.
-    pub names: Vec<LocalText>,
+    pub names: Texts,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
 }

@@ -84,6 +84,9 @@ pub struct Limits {
     pub low: Option<Value>,
     /// The greatest value.
     pub high: Option<Value>,
+    /// Where the values are a list, or several ranges: first and last of each, in the order of the source. `low` and
+    /// `high` are the least and the greatest of them.
+    pub allowed: Vec<(Value, Value)>,
 }
 
 impl Limits {

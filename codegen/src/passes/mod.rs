@@ -15,11 +15,18 @@ use crate::ir::Catalog;
 
 /// Completes and checks every device of `catalog`.
 pub fn check(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
-    for device in &mut catalog.devices {
+    let Catalog { devices, modules, submodules, .. } = catalog;
+    for device in devices {
         identity_agrees::run(device, diagnostics);
-        objects_checked::run(device, diagnostics);
-        values_checked::run(device, diagnostics);
+        objects_checked::run(device, modules, diagnostics);
+        values_checked::run(device.groups.iter(), diagnostics);
         implicit_pdos_exist::run(device);
-        pdo_layout_checked::run(device, diagnostics);
+        pdo_layout_checked::run(device, modules, diagnostics);
+    }
+    for module in modules {
+        values_checked::run(module.fixed_objects.iter().chain(&module.groups), diagnostics);
+    }
+    for submodule in submodules {
+        values_checked::run(submodule.records.iter(), diagnostics);
     }
 }

@@ -1,10 +1,13 @@
-//! After this pass every object's structure was held against CiA 301 7.4.3 and reported on.
+//! After this pass the structure of every object of a CANopen device was held against CiA 301 7.4.3 and reported on.
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Device, Group, Item, ObjectCode, Value};
+use crate::ir::{Device, Group, Item, Module, ObjectCode, Value};
 
-pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
-    let fixed = device.modules.iter().flat_map(|module| &module.fixed_objects);
+pub(super) fn run(device: &Device, modules: &[Module], diagnostics: &mut Diagnostics) {
+    if device.canopen.is_none() {
+        return;
+    }
+    let fixed = device.own_modules(modules).flat_map(|module| &module.fixed_objects);
     for group in device.groups.iter().chain(fixed) {
         let (Some(index), Some(code)) = (group.index(), group.object_code()) else { continue };
         names(group, index, diagnostics);

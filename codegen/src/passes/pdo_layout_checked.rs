@@ -5,8 +5,8 @@ use std::collections::{HashMap, HashSet};
 
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{
-    Access, CanOpenSettings, Device, Direction, Group, Item, Mappable, Pdo, PdoCommunication, PdoEntry, PdoEntryKind,
-    Type, Value,
+    Access, CanOpenSettings, Device, Direction, Group, Item, Mappable, Module, Pdo, PdoCommunication, PdoEntry,
+    PdoEntryKind, Type, Value,
 };
 use crate::source::Span;
 
@@ -16,9 +16,9 @@ const CAN_BITS: u32 = 64;
 /// PDOs of each direction in the dictionary.
 const PDOS: u16 = 512;
 
-pub(super) fn run(device: &mut Device, diagnostics: &mut Diagnostics) {
+pub(super) fn run(device: &mut Device, modules: &[Module], diagnostics: &mut Diagnostics) {
     let Some(canopen) = device.canopen.take() else { return };
-    let modules = OfModules::new(device);
+    let modules = OfModules::new(device, modules);
     let mut pdos = Vec::new();
     for direction in [Direction::Receive, Direction::Transmit] {
         let first = base(direction);
@@ -56,10 +56,10 @@ struct OfModules<'a> {
 }
 
 impl<'a> OfModules<'a> {
-    fn new(device: &'a Device) -> Self {
-        let fixed = device.modules.iter().flat_map(|module| &module.fixed_objects);
+    fn new(device: &Device, modules: &'a [Module]) -> Self {
+        let fixed = device.own_modules(modules).flat_map(|module| &module.fixed_objects);
         let items = fixed.flat_map(|group| &group.items).filter_map(|item| Some((item.object()?, item)));
-        let extensions = device.modules.iter().flat_map(|module| &module.sub_extensions);
+        let extensions = device.own_modules(modules).flat_map(|module| &module.sub_extensions);
         OfModules { items: items.collect(), extended: extensions.map(|extension| extension.index).collect() }
     }
 }
@@ -81,18 +81,13 @@ impl<'a> Layout<'a> {
         self.both_halves(communication, mapping, index);
         let mapping = mapping?;
         let mut pdo = Pdo {
-            direction: self.direction,
             number: number + 1,
             name: mapping.name.clone(),
-            mapping_index: index + PDOS,
             communication: communication.map(|group| communication_of(group, index)),
-            entries: Vec::new(),
             fixed: !mapping.items.iter().any(|item| item.access.writable()),
-            mandatory: false,
-            sync_manager: None,
-            excludes: Vec::new(),
             implicit: mapping.origin.line == 0,
             origin: mapping.origin,
+            ..Pdo::new(self.direction, index + PDOS)
         };
         self.entries(mapping, &mut pdo);
         let bits = pdo.bits();
@@ -170,16 +165,8 @@ impl<'a> Layout<'a> {
     /// The object that a mapping word names, at the bit position `offset`.
     fn entry(&mut self, word: u32, mapping: &Item, span: Span, offset: u32) -> PdoEntry {
         let (index, sub_index, bits) = ((word >> 16) as u16, (word >> 8) as u8, word & 0xFF);
-        let mut entry = PdoEntry {
-            index,
-            sub_index,
-            bit_offset: offset,
-            bits,
-            kind: PdoEntryKind::Unknown,
-            name: Default::default(),
-            ty: Type::Opaque(None),
-            origin: mapping.origin,
-        };
+        let mut entry =
+            PdoEntry { bit_offset: offset, origin: mapping.origin, ..PdoEntry::new(index, sub_index, bits) };
         self.granularity(bits, span);
         if index < 0x20 {
             self.dummy(index, span);

@@ -3,12 +3,11 @@
 use std::cmp::Ordering;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Device, Item, Value};
+use crate::ir::{Group, Item, Value};
 use crate::source::Span;
 
-pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
-    let fixed = device.modules.iter().flat_map(|module| &module.fixed_objects);
-    for group in device.groups.iter().chain(fixed) {
+pub(super) fn run<'a>(groups: impl Iterator<Item = &'a Group>, diagnostics: &mut Diagnostics) {
+    for group in groups {
         for item in &group.items {
             if !item.limits.is_empty() {
                 limits(item, diagnostics);

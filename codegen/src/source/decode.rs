@@ -1,6 +1,6 @@
-//! From bytes to text: byte order marks, UTF-8, UTF-16 and Windows-1252.
+//! From bytes to text: byte order marks, UTF-8, what an XML declaration names, and Windows-1252.
 
-use encoding_rs::{Encoding as Charset, UTF_16BE, UTF_16LE, WINDOWS_1252};
+use encoding_rs::{Encoding as Charset, UTF_16BE, UTF_16LE, UTF_8, WINDOWS_1252};
 use serde::{Deserialize, Serialize};
 
 /// How a file's bytes were turned into text.
@@ -18,6 +18,9 @@ pub enum Encoding {
     /// Not UTF-8: every byte read as Windows-1252, which contains ISO 8859-1.
     #[serde(rename = "windows-1252")]
     Windows1252,
+    /// Not UTF-8: another encoding that the XML declaration names (GB2312, Shift JIS).
+    #[serde(rename = "declared")]
+    Declared,
 }
 
 impl Encoding {
@@ -28,6 +31,7 @@ impl Encoding {
             Encoding::Utf8Bom => "utf-8-bom",
             Encoding::Utf16 => "utf-16",
             Encoding::Windows1252 => "windows-1252",
+            Encoding::Declared => "declared",
         }
     }
 }
@@ -51,10 +55,26 @@ pub(super) fn decode(bytes: Vec<u8>) -> (String, Encoding, Option<Vec<u8>>) {
         Ok(text) => (text, Encoding::Utf8, None),
         Err(error) => {
             let bytes = error.into_bytes();
-            let text = with(WINDOWS_1252, &bytes);
-            (text, Encoding::Windows1252, Some(bytes))
+            let declared = declared(&bytes).and_then(|label| Charset::for_label(label.as_bytes()));
+            let charset = declared.filter(|charset| charset.is_ascii_compatible() && *charset != UTF_8);
+            let charset = charset.unwrap_or(WINDOWS_1252);
+            let encoding = if charset == WINDOWS_1252 { Encoding::Windows1252 } else { Encoding::Declared };
+            (with(charset, &bytes), encoding, Some(bytes))
         }
     }
+}
+
+/// The encoding that an XML declaration at the start of `bytes` names.
+pub(super) fn declared(bytes: &[u8]) -> Option<&str> {
+    const LOOK_AHEAD: usize = 512;
+    let head = bytes.trim_ascii_start().strip_prefix(b"<?xml")?;
+    let head = &head[..head.len().min(LOOK_AHEAD)];
+    let end = memchr::memmem::find(head, b"?>")?;
+    let declaration = std::str::from_utf8(&head[..end]).ok()?;
+    let (_, rest) = declaration.split_once("encoding")?;
+    let rest = rest.trim_start().strip_prefix('=')?.trim_start();
+    let quote = rest.chars().next().filter(|letter| matches!(letter, '"' | '\''))?;
+    rest[1..].split_once(quote).map(|(label, _)| label.trim())
 }
 
 fn with(charset: &'static Charset, bytes: &[u8]) -> String {
@@ -72,5 +92,24 @@ mod tests {
         let (text, encoding, _) = decode(b"Ger\xe4t \x80".to_vec());
         assert_eq!((text.as_str(), encoding), ("Gerät €", Encoding::Windows1252));
         assert_eq!(decode("µ".as_bytes().to_vec()).1, Encoding::Utf8);
+    }
+
+    #[test]
+    fn what_xml_declares_counts_where_the_bytes_are_no_utf8() {
+        let decoded = |declared: &str, rest: &[u8]| {
+            let mut bytes = format!("<?xml version='1.0' encoding='{declared}'?>").into_bytes();
+            let start = bytes.len();
+            bytes.extend(rest);
+            let (text, encoding, _) = decode(bytes);
+            (text[start..].to_owned(), encoding)
+        };
+        for name in ["ISO-8859-1", "iso8859-1", "windows-1252", "utf-8", "klingon", ""] {
+            assert_eq!(decoded(name, b"\xe4\x80"), ("ä€".into(), Encoding::Windows1252), "{name}");
+        }
+        assert_eq!(decoded("iso-8859-1", "ä".as_bytes()), ("ä".into(), Encoding::Utf8));
+        assert_eq!(decoded("GB2312", b"\xd6\xd0"), ("中".into(), Encoding::Declared));
+        assert_eq!(decoded("Shift_JIS", b"\x93\xfa"), ("日".into(), Encoding::Declared));
+        assert_eq!(declared(b" <?xml version=\"1.0\" encoding = \"x\" ?>"), Some("x"));
+        assert_eq!(declared(b"<?xml version=\"1.0\"?> encoding='x'"), None);
     }
 }

@@ -4,13 +4,15 @@
 //! that a diagnostic, however late it is raised, can quote the line that caused it.
 
 mod decode;
+mod references;
 mod span;
 
 pub use decode::Encoding;
+pub use references::{References, Refusal};
 pub use span::{FileId, Origin, Position, Span};
 
 use std::borrow::Cow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use sha2::{Digest, Sha256};
@@ -21,6 +23,8 @@ pub struct Source {
     name: String,
     text: String,
     encoding: Encoding,
+    /// The folder in which files that it refers to are looked for.
+    folder: Option<PathBuf>,
     /// The bytes as read, kept only where decoding changed them.
     original: Option<Vec<u8>>,
     line_starts: OnceLock<Vec<u32>>,
@@ -46,6 +50,7 @@ impl Source {
             name: name.into(),
             text,
             encoding,
+            folder: None,
             original,
             line_starts: OnceLock::new(),
             digest: OnceLock::new(),
@@ -66,7 +71,24 @@ impl Source {
                 format!("the file has {} bytes; at most {MAX_INPUT_BYTES} are read", bytes.len()),
             ));
         }
-        Ok(Source::new(path.to_string_lossy(), bytes))
+        let folder = path.parent().map(Path::to_owned).unwrap_or_default();
+        Ok(Source::new(path.to_string_lossy(), bytes).in_folder(folder))
+    }
+
+    /// The same source, with files that it refers to in `folder`. [`Source::read`] takes the folder of the file.
+    pub fn in_folder(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.folder = Some(folder.into());
+        self
+    }
+
+    /// The folder in which files that it refers to are looked for, where there is one.
+    pub fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
+    }
+
+    /// The encoding that an XML declaration names, as it spells it.
+    pub fn declared_encoding(&self) -> Option<&str> {
+        decode::declared(self.text.as_bytes())
     }
 
     /// The name that diagnostics show.

@@ -762,7 +762,7 @@ mod tests {
         assert_eq!(value("b"), "&nbsp; &a;b &amp R&D &#0; &#xD800; &#+5; &;");
         let found: Vec<_> = diagnostics.list().iter().map(|d| (d.code.id, &text[d.span.range()])).collect();
         let expected = ["&nbsp;", "&a;", "&", "&", "&#0;", "&#xD800;", "&", "&"];
-        assert_eq!(found, expected.map(|text| ("XDD009", text)));
+        assert_eq!(found, expected.map(|text| ("XML002", text)));
     }
 
     #[test]
@@ -773,7 +773,7 @@ mod tests {
 
     #[test]
     fn what_is_not_well_formed_is_told_at_its_place() {
-        let malformed = |text, place: &str| assert_eq!(error(text), ("XDD001", place.to_owned()), "{text}");
+        let malformed = |text, place: &str| assert_eq!(error(text), ("XML001", place.to_owned()), "{text}");
         malformed("", "");
         malformed(" <!-- x -->", ">");
         malformed("<r><a></r>", "</r>");

@@ -261,7 +261,7 @@ fn e71_modules() {
                   [M1FixedObjects]\nNrOfEntries=1\n1=0x2010\n\
                   [M1Fixed2010]\nParameterName=Filter\nObjectType=7\nDataType=0x0006\nAccessType=rw\n";
     let checked = read(&format!("{device}{module}"));
-    let module_1 = &checked.device().modules[0];
+    let module_1 = &checked.0.catalog.as_ref().unwrap().modules[0];
     assert_eq!((module_1.number, module_1.name.as_str(), module_1.identity.order_code.as_str()), (1, "Eingänge", "X"));
     assert_eq!((module_1.version.as_str(), module_1.revision.as_str()), ("1", "2"));
     assert_eq!(module_1.comments, ["note"]);

@@ -186,7 +186,7 @@ mod tests {
     use super::*;
 
     fn limits(low: i128, high: i128) -> Limits {
-        Limits { low: Some(Value::Int(low)), high: Some(Value::Int(high)) }
+        Limits { low: Some(Value::Int(low)), high: Some(Value::Int(high)), ..Limits::default() }
     }
 
     #[test]

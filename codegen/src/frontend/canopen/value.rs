@@ -40,7 +40,7 @@ impl Converter<'_> {
                 raw(text)
             }
             Type::TimeOfDay | Type::TimeDifference => self.time(text, span, ty),
-            Type::Opaque(_) | Type::Named(_) => raw(text),
+            Type::Time(_) | Type::Opaque(_) | Type::Named(_) => raw(text),
         })
     }
 

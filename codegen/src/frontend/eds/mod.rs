@@ -25,7 +25,7 @@ use std::collections::HashSet;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::canopen::deftype::defined_type;
-use crate::ir::{Device, Extension, Group, ObjectCode, Shape, TypeDef};
+use crate::ir::{Catalog, Device, Extension, Group, ObjectCode, Shape, TypeDef};
 use crate::source::{Encoding, FileId, Origin, Source, Span};
 use crate::syntax::ini::{Document, Oddity, Section};
 use object::ObjectSections;
@@ -35,7 +35,7 @@ use sections::{Kind, Refinement};
 /// Reads the device that `source` describes. Everything that had to be repaired goes to `diagnostics`.
 ///
 /// Returns `None`, with an error, when there is no CANopen section at all.
-pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut Diagnostics) -> Option<Device> {
+pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut Diagnostics) -> Option<Catalog> {
     let doc = Document::parse(source.text(), file);
     report_encoding(source, file, diagnostics);
     report_oddities(&doc, diagnostics);
@@ -67,11 +67,11 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
     }
     let lists = header::read(&mut reader, &sorted.header, &mut device);
     objects(&mut reader, sorted.objects, &mut device);
-    modules::read(&mut reader, sorted.modules, &mut device);
+    let modules = modules::read(&mut reader, sorted.modules, &device);
     lists::check(&mut reader, &lists, &device);
     unknown_sections(&mut reader, &sorted.unknown, &mut device);
     reader.report_hex_flags();
-    Some(device)
+    Some(Catalog::of_device(device, modules))
 }
 
 /// The sections of a file by what they are about.
@@ -229,7 +229,7 @@ fn report_encoding(source: &Source, file: FileId, diagnostics: &mut Diagnostics)
         Encoding::Utf8Bom if source.bytes().get(3..).is_some_and(|rest| std::str::from_utf8(rest).is_ok()) => return,
         Encoding::Utf16 => ("the file is UTF-16", "UTF-16"),
         Encoding::Utf8Bom => ("the file has the mark of UTF-8, and isn't", "Windows-1252"),
-        Encoding::Windows1252 => ("the file is neither ASCII nor UTF-8", "Windows-1252"),
+        Encoding::Windows1252 | Encoding::Declared => ("the file is neither ASCII nor UTF-8", "Windows-1252"),
     };
     let at = source.text().bytes().position(|byte| !byte.is_ascii());
     let (at, label) = match at {

@@ -24,8 +24,12 @@ struct Parts {
     extensions: BTreeMap<u16, Vec<Section>>,
 }
 
-/// Adds the modules that the sections describe. `sections` is sorted by module.
-pub(super) fn read(reader: &mut Reader<'_, '_>, sections: Vec<(u32, ModulePart, Section)>, device: &mut Device) {
+/// The modules that the sections describe. `sections` is sorted by module.
+pub(super) fn read(
+    reader: &mut Reader<'_, '_>,
+    sections: Vec<(u32, ModulePart, Section)>,
+    device: &Device,
+) -> Vec<Module> {
     let mut by_module: BTreeMap<u32, Parts> = BTreeMap::new();
     for (number, part, section) in sections {
         let parts = by_module.entry(number).or_default();
@@ -40,10 +44,7 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, sections: Vec<(u32, ModulePart, 
         }
     }
     check_announced(reader, &by_module);
-    for (number, parts) in by_module {
-        let module = module(reader, number, parts, device);
-        device.modules.push(module);
-    }
+    by_module.into_iter().map(|(number, parts)| module(reader, number, parts, device)).collect()
 }
 
 fn check_announced(reader: &mut Reader<'_, '_>, by_module: &BTreeMap<u32, Parts>) {

@@ -356,6 +356,7 @@ impl<'a> Reader<'a, '_> {
         item.limits = Limits {
             low: self.typed(raw.get(Key::LowLimit), item.ty, Role::Limit),
             high: self.typed(raw.get(Key::HighLimit), item.ty, Role::Limit),
+            ..Limits::default()
         };
         item.at.default = self.span_of(raw.get(Key::DefaultValue));
         item.at.low = self.span_of(raw.get(Key::LowLimit));

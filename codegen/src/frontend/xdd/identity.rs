@@ -131,7 +131,7 @@ fn product_text<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut 
     }
     let documentation = texts.documentation().unwrap_or_default();
     device.header.description = documentation.text.into();
-    let others = documentation.translations.into_iter().chain(texts.labels);
+    let others = documentation.translations.iter().cloned().chain(texts.labels);
     device.extensions.extend(others.map(|text| {
         let key = compact_str::format_compact!("productText/{}", text.language);
         Extension { key, value: text.text, span: parent.span }

@@ -248,7 +248,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
         if let ([range], []) = (allowed.ranges.as_slice(), allowed.values.as_slice()) {
             (item.at.low, item.at.high) = (span_of(range.low.as_ref()), span_of(range.high.as_ref()));
             let low = self.typed(range.low.as_ref(), ty, Role::Limit);
-            item.limits = Limits { low, high: self.typed(range.high.as_ref(), ty, Role::Limit) };
+            item.limits = Limits { low, high: self.typed(range.high.as_ref(), ty, Role::Limit), ..Limits::default() };
             return;
         }
         item.limits = self.hull(allowed, ty);
@@ -274,7 +274,11 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
                 }
             };
         }
-        limits.map_or_else(Limits::default, |(low, high)| Limits { low: Some(low), high: Some(high) })
+        limits.map_or_else(Limits::default, |(low, high)| Limits {
+            low: Some(low),
+            high: Some(high),
+            ..Limits::default()
+        })
     }
 
     /// What an XDC adds to an item.

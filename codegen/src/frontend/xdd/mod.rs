@@ -29,8 +29,9 @@ mod reader;
 mod types;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{CanOpenSettings, Device};
-use crate::source::{Encoding, FileId, Source, Span};
+use crate::frontend::declared_encoding;
+use crate::ir::{CanOpenSettings, Catalog, Device};
+use crate::source::{FileId, Source, Span};
 use crate::syntax::xml::{Attribute, Cursor, Tag};
 use application::Application;
 use objects::ObjectList;
@@ -39,12 +40,12 @@ use reader::{Read, Reader};
 /// Reads the device that `source` describes. Everything that had to be repaired goes to `diagnostics`.
 ///
 /// Returns `None`, with one error, for a file that isn't well formed, describes a POWERLINK device, or no device.
-pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut Diagnostics) -> Option<Device> {
-    report_encoding(source, file, diagnostics);
+pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut Diagnostics) -> Option<Catalog> {
+    declared_encoding::report(source, file, diagnostics);
     let text = source.text();
     let mut reader = Reader { cursor: Cursor::new(text, file), text, diagnostics, aliases };
     match container(&mut reader) {
-        Ok(device) => Some(device),
+        Ok(device) => Some(Catalog::of_device(device, Vec::new())),
         Err(stop) => {
             reader.diagnostics.push(*stop);
             None
@@ -165,26 +166,4 @@ fn powerlink(span: Span) -> Box<Diagnostic> {
                 "both kinds of file share the ending .xdd and the outer elements; ask the vendor for the CANopen XDD",
             ),
     )
-}
-
-/// Bytes that were read as Windows-1252 although the declaration promises something else.
-fn report_encoding(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
-    if source.encoding() != Encoding::Windows1252 {
-        return;
-    }
-    let declaration = source.text().split_once("?>").map_or("", |(head, _)| head);
-    let declaration = declaration.rsplit_once("<?xml").map_or("", |(_, tail)| tail).to_ascii_lowercase();
-    if ["windows-1252", "iso-8859-1\"", "iso-8859-1'"].iter().any(|name| declaration.contains(name)) {
-        return;
-    }
-    let at = source.text().bytes().position(|byte| !byte.is_ascii()).unwrap_or(0);
-    let length = source.text()[at..].chars().next().map_or(0, char::len_utf8);
-    let span = Span::new(file, at as u32, (at + length) as u32);
-    diagnostics.push(
-        Diagnostic::new(&codes::NOT_UTF8, span, "the file is neither UTF-8 nor of an encoding that it declares")
-            .label("the first such character; read as Windows-1252")
-            .help(
-                "declare the encoding (`<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>`) or convert the file to UTF-8",
-            ),
-    );
 }

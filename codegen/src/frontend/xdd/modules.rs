@@ -3,7 +3,7 @@
 //! The modules themselves have files of their own, which are read as devices.
 
 use super::reader::{note, Read, Reader, Texts};
-use crate::ir::{Device, Slot};
+use crate::ir::{Device, Fit, Slot};
 use crate::syntax::xml::Tag;
 
 /// DeviceManager: its interfaces become slots, everything else extensions.
@@ -34,7 +34,7 @@ fn interface<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, device: &mut Dev
         if tag.name == "moduleTypeList" {
             while let Some(kind) = reader.cursor.child(&tag)? {
                 let [name] = reader.fields(&kind, &["type"], &mut device.extensions)?;
-                slot.fits.extend(name.map(|given| given.text.into()));
+                slot.fits.extend(name.map(|given| Fit::Name(given.text.into())));
             }
         } else if !reader.texts(&tag, &mut texts)? {
             reader.keep(&tag, &mut device.extensions)?;

@@ -7,7 +7,7 @@ use compact_str::{format_compact, CompactString};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::canopen::number;
 use crate::frontend::canopen::value::Converter;
-use crate::ir::{Documentation, Extension, LocalText};
+use crate::ir::{self, Documentation, Extension, LocalText};
 use crate::source::Span;
 use crate::syntax::xml::{Attribute, Cursor, Event, Tag};
 
@@ -43,7 +43,7 @@ impl Texts {
     }
 
     /// The labels that aren't `name`.
-    pub fn names(&self, name: &str) -> Vec<LocalText> {
+    pub fn names(&self, name: &str) -> ir::Texts {
         self.labels.iter().filter(|label| label.text != name).cloned().collect()
     }
 

@@ -1,0 +1,123 @@
+//! Files that a description refers to.
+
+use std::fmt;
+use std::path::{Component, Path};
+
+use super::{FileId, Source};
+
+/// The files that a description refers to, as far as they were read. Only files in the folder of the description or
+/// below it are read.
+#[derive(Debug)]
+pub struct References<'a> {
+    main: &'a Source,
+    read: Vec<Source>,
+}
+
+/// Why a file isn't read.
+#[derive(Debug)]
+pub enum Refusal {
+    /// The description wasn't read from a folder, but from memory.
+    NoFolder,
+    /// The name leads out of the folder of the description, or to another computer.
+    Outside,
+    /// Too many files are referred to.
+    TooMany,
+    /// The operating system can't read it.
+    Unreadable(std::io::Error),
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::NoFolder => f.write_str("the description wasn't read from a folder"),
+            Refusal::Outside => f.write_str("it isn't in the folder of the description"),
+            Refusal::TooMany => write!(f, "more than {MAX_REFERENCES} files are referred to"),
+            Refusal::Unreadable(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+/// Greatest number of files that one description may refer to.
+pub const MAX_REFERENCES: usize = 64;
+
+impl<'a> References<'a> {
+    /// No file read yet that `main` refers to.
+    pub fn new(main: &'a Source) -> Self {
+        References { main, read: Vec::new() }
+    }
+
+    /// Opens the file called `name` in the description: a path relative to it, with `/` or `\\`.
+    ///
+    /// # Errors
+    ///
+    /// Why the file isn't read.
+    pub fn open(&self, name: &str) -> Result<Source, Refusal> {
+        let folder = self.main.folder().ok_or(Refusal::NoFolder)?;
+        if self.read.len() >= MAX_REFERENCES {
+            return Err(Refusal::TooMany);
+        }
+        let name = name.trim().replace('\\', "/");
+        let relative = Path::new(name.strip_prefix("./").unwrap_or(&name));
+        let inside = relative.components().all(|part| matches!(part, Component::Normal(_)));
+        if name.is_empty() || name.contains(':') || !inside {
+            return Err(Refusal::Outside);
+        }
+        // A link in the folder may lead anywhere: what counts is where the file lies.
+        let path = folder.join(relative);
+        let real = path.canonicalize().map_err(Refusal::Unreadable)?;
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        if !real.starts_with(folder.canonicalize().map_err(Refusal::Unreadable)?) {
+            return Err(Refusal::Outside);
+        }
+        Source::read(&path).map_err(Refusal::Unreadable)
+    }
+
+    /// The number that the next file gets by [`References::add`].
+    pub fn next_file(&self) -> FileId {
+        FileId(self.read.len() as u32 + 1)
+    }
+
+    /// Keeps a file that was read, so that spans can refer to it.
+    pub fn add(&mut self, source: Source) -> FileId {
+        let file = self.next_file();
+        self.read.push(source);
+        file
+    }
+
+    /// The files, in the order of their numbers.
+    pub fn into_sources(self) -> Vec<Source> {
+        self.read
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_files_below_the_folder_are_read() {
+        let folder = std::env::temp_dir().join(format!("lexibus-references-{}", std::process::id()));
+        std::fs::create_dir_all(folder.join("own/Dicts")).unwrap();
+        std::fs::write(folder.join("secret.xml"), "s").unwrap();
+        std::fs::write(folder.join("own/Dicts/a b.xml"), "<x/>").unwrap();
+        let main = Source::new("main.xml", Vec::new()).in_folder(folder.join("own"));
+        let references = References::new(&main);
+        for name in ["Dicts/a b.xml", "./Dicts/a b.xml", "Dicts\\a b.xml", " Dicts/a b.xml "] {
+            assert_eq!(references.open(name).unwrap().text(), "<x/>", "{name}");
+        }
+        for name in ["../secret.xml", "Dicts/../../secret.xml", "/etc/passwd", "C:\\x.xml", "http://x/y.xml", ""] {
+            assert!(matches!(references.open(name), Err(Refusal::Outside)), "{name}");
+        }
+        assert!(matches!(references.open("none.xml"), Err(Refusal::Unreadable(_))));
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(folder.join("secret.xml"), folder.join("own/link.xml")).unwrap();
+            assert!(matches!(references.open("link.xml"), Err(Refusal::Outside)));
+        }
+        std::fs::remove_dir_all(folder).unwrap();
+        let unplaced = Source::new("x", Vec::new());
+        assert!(matches!(References::new(&unplaced).open("a.xml"), Err(Refusal::NoFolder)));
+    }
+}
