@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::backend::rust::{Presence, RustOptions};
 use crate::compile::{self, Compilation, Options};
 use crate::diagnostics::{render, Level, Levels, Severity, UnknownCode};
+use crate::selection::SelectionError;
 use crate::source::Source;
 
 /// Generates Rust from device descriptions in a build script.
@@ -31,6 +32,8 @@ pub struct Builder {
     options: Options,
     strict: bool,
     levels: Vec<(String, Level)>,
+    devices: Vec<String>,
+    objects: Vec<String>,
     out_dir: Option<PathBuf>,
     quiet: bool,
 }
@@ -56,6 +59,27 @@ impl Builder {
     /// Another name that formulas use for `$NODEID`.
     pub fn node_id_alias(mut self, name: impl Into<String>) -> Self {
         self.options.node_id_aliases.push(name.into());
+        self
+    }
+
+    /// Takes one of several devices, by name, order code or product code, and by revision: `"EL3004"`,
+    /// `"0x0BBC3052@0x00110000"`, `"EL3004@latest"`. May be called several times; without it, all devices are taken.
+    pub fn device(mut self, filter: impl Into<String>) -> Self {
+        self.devices.push(filter.into());
+        self
+    }
+
+    /// Takes one of the modules that can be plugged in, by name, identifier or ident number. May be called several
+    /// times; without it, all modules are taken that fit into a device.
+    pub fn module(mut self, filter: impl AsRef<str>) -> Self {
+        self.options.select.modules.push(filter.as_ref().into());
+        self
+    }
+
+    /// Takes the objects of this index or range, `"0x6040"` or `"0x6000..0x67FF"`. May be called several times; without
+    /// it, all objects are taken.
+    pub fn objects(mut self, filter: impl Into<String>) -> Self {
+        self.objects.push(filter.into());
         self
     }
 
@@ -151,6 +175,9 @@ impl Builder {
         let options = self.options()?;
         let source = Source::read(input).map_err(|error| BuildError::Read { path: input.into(), error })?;
         let compilation = compile::check(source, &options);
+        for other in compilation.sources.iter().skip(1) {
+            self.tell_cargo(format_args!("cargo::rerun-if-changed={}", other.name()));
+        }
         self.report(&compilation);
         compilation.rust(&options.rust).ok_or_else(|| BuildError::Input(errors(&compilation)))
     }
@@ -160,7 +187,14 @@ impl Builder {
         for (code, level) in &self.levels {
             levels.set(code, *level).map_err(BuildError::UnknownCode)?;
         }
-        Ok(Options { levels, ..self.options.clone() })
+        let mut options = Options { levels, ..self.options.clone() };
+        for text in &self.devices {
+            options.select.devices.push(text.parse().map_err(BuildError::Selection)?);
+        }
+        for text in &self.objects {
+            options.select.objects.push(text.parse().map_err(BuildError::Selection)?);
+        }
+        Ok(options)
     }
 
     fn report(&self, compilation: &Compilation) {
@@ -217,6 +251,8 @@ pub enum BuildError {
     Input(String),
     /// A level was set for a code that doesn't exist.
     UnknownCode(UnknownCode),
+    /// A text that was to select devices or objects can't.
+    Selection(SelectionError),
     /// There is no `OUT_DIR`, and no other output directory was named.
     NoOutDir,
 }
@@ -228,6 +264,7 @@ impl fmt::Display for BuildError {
             BuildError::Write { path, error } => write!(f, "can't write {}: {error}", path.display()),
             BuildError::Input(text) => write!(f, "the device description has errors\n\n{text}"),
             BuildError::UnknownCode(error) => write!(f, "{error}"),
+            BuildError::Selection(error) => write!(f, "{error}"),
             BuildError::NoOutDir => {
                 f.write_str("OUT_DIR isn't set: outside of a build script, name an output directory with `out_dir`")
             }

@@ -5,6 +5,7 @@ use crate::diagnostics::{Diagnostic, Diagnostics, Levels};
 use crate::frontend::{detect, eds, esi, gsdml, xdd};
 use crate::ir::{Catalog, FileInfo, Format};
 use crate::passes;
+use crate::selection::Selection;
 use crate::source::{FileId, References, Source};
 
 /// What a caller may choose.
@@ -14,6 +15,8 @@ pub struct Options {
     pub levels: Levels,
     /// Further names of `$NODEID` in formulas, such as `$MY_NODE_ID`.
     pub node_id_aliases: Vec<String>,
+    /// What of the description is wanted.
+    pub select: Selection,
     /// What the generated Rust looks like.
     pub rust: RustOptions,
 }
@@ -52,14 +55,12 @@ impl Compilation {
         text.chars().map(|letter| if letter.is_control() { ' ' } else { letter }).collect()
     }
 
-    /// The Rust module of the first device, or `None` where there are errors.
+    /// The Rust module of what was read, or `None` where there are errors.
     pub fn rust(&self, options: &RustOptions) -> Option<String> {
         if !self.is_usable() {
             return None;
         }
-        let catalog = self.catalog.as_ref()?;
-        let device = catalog.devices.first()?;
-        Some(rust::emit(device, catalog.files.first()?, options))
+        rust::emit_catalog(self.catalog.as_ref()?, options)
     }
 }
 
@@ -106,7 +107,9 @@ fn file_info(source: &Source, format: Format) -> FileInfo {
 pub fn check(source: Source, options: &Options) -> Compilation {
     let mut compilation = read(source, options);
     if let Some(catalog) = &mut compilation.catalog {
+        options.select.devices_and_modules(catalog, &mut compilation.diagnostics);
         passes::check(catalog, &mut compilation.diagnostics);
+        options.select.objects(catalog);
     }
     compilation.diagnostics.sort();
     compilation

@@ -1,4 +1,4 @@
-//! The Lexibus compiler: reads the description of a CANopen device, checks it, and generates typed Rust.
+//! The Lexibus compiler: reads the description of a fieldbus device, checks it, and generates typed Rust.
 //!
 //! From a build script, one line does it:
 //!
@@ -12,7 +12,7 @@
 //! Underneath is a pipeline in which data flows one way:
 //!
 //! ```text
-//! source -> syntax -> frontend/{eds, xdd} -> ir -> passes -> backend/{rust, json}
+//! source -> syntax -> frontend/{eds, xdd, esi, gsdml} -> ir -> passes -> backend/{rust, json}
 //! ```
 //!
 //! Each stage can be used by itself:
@@ -43,6 +43,7 @@ pub mod frontend;
 pub mod ir;
 pub mod limits;
 pub mod passes;
+pub mod selection;
 pub mod source;
 pub mod syntax;
 mod text;

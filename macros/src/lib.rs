@@ -39,6 +39,8 @@ use syn::{Attribute, Ident, LitBool, LitStr, Token, Visibility};
 /// # use lexibus::dictionary;
 /// dictionary! {
 ///     pub mod drive = "../dictionaries/demo-drive.eds" {
+///         device: "DEMO-1*",             // of several devices, the one of this name, order code or product code
+///         objects: "0x6000..0x67FF",     // the objects of this range; also module; each may be repeated
 ///         device_name: "Axis",           // name of the device's type
 ///         accessors: false,              // handles only
 ///         pdos: false,                   // no PDO structs
@@ -97,6 +99,17 @@ fn parse_options(input: ParseStream<'_>, options: &mut Options) -> syn::Result<(
         let key: Ident = input.parse()?;
         input.parse::<Token![:]>()?;
         match key.to_string().as_str() {
+            "device" => {
+                let filter = input.parse::<LitStr>()?;
+                let parsed = filter.value().parse().map_err(|error| syn::Error::new(filter.span(), error))?;
+                options.select.devices.push(parsed);
+            }
+            "module" => options.select.modules.push(input.parse::<LitStr>()?.value().as_str().into()),
+            "objects" => {
+                let filter = input.parse::<LitStr>()?;
+                let parsed = filter.value().parse().map_err(|error| syn::Error::new(filter.span(), error))?;
+                options.select.objects.push(parsed);
+            }
             "device_name" => options.rust.device_name = Some(input.parse::<LitStr>()?.value()),
             "runtime" => options.rust.runtime = input.parse::<LitStr>()?.value(),
             "accessors" => options.rust.accessors = input.parse::<LitBool>()?.value,
@@ -113,7 +126,7 @@ fn parse_options(input: ParseStream<'_>, options: &mut Options) -> syn::Result<(
             "deny" => levels.push((input.parse::<LitStr>()?, Level::Deny)),
             other => {
                 let message = format!(
-                    "there is no option `{other}`; there are device_name, runtime, accessors, pdos, table, debug, \
+                    "there is no option `{other}`; there are device, module, objects, device_name, runtime, accessors, pdos, table, debug, \
                      partial_eq, defmt, serde, strict, allow, warn, deny and node_id_alias"
                 );
                 return Err(syn::Error::new(key.span(), message));
@@ -144,12 +157,15 @@ fn expand(call: &Call) -> syn::Result<TokenStream> {
     let path = absolute(&call.path.value());
     let mut source = Source::read(&path).map_err(|error| fail(format!("can't read {}: {error}", path.display())))?;
     // Diagnostics and the header name the file as the caller does, not where it lies on this machine.
-    source = Source::new(call.path.value(), source.bytes().into_owned());
+    let folder = path.parent().map(Path::to_owned).unwrap_or_default();
+    source = Source::new(call.path.value(), source.bytes().into_owned()).in_folder(folder);
     let compilation = compile::check(source, &call.options);
     let text = compilation.rust(&call.options.rust).ok_or_else(|| fail(errors(&compilation)))?;
     let content: TokenStream = text.parse().map_err(|error| fail(format!("the generated code is no Rust: {error}")))?;
     let warnings = warnings(&compilation, call.path.span());
-    let tracked = LitStr::new(&path.to_string_lossy(), Span::call_site());
+    let others = compilation.sources.iter().skip(1).map(Source::name);
+    let tracked = std::iter::once(path.to_string_lossy().into_owned()).chain(others.map(str::to_owned));
+    let tracked = tracked.map(|path| LitStr::new(&path, Span::call_site()));
     let (attributes, visibility, name) = (&call.attributes, &call.visibility, &call.name);
     // A module without a doc comment would fail `missing_docs` in the caller's crate.
     let documented = attributes.iter().any(|attribute| attribute.path().is_ident("doc"));
@@ -160,7 +176,7 @@ fn expand(call: &Call) -> syn::Result<TokenStream> {
         #documentation
         #visibility mod #name {
             #(#warnings)*
-            const _: &[u8] = ::core::include_bytes!(#tracked);
+            #(const _: &[u8] = ::core::include_bytes!(#tracked);)*
             #content
         }
     })

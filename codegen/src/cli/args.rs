@@ -9,6 +9,7 @@ use super::Failure;
 use crate::backend::rust::{Presence, RustOptions};
 use crate::compile::Options;
 use crate::diagnostics::{Level, Levels};
+use crate::selection::{DeviceFilter, Filter, ObjectFilter, Selection};
 
 /// The object-dictionary compiler: device descriptions in, typed Rust out.
 #[derive(Debug, Parser)]
@@ -64,6 +65,15 @@ pub(super) struct Inputs {
     /// Another name that formulas use for $NODEID.
     #[arg(long, value_name = "NAME")]
     pub node_id_alias: Vec<String>,
+    /// Take this device only (a name, order code or product code, with @REVISION or @latest); may be repeated.
+    #[arg(long, value_name = "DEVICE")]
+    pub device: Vec<DeviceFilter>,
+    /// Take this module only (a name, identifier or ident number); may be repeated.
+    #[arg(long, value_name = "MODULE", value_parser = module_filter)]
+    pub module: Vec<Filter>,
+    /// Take these objects only (an index or a range, such as 0x6000..0x67FF); may be repeated.
+    #[arg(long, value_name = "OBJECTS")]
+    pub objects: Vec<ObjectFilter>,
     /// How findings are printed.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = MessageFormat::Text)]
     pub message_format: MessageFormat,
@@ -163,6 +173,10 @@ pub(super) struct Generate {
     pub serde: Presence,
 }
 
+fn module_filter(text: &str) -> Result<Filter, std::convert::Infallible> {
+    Ok(text.into())
+}
+
 fn rust_path(text: &str) -> Result<String, String> {
     let is_name = |name: &str| {
         !name.is_empty() && name.chars().all(|letter| letter.is_alphanumeric() || matches!(letter, '_' | '#'))
@@ -222,7 +236,12 @@ impl Inputs {
         for (code, level) in &self.levels {
             levels.set(code, *level).map_err(|error| Failure::Usage(error.to_string()))?;
         }
-        Ok(Options { levels, node_id_aliases: self.node_id_alias.clone(), ..Options::default() })
+        let select = Selection {
+            devices: self.device.clone(),
+            modules: self.module.clone(),
+            objects: self.objects.clone(),
+        };
+        Ok(Options { levels, node_id_aliases: self.node_id_alias.clone(), select, ..Options::default() })
     }
 }
 

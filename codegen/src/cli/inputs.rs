@@ -1,6 +1,6 @@
 //! Reading many files at once.
 
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
 
@@ -10,10 +10,11 @@ use super::args::Inputs;
 use super::Failure;
 use crate::compile::{self, Compilation, Options};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::frontend::detect;
 use crate::source::{FileId, Source, Span};
 
 /// Endings of the files that a folder is searched for.
-const ENDINGS: [&str; 6] = ["eds", "dcf", "xdd", "xdc", "xpd", "xml"];
+const ENDINGS: [&str; 5] = ["eds", "dcf", "xdd", "xdc", "xpd"];
 
 /// Folders deeper than this are not searched, so that a link to its own parent ends.
 const MAX_FOLDER_DEPTH: usize = 32;
@@ -133,7 +134,18 @@ fn search(folder: &Path, depth: usize, files: &mut Vec<PathBuf>) {
     }
 }
 
+/// By its ending; an XML file also by its root element, for most of them are something else.
 fn is_description(path: &Path) -> bool {
-    let extension = path.extension().and_then(|extension| extension.to_str());
-    extension.is_some_and(|extension| ENDINGS.iter().any(|ending| ending.eq_ignore_ascii_case(extension)))
+    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+    if extension.eq_ignore_ascii_case("xml") {
+        return is_xml_description(path);
+    }
+    ENDINGS.iter().any(|ending| ending.eq_ignore_ascii_case(extension))
+}
+
+fn is_xml_description(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = std::fs::File::open(path).and_then(|file| file.take(detect::LOOK_AHEAD as u64).read_to_end(&mut head));
+    // One that can't be read is worth an error.
+    read.is_err() || detect::format(&Source::new(path.to_string_lossy(), head), FileId(0)).is_ok()
 }

@@ -5,7 +5,7 @@ use std::io::{IsTerminal, Write};
 
 use super::args::{Colour, Inputs, MessageFormat};
 use super::Failure;
-use crate::backend::json::{Info, PdoInfo};
+use crate::backend::json::{DeviceInfo, Info, ModuleContent, ModuleInfo, PdoInfo, SubmoduleInfo};
 use crate::compile::Compilation;
 use crate::diagnostics::{render, Diagnostic, Severity};
 use crate::source::{FileId, Source, Span};
@@ -128,8 +128,7 @@ pub(super) fn info_text(info: &Info) -> String {
     let _ = writeln!(text, "{} ({}, {})", info.file, info.format.unwrap_or("unknown format"), info.encoding);
     let number = |value: Option<u32>| value.map_or("unknown".to_owned(), |value| format!("{value:#010x}"));
     for device in &info.devices {
-        let name = if device.name.is_empty() { "(no name)" } else { &device.name };
-        let _ = writeln!(text, "  {}", printable(name));
+        let _ = writeln!(text, "  {}", printable(&device_title(device)));
         let _ = writeln!(
             text,
             "    vendor {}, product {}, revision {}",
@@ -145,6 +144,17 @@ pub(super) fn info_text(info: &Info) -> String {
             }
         }
     }
+    if let Some(dictionary) = &info.dictionary {
+        let _ = writeln!(text, "  a dictionary: {} objects, {} entries", dictionary.objects, dictionary.entries);
+    }
+    for module in info.modules.iter().flatten() {
+        let _ = writeln!(text, "  module {} ({:#010x}): {}", printable(&module.id), module.ident, module_text(module));
+    }
+    for submodule in info.submodules.iter().flatten() {
+        let SubmoduleInfo { ident, input_bytes, output_bytes, .. } = submodule;
+        let id = printable(&submodule.id);
+        let _ = writeln!(text, "  submodule {id} ({ident:#010x}): {input_bytes} bytes in, {output_bytes} bytes out");
+    }
     for (severity, counts) in [("errors", &info.errors), ("warnings", &info.warnings)] {
         let all: Vec<String> = counts.iter().map(|(code, count)| format!("{code} × {count}")).collect();
         if !all.is_empty() {
@@ -152,6 +162,29 @@ pub(super) fn info_text(info: &Info) -> String {
         }
     }
     text
+}
+
+/// Its order code, by which it can be selected, and its name.
+fn device_title(device: &DeviceInfo) -> String {
+    match (device.order_code.is_empty(), device.name.is_empty()) {
+        (true, true) => "(no name)".to_owned(),
+        (true, false) => device.name.clone(),
+        (false, true) => device.order_code.clone(),
+        (false, false) if device.name.contains(&device.order_code) => device.name.clone(),
+        (false, false) => format!("{}: {}", device.order_code, device.name),
+    }
+}
+
+fn module_text(module: &ModuleInfo) -> String {
+    match &module.content {
+        ModuleContent::Profinet { input_bytes, output_bytes, records, .. } => {
+            format!("{input_bytes} bytes in, {output_bytes} bytes out, {} records", records.len())
+        }
+        ModuleContent::EtherCat { objects, entries, rx_pdos, tx_pdos } => {
+            let pdos = rx_pdos.len() + tx_pdos.len();
+            format!("{objects} objects, {entries} entries, {pdos} PDOs")
+        }
+    }
 }
 
 fn pdo_text(pdo: &PdoInfo) -> String {

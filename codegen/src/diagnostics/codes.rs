@@ -94,6 +94,10 @@ codes! {
         "A description declares more elements, or nests them deeper, than any real device does, so that reading it \
         would take time or memory out of proportion to the file. The limits are in the documentation of \
         `lexibus_codegen::limits`."
+    IO004 NOTHING_SELECTED "nothing-selected" Error Deny
+        "the description has nothing of the selected name"
+        "Devices, modules and objects can be selected by name, order code, product code and revision. Nothing in the \
+        file has this one, so that the output wouldn't be what was asked for. `lexibus info` lists what there is."
     EDS001 ETHERNET_IP_EDS "ethernet-ip-eds" Error Deny
         "an EtherNet/IP EDS was given"
         "ODVA's EtherNet/IP, DeviceNet and ControlNet devices also come with files called EDS. They share nothing \

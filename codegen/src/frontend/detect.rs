@@ -6,7 +6,7 @@ use crate::source::{FileId, Source, Span};
 use crate::syntax::ini::Document;
 
 /// How much of a file is looked at to find its root element or first sections.
-const LOOK_AHEAD: usize = 64 * 1024;
+pub const LOOK_AHEAD: usize = 64 * 1024;
 
 /// The format of `source`, or an error that says what it is instead.
 ///

@@ -6,19 +6,35 @@ use serde::Serialize;
 
 use crate::compile::Compilation;
 use crate::diagnostics::Severity;
-use crate::ir::{Device, Direction, Group};
+use crate::ir::{
+    Catalog, Device, Direction, Format, Group, GroupKind, IoData, Module, ProcessData, Submodule, SubmoduleKind,
+    SubmoduleUse,
+};
+use crate::source::FileId;
 
 /// What `lexibus info --format json` says of a file.
 #[derive(Clone, Debug, Serialize)]
 pub struct Info {
     /// Its name.
     pub file: String,
-    /// Its format: `eds`, `dcf`, `xdd`; null where it wasn't recognised.
+    /// Its format: `eds`, `dcf`, `xdd`, `esi`, `gsdml`; null where it wasn't recognised.
     pub format: Option<&'static str>,
     /// How its bytes were decoded.
     pub encoding: &'static str,
-    /// The devices that it describes.
+    /// The devices that it describes; for GSDML, the device access points.
     pub devices: Vec<DeviceInfo>,
+    /// A dictionary that several devices share (EtherCATDict), where it describes one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dictionary: Option<DictionaryInfo>,
+    /// The device access points, for GSDML.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub daps: Option<Vec<DapInfo>>,
+    /// The modules that it describes, for ESI and GSDML.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub modules: Option<Vec<ModuleInfo>>,
+    /// The submodules that can be plugged in, for GSDML.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub submodules: Option<Vec<SubmoduleInfo>>,
     /// Number of errors, by code.
     pub errors: BTreeMap<&'static str, usize>,
     /// Number of warnings, by code.
@@ -30,12 +46,14 @@ pub struct Info {
 pub struct DeviceInfo {
     /// Number of the vendor.
     pub vendor_id: Option<u32>,
-    /// Product code.
+    /// Product code; for GSDML, the DeviceID.
     pub product_code: Option<u32>,
     /// Revision number.
     pub revision: Option<u32>,
     /// Name of the product.
     pub name: String,
+    /// Order code, or Type of ETG.2000; empty where there is none.
+    pub order_code: String,
     /// Number of distinct indices that the file declares.
     pub objects: usize,
     /// Number of addressable sub-entries that the file declares, sub-index 0 included.
@@ -44,6 +62,94 @@ pub struct DeviceInfo {
     pub rx_pdos: Vec<PdoInfo>,
     /// TPDOs whose mapping the file describes.
     pub tx_pdos: Vec<PdoInfo>,
+}
+
+/// A dictionary without a device.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq, Eq)]
+pub struct DictionaryInfo {
+    /// Number of distinct indices that the file declares.
+    pub objects: usize,
+    /// Number of addressable sub-entries that the file declares, sub-index 0 included.
+    pub entries: usize,
+}
+
+/// A device access point of PROFINET.
+#[derive(Clone, Debug, Serialize)]
+pub struct DapInfo {
+    /// Its ID.
+    pub id: String,
+    /// Module ident number.
+    pub ident: u32,
+    /// Its virtual submodules.
+    pub virtual_submodules: Vec<SubmoduleInfo>,
+}
+
+/// A module.
+#[derive(Clone, Debug, Serialize)]
+pub struct ModuleInfo {
+    /// Its ID (GSDML), or its Type (ETG.2000).
+    pub id: String,
+    /// Module ident number.
+    pub ident: u32,
+    /// What of it depends on the bus.
+    #[serde(flatten)]
+    pub content: ModuleContent,
+}
+
+/// What a module has.
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
+pub enum ModuleContent {
+    /// On PROFINET.
+    Profinet {
+        /// Bytes of its virtual submodules' inputs, those of F message trailers included.
+        input_bytes: u32,
+        /// Bytes of its virtual submodules' outputs, those of F message trailers included.
+        output_bytes: u32,
+        /// Parameter records of its virtual submodules.
+        records: Vec<RecordInfo>,
+        /// Its virtual submodules.
+        virtual_submodules: Vec<SubmoduleInfo>,
+    },
+    /// On EtherCAT.
+    EtherCat {
+        /// Number of distinct indices that the file declares.
+        objects: usize,
+        /// Number of addressable sub-entries that the file declares, sub-index 0 included.
+        entries: usize,
+        /// Its RPDOs.
+        rx_pdos: Vec<PdoInfo>,
+        /// Its TPDOs.
+        tx_pdos: Vec<PdoInfo>,
+    },
+}
+
+/// A submodule of PROFINET.
+#[derive(Clone, Debug, Serialize)]
+pub struct SubmoduleInfo {
+    /// Its ID.
+    pub id: String,
+    /// Submodule ident number.
+    pub ident: u32,
+    /// API number.
+    pub api: u32,
+    /// Bytes of its inputs, those of an F message trailer included.
+    pub input_bytes: u32,
+    /// Bytes of its outputs, those of an F message trailer included.
+    pub output_bytes: u32,
+    /// Its parameter records.
+    pub records: Vec<RecordInfo>,
+}
+
+/// A parameter record.
+#[derive(Clone, Copy, Debug, Serialize, PartialEq, Eq)]
+pub struct RecordInfo {
+    /// Record index.
+    pub index: u16,
+    /// Length in bytes.
+    pub length: u32,
+    /// Number of parameters in it.
+    pub refs: usize,
 }
 
 /// One PDO.
@@ -60,11 +166,22 @@ pub struct PdoInfo {
 /// Sums up a checked compilation of one file.
 pub fn info(compilation: &Compilation) -> Info {
     let source = compilation.sources.first();
+    let nothing = Catalog::default();
+    let catalog = compilation.catalog.as_ref().unwrap_or(&nothing);
+    let is_gsdml = compilation.format == Some(Format::Gsdml);
+    let is_modular = is_gsdml || compilation.format == Some(Format::Esi);
     let mut info = Info {
         file: source.map(|source| source.name().to_owned()).unwrap_or_default(),
         format: compilation.format.map(|format| format.name()),
         encoding: source.map_or("utf-8", |source| source.encoding().name()),
-        devices: compilation.catalog.iter().flat_map(|catalog| &catalog.devices).map(device).collect(),
+        devices: catalog.devices.iter().filter(|device| !device.dictionary_only).map(device).collect(),
+        dictionary: catalog.devices.iter().find(|device| device.dictionary_only).map(dictionary),
+        daps: is_gsdml.then(|| catalog.devices.iter().map(|device| dap(device, catalog)).collect()),
+        modules: is_modular.then(|| catalog.modules.iter().map(|one| module(one, catalog, is_gsdml)).collect()),
+        submodules: is_gsdml.then(|| {
+            let pluggable = |one: &&Submodule| one.kind == SubmoduleKind::Pluggable;
+            catalog.submodules.iter().filter(pluggable).map(submodule).collect()
+        }),
         errors: BTreeMap::new(),
         warnings: BTreeMap::new(),
     };
@@ -78,22 +195,87 @@ pub fn info(compilation: &Compilation) -> Info {
     info
 }
 
+/// What the file itself declares of `groups`: neither what follows from something else, nor what another file adds.
+fn declared(groups: &[Group]) -> impl Iterator<Item = &Group> {
+    let own = |group: &&Group| group.origin.line > 0 && group.origin.span.file == FileId(0) && group.index().is_some();
+    groups.iter().filter(own)
+}
+
 fn device(device: &Device) -> DeviceInfo {
-    // What follows from CompactPDO stands nowhere in the file.
-    let declared = || device.groups.iter().filter(|group| group.origin.line > 0 && group.index().is_some());
+    let DictionaryInfo { objects, entries } = dictionary(device);
     DeviceInfo {
         vendor_id: device.identity.vendor_id,
         product_code: device.identity.product_code,
         revision: device.identity.revision_number,
         name: device.name.to_string(),
-        objects: declared().count(),
-        entries: declared().map(|group: &Group| group.items.len()).sum(),
-        rx_pdos: pdos(device, Direction::Receive),
-        tx_pdos: pdos(device, Direction::Transmit),
+        order_code: device.identity.order_code.to_string(),
+        objects,
+        entries,
+        rx_pdos: pdos(&device.process_data, Direction::Receive),
+        tx_pdos: pdos(&device.process_data, Direction::Transmit),
     }
 }
 
-fn pdos(device: &Device, direction: Direction) -> Vec<PdoInfo> {
-    let own = device.process_data.pdos.iter().filter(|pdo| pdo.direction == direction && !pdo.implicit);
+fn dictionary(device: &Device) -> DictionaryInfo {
+    let groups = || declared(&device.groups);
+    DictionaryInfo { objects: groups().count(), entries: groups().map(|group| group.items.len()).sum() }
+}
+
+fn dap(device: &Device, catalog: &Catalog) -> DapInfo {
+    DapInfo {
+        id: device.id.to_string(),
+        ident: device.profinet.as_ref().map_or(0, |profinet| profinet.ident),
+        virtual_submodules: virtual_submodules(&device.submodules, catalog),
+    }
+}
+
+fn module(module: &Module, catalog: &Catalog, is_gsdml: bool) -> ModuleInfo {
+    let content = if is_gsdml {
+        let virtual_submodules = virtual_submodules(&module.submodules, catalog);
+        ModuleContent::Profinet {
+            input_bytes: virtual_submodules.iter().map(|one| one.input_bytes).sum(),
+            output_bytes: virtual_submodules.iter().map(|one| one.output_bytes).sum(),
+            records: virtual_submodules.iter().flat_map(|one| &one.records).copied().collect(),
+            virtual_submodules,
+        }
+    } else {
+        ModuleContent::EtherCat {
+            objects: declared(&module.groups).count(),
+            entries: declared(&module.groups).map(|group| group.items.len()).sum(),
+            rx_pdos: pdos(&module.process_data, Direction::Receive),
+            tx_pdos: pdos(&module.process_data, Direction::Transmit),
+        }
+    };
+    ModuleInfo { id: module.id.to_string(), ident: module.number, content }
+}
+
+fn virtual_submodules(uses: &[SubmoduleUse], catalog: &Catalog) -> Vec<SubmoduleInfo> {
+    let all = uses.iter().filter_map(|own| catalog.submodules.get(own.submodule.0 as usize));
+    all.filter(|one| one.kind == SubmoduleKind::Virtual).map(submodule).collect()
+}
+
+fn submodule(submodule: &Submodule) -> SubmoduleInfo {
+    let bytes = |data: &Option<Box<IoData>>| data.as_ref().map_or(0, |data| data.image.length + data.image.overhead);
+    SubmoduleInfo {
+        id: submodule.id.to_string(),
+        ident: submodule.ident,
+        api: submodule.api,
+        input_bytes: bytes(&submodule.input),
+        output_bytes: bytes(&submodule.output),
+        records: submodule.records.iter().filter_map(record).collect(),
+    }
+}
+
+fn record(group: &Group) -> Option<RecordInfo> {
+    match &group.kind {
+        GroupKind::Record(record) => {
+            Some(RecordInfo { index: record.index, length: record.length, refs: group.items.len() })
+        }
+        _ => None,
+    }
+}
+
+fn pdos(data: &ProcessData, direction: Direction) -> Vec<PdoInfo> {
+    let own = data.pdos.iter().filter(|pdo| pdo.direction == direction && !pdo.implicit);
     own.map(|pdo| PdoInfo { index: pdo.mapping_index, entries: pdo.entries.len(), bits: pdo.bits() }).collect()
 }

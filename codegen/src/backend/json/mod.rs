@@ -2,7 +2,9 @@
 
 mod info;
 
-pub use info::{info, DeviceInfo, Info, PdoInfo};
+pub use info::{
+    info, DapInfo, DeviceInfo, DictionaryInfo, Info, ModuleContent, ModuleInfo, PdoInfo, RecordInfo, SubmoduleInfo,
+};
 
 use crate::ir::Catalog;
 

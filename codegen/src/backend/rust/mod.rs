@@ -10,13 +10,14 @@ mod literal;
 mod model;
 mod options;
 mod pdo;
+mod profinet;
 mod value_type;
 
 pub use options::{Presence, RustOptions};
 
 use askama::Template;
 
-use crate::ir::{Device, FileInfo};
+use crate::ir::{Catalog, Device, FileInfo, Format};
 use model::Model;
 
 /// The number of the interface between generated code and the runtime: `lexibus::interface::VERSION`.
@@ -26,6 +27,17 @@ pub const INTERFACE_VERSION: u32 = 1;
 #[template(path = "rust/device.rs.txt", escape = "none")]
 struct DeviceTemplate<'a> {
     m: Model<'a>,
+}
+
+/// The Rust module for all of `catalog`; `None` where it describes nothing that code could be generated for.
+///
+/// One device is the module itself; several are a module each.
+pub fn emit_catalog(catalog: &Catalog, options: &RustOptions) -> Option<String> {
+    let file = catalog.files.first()?;
+    if file.format == Format::Gsdml {
+        return profinet::emit(catalog, file, options);
+    }
+    Some(emit(catalog.devices.first()?, file, options))
 }
 
 /// The Rust module for `device`, which `file` describes.

@@ -1,0 +1,326 @@
+//! What of a description is wanted: devices, modules, objects.
+//!
+//! A file of a vendor may describe hundreds of devices. What isn't selected is read, so that it is checked to be well
+//! formed, and then left alone: it costs nothing in the output.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Catalog, Device, Module, Submodule};
+use crate::source::{FileId, Span};
+use crate::text::edit_distance;
+
+/// What of a description is wanted; everything, where nothing is named.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Selection {
+    /// The devices.
+    pub devices: Vec<DeviceFilter>,
+    /// The modules and submodules that can be plugged in. Those that are part of a device always stay.
+    pub modules: Vec<Filter>,
+    /// The objects.
+    pub objects: Vec<ObjectFilter>,
+}
+
+/// Elements by name or number.
+///
+/// `0x2521` and `9505` are numbers (a product code, an ident number); every other text is a name, an order code or an
+/// identifier, whatever the case of its letters, in which `*` stands for any letters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Filter {
+    text: String,
+    number: Option<u32>,
+}
+
+impl Filter {
+    fn new(text: &str) -> Self {
+        Filter { text: text.trim().to_lowercase(), number: number(text.trim()) }
+    }
+
+    fn matches(&self, number: Option<u32>, names: &[&str]) -> bool {
+        (self.number.is_some() && self.number == number)
+            || names.iter().any(|name| !name.is_empty() && glob(&self.text, &name.to_lowercase()))
+    }
+}
+
+impl From<&str> for Filter {
+    fn from(text: &str) -> Self {
+        Filter::new(text)
+    }
+}
+
+impl fmt::Display for Filter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+/// Devices by name or product code, and where several revisions are described also by revision.
+///
+/// `EL3004`, `0x0BBC3052`, `EL3004@0x00110000`, `EL3004@latest`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DeviceFilter {
+    device: Filter,
+    revision: Option<Revision>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Revision {
+    Number(u32),
+    Latest,
+}
+
+impl FromStr for DeviceFilter {
+    type Err = SelectionError;
+
+    fn from_str(text: &str) -> Result<Self, SelectionError> {
+        let (device, revision) = match text.rsplit_once('@') {
+            None => (text, None),
+            Some((device, "latest")) => (device, Some(Revision::Latest)),
+            Some((device, revision)) => match number(revision.trim()) {
+                Some(number) => (device, Some(Revision::Number(number))),
+                // An at sign may be part of a name.
+                None => (text, None),
+            },
+        };
+        if device.trim().is_empty() {
+            return Err(SelectionError(format!("`{text}` names no device: expected a name or a product code")));
+        }
+        Ok(DeviceFilter { device: Filter::new(device), revision })
+    }
+}
+
+impl fmt::Display for DeviceFilter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.device)?;
+        match self.revision {
+            None => Ok(()),
+            Some(Revision::Latest) => f.write_str("@latest"),
+            Some(Revision::Number(number)) => write!(f, "@{number:#010X}"),
+        }
+    }
+}
+
+/// Objects by index: `0x6040`, or a range with both ends, `0x6000..0x67FF`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ObjectFilter {
+    first: u16,
+    last: u16,
+}
+
+impl FromStr for ObjectFilter {
+    type Err = SelectionError;
+
+    fn from_str(text: &str) -> Result<Self, SelectionError> {
+        let index = |text: &str| number(text.trim()).and_then(|number| u16::try_from(number).ok());
+        let (first, last) = text.split_once("..").unwrap_or((text, text));
+        match (index(first), index(last)) {
+            (Some(first), Some(last)) if first <= last => Ok(ObjectFilter { first, last }),
+            _ => Err(SelectionError(format!("`{text}` is no index: expected 0x6040 or 0x6000..0x67FF"))),
+        }
+    }
+}
+
+/// Why a text selects nothing that could exist.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SelectionError(String);
+
+impl fmt::Display for SelectionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for SelectionError {}
+
+fn number(text: &str) -> Option<u32> {
+    match text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")).or_else(|| text.strip_prefix("#x")) {
+        Some(digits) => u32::from_str_radix(digits, 16).ok(),
+        None => text.parse().ok(),
+    }
+}
+
+/// Whether `text` has the form `pattern`, in which `*` stands for any letters.
+fn glob(pattern: &str, text: &str) -> bool {
+    let Some((head, rest)) = pattern.split_once('*') else { return pattern == text };
+    let Some(mut text) = text.strip_prefix(head) else { return false };
+    let mut parts = rest.split('*').peekable();
+    while let Some(part) = parts.next() {
+        if parts.peek().is_none() {
+            return text.ends_with(part);
+        }
+        let Some(at) = text.find(part) else { return false };
+        text = &text[at + part.len()..];
+    }
+    true
+}
+
+impl Selection {
+    /// Takes out of `catalog` the devices that aren't wanted, and out of the devices the modules.
+    pub(crate) fn devices_and_modules(&self, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
+        if !self.devices.is_empty() {
+            self.keep_devices(catalog, diagnostics);
+        }
+        if !self.modules.is_empty() {
+            self.keep_modules(catalog, diagnostics);
+        }
+    }
+
+    /// Takes out of `catalog` the objects that aren't wanted. Done last: the names in PDOs come from them.
+    pub(crate) fn objects(&self, catalog: &mut Catalog) {
+        if self.objects.is_empty() {
+            return;
+        }
+        let wanted = |index: u16| self.objects.iter().any(|filter| (filter.first..=filter.last).contains(&index));
+        let Catalog { devices, modules, .. } = catalog;
+        let lists = devices.iter_mut().map(|device| &mut device.groups);
+        for groups in lists.chain(modules.iter_mut().map(|module| &mut module.groups)) {
+            groups.retain(|group| group.index().is_none_or(wanted));
+        }
+    }
+
+    fn keep_devices(&self, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
+        let mut wanted = vec![false; catalog.devices.len()];
+        for filter in &self.devices {
+            let mut found: Vec<usize> = Vec::new();
+            found.extend((0..wanted.len()).filter(|&at| filter.matches(&catalog.devices[at])));
+            if filter.revision == Some(Revision::Latest) {
+                let latest = found.iter().filter_map(|&at| catalog.devices[at].identity.revision_number).max();
+                found.retain(|&at| catalog.devices[at].identity.revision_number == latest);
+            }
+            if found.is_empty() {
+                let names = catalog.devices.iter().flat_map(device_names);
+                diagnostics.push(nothing("device", &filter.to_string(), &filter.device, names));
+            }
+            found.iter().for_each(|&at| wanted[at] = true);
+        }
+        let mut at = wanted.into_iter();
+        catalog.devices.retain(|_| at.next().unwrap_or(false));
+    }
+
+    fn keep_modules(&self, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
+        let matches = |number, names: &[&str]| self.modules.iter().any(|filter| filter.matches(Some(number), names));
+        let module = |module: &Module| matches(module.number, &module_names(module));
+        let submodule = |submodule: &Submodule| matches(submodule.ident, &submodule_names(submodule));
+        let wanted_modules: Vec<bool> = catalog.modules.iter().map(module).collect();
+        let wanted_submodules: Vec<bool> = catalog.submodules.iter().map(submodule).collect();
+        for filter in &self.modules {
+            let found = catalog.modules.iter().any(|one| filter.matches(Some(one.number), &module_names(one)))
+                || catalog.submodules.iter().any(|one| filter.matches(Some(one.ident), &submodule_names(one)));
+            if !found {
+                let names = catalog.modules.iter().flat_map(module_names);
+                let names = names.chain(catalog.submodules.iter().flat_map(submodule_names));
+                diagnostics.push(nothing("module", &filter.to_string(), filter, names));
+            }
+        }
+        let is = |list: &[bool], at: u32| list.get(at as usize).copied().unwrap_or(false);
+        for device in &mut catalog.devices {
+            device.modules.retain(|own| !own.places.fixed.is_empty() || is(&wanted_modules, own.module.0));
+            device.submodules.retain(|own| !own.places.fixed.is_empty() || is(&wanted_submodules, own.submodule.0));
+        }
+        if catalog.devices.is_empty() {
+            // A file of modules alone.
+            let mut at = wanted_modules.into_iter();
+            catalog.modules.retain(|_| at.next().unwrap_or(false));
+        }
+    }
+}
+
+impl DeviceFilter {
+    fn matches(&self, device: &Device) -> bool {
+        let identity = &device.identity;
+        let revision = match self.revision {
+            Some(Revision::Number(number)) => identity.revision_number == Some(number),
+            Some(Revision::Latest) | None => true,
+        };
+        revision && self.device.matches(identity.product_code, &device_names(device))
+    }
+}
+
+fn device_names(device: &Device) -> [&str; 4] {
+    let identity = &device.identity;
+    [&device.name, &identity.order_code, &device.id, &identity.product_name]
+}
+
+fn module_names(module: &Module) -> [&str; 3] {
+    [&module.name, &module.id, &module.identity.order_code]
+}
+
+fn submodule_names(submodule: &Submodule) -> [&str; 3] {
+    [&submodule.name, &submodule.id, &submodule.identity.order_code]
+}
+
+/// "There is no such thing", with the name that is most like it.
+fn nothing<'n>(what: &str, wanted: &str, filter: &Filter, names: impl Iterator<Item = &'n str>) -> Diagnostic {
+    let message = format!("there is no {what} `{wanted}` in the file");
+    let diagnostic = Diagnostic::new(&codes::NOTHING_SELECTED, Span::new(FileId(0), 0, 0), message);
+    let names = names.filter(|name| !name.is_empty());
+    let similar = names.min_by_key(|name| edit_distance(&filter.text, &name.to_lowercase()));
+    match similar {
+        Some(name) => diagnostic.help(format!("`lexibus info` lists what there is; did you mean `{name}`?")),
+        None => diagnostic.help("`lexibus info` lists what there is"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn device(name: &str, order_code: &str, product: u32, revision: u32) -> Device {
+        let mut device = Device { name: name.into(), ..Device::default() };
+        device.identity.order_code = order_code.into();
+        device.identity.product_code = Some(product);
+        device.identity.revision_number = Some(revision);
+        device
+    }
+
+    fn selected(filters: &[&str]) -> (Vec<u32>, usize) {
+        let devices = vec![
+            device("Four inputs", "IN-4", 0x10, 1),
+            device("Four inputs", "IN-4", 0x10, 3),
+            device("Four inputs", "IN-4", 0x10, 2),
+            device("Eight outputs", "OUT-8", 0x20, 1),
+        ];
+        let mut catalog = Catalog { devices, ..Catalog::default() };
+        let devices = filters.iter().map(|text| text.parse().unwrap()).collect();
+        let mut diagnostics = Diagnostics::default();
+        Selection { devices, ..Selection::default() }.devices_and_modules(&mut catalog, &mut diagnostics);
+        let key = |device: &Device| {
+            device.identity.product_code.unwrap() * 16 + device.identity.revision_number.unwrap_or_default()
+        };
+        (catalog.devices.iter().map(key).collect(), diagnostics.list().len())
+    }
+
+    #[test]
+    fn devices_by_name_code_and_revision() {
+        assert_eq!(selected(&[]), (vec![0x101, 0x103, 0x102, 0x201], 0));
+        assert_eq!(selected(&["in-4"]), (vec![0x101, 0x103, 0x102], 0));
+        assert_eq!(selected(&["0x10@2"]), (vec![0x102], 0));
+        assert_eq!(selected(&["16@latest"]), (vec![0x103], 0));
+        assert_eq!(selected(&["*out*", "IN-4@latest"]), (vec![0x103, 0x201], 0));
+        assert_eq!(selected(&["eight outputs"]), (vec![0x201], 0));
+        assert_eq!(selected(&["OUT-9", "OUT-8@7", "OUT-8"]), (vec![0x201], 2));
+        assert!("@latest".parse::<DeviceFilter>().is_err());
+    }
+
+    #[test]
+    fn objects_by_index_and_range() {
+        let parse = |text: &str| text.parse::<ObjectFilter>();
+        assert_eq!(parse("0x6000..0x67FF"), Ok(ObjectFilter { first: 0x6000, last: 0x67FF }));
+        assert_eq!(parse("0x6040"), Ok(ObjectFilter { first: 0x6040, last: 0x6040 }));
+        for wrong in ["", "x", "0x10000", "2..1", ".."] {
+            assert!(parse(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn patterns() {
+        for (pattern, text) in [("a*", "abc"), ("*c", "abc"), ("a*c", "abc"), ("*", ""), ("a**b", "axb"), ("*b*", "abc")]
+        {
+            assert!(glob(pattern, text), "{pattern} {text}");
+        }
+        for (pattern, text) in [("a*", "bc"), ("*b", "abc"), ("a*b*c", "acb"), ("ab", "abc"), ("ab*ba", "aba")] {
+            assert!(!glob(pattern, text), "{pattern} {text}");
+        }
+    }
+}
