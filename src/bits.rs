@@ -31,6 +31,35 @@ pub const fn put<const N: usize>(buffer: [u8; N], bit: usize, width: u32, value:
     out
 }
 
+/// Writes the low `width` bits of `value` at `bit` of `data`. Bits that would fall beyond `data`, and those beyond the
+/// 64th of the field, are dropped.
+#[inline]
+pub fn set(data: &mut [u8], bit: usize, width: u32, value: u64) {
+    let (first, shift) = (bit / 8, (bit % 8) as u32);
+    let field = mask(width);
+    let value = value & field;
+    let Some(rest) = data.get_mut(first..) else { return };
+    if let Some(bytes) = rest.first_chunk_mut::<8>() {
+        *bytes = (u64::from_le_bytes(*bytes) & !(field << shift) | value << shift).to_le_bytes();
+    } else {
+        let word = from_bytes(rest) & !(field << shift) | value << shift;
+        for (byte, new) in rest.iter_mut().zip(word.to_le_bytes()) {
+            *byte = new;
+        }
+    }
+    if let Some(byte) = rest.get_mut(8) {
+        *byte = (u64::from(*byte) & !beyond(field, shift) | beyond(value, shift)) as u8;
+    }
+}
+
+/// Writes `bytes` at `bit` of `data`. Bits that would fall beyond `data` are dropped.
+#[inline]
+pub fn set_bytes(data: &mut [u8], bit: usize, bytes: &[u8]) {
+    for (chunk, at) in bytes.chunks(8).zip((bit..).step_by(64)) {
+        set(data, at, 8 * chunk.len() as u32, from_bytes(chunk));
+    }
+}
+
 /// The `N` bytes at `bit`. Bits beyond `data` are 0.
 #[must_use]
 #[inline]
@@ -139,6 +168,9 @@ mod tests {
                 let (data, value) = (noisy_bytes(seed), noise(!seed));
                 assert_eq!(get(&data, bit, width), slow_get(&data, bit, width), "get {bit} {width}");
                 assert_eq!(put(data, bit, width, value), slow_put(data, bit, width, value), "put {bit} {width}");
+                let mut changed = data;
+                set(&mut changed, bit, width, value);
+                assert_eq!(changed, slow_put(data, bit, width, value), "set {bit} {width}");
             }
         }
     }
@@ -152,6 +184,9 @@ mod tests {
             let mut expected = [0xFF; LEN];
             (0..80).for_each(|at| set_bit(&mut expected, bit + at, bit_of(&data, at)));
             assert_eq!(put_bytes([0xFF; LEN], bit, &data[..10]), expected, "put {bit}");
+            let mut changed = [0xFF; LEN];
+            set_bytes(&mut changed, bit, &data[..10]);
+            assert_eq!(changed, expected, "set {bit}");
         }
     }
 

@@ -58,6 +58,8 @@ pub enum DataType {
     TimeDifference,
     /// A block of bytes of any length (CiA 301 7.1.6.7).
     Domain,
+    /// A number of so many bits, 1 to 16, that shares its bytes with others in a PDO (BIT1 … BIT16 of ETG.1000.6).
+    Bits(u8),
     /// Bytes whose meaning the description of the device doesn't give.
     Opaque,
 }
@@ -76,6 +78,7 @@ impl DataType {
             Self::Integer48 | Self::Unsigned48 | Self::TimeOfDay | Self::TimeDifference => 48,
             Self::Integer56 | Self::Unsigned56 => 56,
             Self::Integer64 | Self::Unsigned64 | Self::Real64 => 64,
+            Self::Bits(bits) => bits as u32,
             Self::VisibleString | Self::OctetString | Self::UnicodeString | Self::Domain | Self::Opaque => return None,
         })
     }
@@ -107,6 +110,7 @@ impl DataType {
             Self::TimeOfDay => "TIME_OF_DAY",
             Self::TimeDifference => "TIME_DIFFERENCE",
             Self::Domain => "DOMAIN",
+            Self::Bits(_) => "BIT",
             Self::Opaque => "OPAQUE",
         }
     }
@@ -114,7 +118,10 @@ impl DataType {
 
 impl fmt::Display for DataType {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
+        match self {
+            Self::Bits(bits) => write!(f, "BIT{bits}"),
+            _ => f.pad(self.name()),
+        }
     }
 }
 
@@ -126,6 +133,7 @@ mod tests {
     #[test]
     fn names_are_those_of_the_standard() {
         assert_eq!(format!("{}", DataType::Integer32), "INTEGER32");
+        assert_eq!(format!("{}", DataType::Bits(3)), "BIT3");
         assert_eq!(format!("{:>8}", DataType::Domain), "  DOMAIN");
     }
 

@@ -6,7 +6,7 @@ use core::marker::PhantomData;
 use crate::accessor::Accessor;
 use crate::flags::Flags;
 use crate::initial::Initial;
-use crate::location::OnCanOpen;
+use crate::location::{OnCanOpen, OnCoE};
 use crate::range::Range;
 use crate::value::Value;
 
@@ -81,35 +81,59 @@ impl<V: Value, A, L> Item<V, A, L> {
     }
 }
 
-impl<V: Value, A> Item<V, A, OnCanOpen> {
-    /// An entry of a CANopen object dictionary of which nothing else is known.
-    #[must_use]
-    pub const fn object(index: u16, sub_index: u8, name: &'static str) -> Self {
-        Self::new(OnCanOpen::canopen(index, sub_index), name, Range::Full, Initial::Unknown, "", Flags::NONE)
-    }
+macro_rules! objects {
+    ($location:ty, $on:ident: $object:ident, $with_default:ident, $flagged:ident, $flagged_with_default:ident) => {
+        impl<V: Value, A> Item<V, A, $location> {
+            /// An entry of the object dictionary of which nothing else is known.
+            #[must_use]
+            pub const fn $object(index: u16, sub_index: u8, name: &'static str) -> Self {
+                Self::new(<$location>::$on(index, sub_index), name, Range::Full, Initial::Unknown, "", Flags::NONE)
+            }
 
-    /// An entry of a CANopen object dictionary that has the value `default` after power-on.
-    #[must_use]
-    pub const fn object_with_default(index: u16, sub_index: u8, name: &'static str, default: V::Native) -> Self {
-        Self::new(OnCanOpen::canopen(index, sub_index), name, Range::Full, Initial::Value(default), "", Flags::NONE)
-    }
+            /// An entry of the object dictionary that has the value `default` after power-on.
+            #[must_use]
+            pub const fn $with_default(index: u16, sub_index: u8, name: &'static str, default: V::Native) -> Self {
+                Self::new(
+                    <$location>::$on(index, sub_index),
+                    name,
+                    Range::Full,
+                    Initial::Value(default),
+                    "",
+                    Flags::NONE,
+                )
+            }
 
-    /// An entry of a CANopen object dictionary that `flags` says more about, as into which PDOs it can be mapped.
-    #[must_use]
-    pub const fn flagged_object(index: u16, sub_index: u8, name: &'static str, flags: Flags) -> Self {
-        Self::new(OnCanOpen::canopen(index, sub_index), name, Range::Full, Initial::Unknown, "", flags)
-    }
+            /// An entry of the object dictionary that `flags` says more about, as into which PDOs it can be mapped.
+            #[must_use]
+            pub const fn $flagged(index: u16, sub_index: u8, name: &'static str, flags: Flags) -> Self {
+                Self::new(<$location>::$on(index, sub_index), name, Range::Full, Initial::Unknown, "", flags)
+            }
 
-    /// The same, with the value after power-on.
+            /// The same, with the value after power-on.
+            #[must_use]
+            pub const fn $flagged_with_default(
+                index: u16,
+                sub_index: u8,
+                name: &'static str,
+                flags: Flags,
+                default: V::Native,
+            ) -> Self {
+                Self::new(<$location>::$on(index, sub_index), name, Range::Full, Initial::Value(default), "", flags)
+            }
+        }
+    };
+}
+
+objects!(OnCanOpen, canopen: object, object_with_default, flagged_object, flagged_object_with_default);
+objects!(OnCoE, coe: coe_object, coe_object_with_default, flagged_coe_object, flagged_coe_object_with_default);
+
+impl<V: Value, A> Item<V, A, OnCoE> {
+    /// The same entry with `offset` added to the index: that of a module in another slot.
     #[must_use]
-    pub const fn flagged_object_with_default(
-        index: u16,
-        sub_index: u8,
-        name: &'static str,
-        flags: Flags,
-        default: V::Native,
-    ) -> Self {
-        Self::new(OnCanOpen::canopen(index, sub_index), name, Range::Full, Initial::Value(default), "", flags)
+    pub const fn shifted(self, offset: u16) -> Self {
+        let object = self.location.coe;
+        let location = OnCoE::coe(object.index.wrapping_add(offset), object.sub_index);
+        Self { location, ..self }
     }
 }
 
@@ -163,6 +187,13 @@ mod tests {
         assert_eq!((SPEED.name(), SPEED.unit()), ("Profile velocity", "0.01 rev/s"));
         assert_eq!(*SPEED.range(), Range::To(3000));
         assert_eq!(*NAME.initial(), Initial::Value("Drive"));
+    }
+
+    #[test]
+    fn entries_of_other_slots() {
+        const INPUT: Item<u8, Rw, OnCoE> = Item::coe_object(0x6000, 1, "Input");
+        const OTHER: Item<u8, Rw, OnCoE> = INPUT.shifted(0x30);
+        assert_eq!((OTHER.location().coe.index, OTHER.location().coe.sub_index, OTHER.name()), (0x6030, 1, "Input"));
     }
 
     #[test]

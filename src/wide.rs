@@ -134,10 +134,10 @@ impl<const BITS: u32> From<Int<BITS>> for i64 {
 }
 
 macro_rules! wide {
-    ($($wide:ident, $bits:literal, $native:ty, $data_type:ident;)*) => {$(
+    ($($wide:ident, $bits:literal, $native:ty, $data_type:ident $(($size:literal))?;)*) => {$(
         impl Value for $wide<$bits> {
             type Native = $native;
-            const DATA_TYPE: DataType = DataType::$data_type;
+            const DATA_TYPE: DataType = DataType::$data_type $(($size))?;
         }
 
         impl Fixed for $wide<$bits> {
@@ -163,6 +163,20 @@ macro_rules! wide {
 }
 
 wide! {
+    Uint, 1, u8, Bits(1);
+    Uint, 2, u8, Bits(2);
+    Uint, 3, u8, Bits(3);
+    Uint, 4, u8, Bits(4);
+    Uint, 5, u8, Bits(5);
+    Uint, 6, u8, Bits(6);
+    Uint, 7, u8, Bits(7);
+    Uint, 9, u16, Bits(9);
+    Uint, 10, u16, Bits(10);
+    Uint, 11, u16, Bits(11);
+    Uint, 12, u16, Bits(12);
+    Uint, 13, u16, Bits(13);
+    Uint, 14, u16, Bits(14);
+    Uint, 15, u16, Bits(15);
     Uint, 24, u32, Unsigned24;
     Uint, 40, u64, Unsigned40;
     Uint, 48, u64, Unsigned48;

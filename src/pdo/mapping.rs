@@ -9,27 +9,27 @@ pub struct MappedEntry {
     pub index: u16,
     /// The sub-index of the mapped entry.
     pub sub_index: u8,
-    /// How many bits it takes.
-    pub bits: u8,
+    /// How many bits it takes. A mapping object holds at most 255; a fixed mapping may have longer entries.
+    pub bits: u16,
 }
 
 impl MappedEntry {
     /// An entry.
     #[must_use]
-    pub const fn new(index: u16, sub_index: u8, bits: u8) -> Self {
+    pub const fn new(index: u16, sub_index: u8, bits: u16) -> Self {
         Self { index, sub_index, bits }
     }
 
     /// The entry as the mapping object holds it: index, sub-index and bits, from the highest byte to the lowest.
     #[must_use]
     pub const fn word(self) -> u32 {
-        (self.index as u32) << 16 | (self.sub_index as u32) << 8 | self.bits as u32
+        (self.index as u32) << 16 | (self.sub_index as u32) << 8 | self.bits as u32 & 0xFF
     }
 
     /// The entry that a mapping object holds.
     #[must_use]
     pub const fn from_word(word: u32) -> Self {
-        Self::new((word >> 16) as u16, (word >> 8) as u8, word as u8)
+        Self::new((word >> 16) as u16, (word >> 8) as u8, word as u16 & 0xFF)
     }
 
     /// The mapped object.

@@ -1,0 +1,74 @@
+//! EtherCAT: what a master has to know of a slave, the PDOs that it assigns, and the process image that follows.
+//!
+//! Generated bindings describe a slave as a constant [`Device`]: sync managers, PDOs, start-up commands, slots. From it,
+//! an [`Assignment`] of PDOs gives the layout of the process image and the commands that set it up; a [`SlotPlan`] does
+//! the same for a modular device with its modules. None of them allocates.
+//!
+//! "Inputs" and "outputs" are those of the master: a TxPDO of the slave is an input.
+
+mod assignment;
+mod clock;
+mod mailbox;
+mod module;
+mod pdo;
+mod plan;
+mod startup;
+mod sync_manager;
+
+pub use assignment::{Assignment, AssignmentError, Placed};
+pub use clock::{ClockMode, ClockTime};
+pub use mailbox::{Coe, InitCommand, Mailbox, Transition, Transitions};
+pub use module::{Fit, Module, PdoGroup, Slot, Slots};
+pub use pdo::{Direction, PdoInfo};
+pub use plan::{Place, PlanError, SlotPlan};
+pub use startup::{StartupCommand, StartupData};
+pub use sync_manager::{Fmmu, FmmuPurpose, SyncManager, SyncManagerPurpose};
+
+use crate::identity::Identity;
+
+/// What a master has to know of a slave.
+#[derive(Clone, Copy, Debug)]
+pub struct Device {
+    /// Who made it, and which one it is.
+    pub identity: Identity,
+    /// Its sync managers, by number.
+    pub sync_managers: &'static [SyncManager],
+    /// Its PDOs, those of the outputs first.
+    pub pdos: &'static [PdoInfo],
+    /// The PDOs that are assigned by default, in the order of the process image.
+    pub default_pdos: &'static [u16],
+    /// Its mailbox.
+    pub mailbox: Mailbox,
+    /// What it takes in its slots; `None` for a device that isn't modular.
+    pub slots: Option<Slots>,
+}
+
+impl Device {
+    /// The PDO with this mapping object.
+    #[must_use]
+    pub fn pdo(&self, index: u16) -> Option<&'static PdoInfo> {
+        self.pdos.iter().find(|pdo| pdo.index == index)
+    }
+
+    /// The sync manager with this number.
+    #[must_use]
+    pub fn sync_manager(&self, number: u8) -> Option<&'static SyncManager> {
+        self.sync_managers.iter().find(|own| own.number == number)
+    }
+
+    /// The sync manager that a PDO goes to: the one that it names, else the first for data of its direction.
+    #[must_use]
+    pub fn sync_manager_of(&self, pdo: &PdoInfo) -> Option<u8> {
+        let purpose = match pdo.direction {
+            Direction::Output => SyncManagerPurpose::Outputs,
+            Direction::Input => SyncManagerPurpose::Inputs,
+        };
+        pdo.sync_manager.or_else(|| {
+            let free = |own: &&SyncManager| own.purpose == purpose && !pdo.excluded_sync_managers.contains(&own.number);
+            self.sync_managers.iter().find(free).map(|own| own.number)
+        })
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod samples;

@@ -1,0 +1,261 @@
+//! A choice of PDOs, the process image that it makes, and the commands that set it up.
+
+use core::fmt;
+
+use super::pdo::PdoInfo;
+use super::Device;
+use crate::pdo::SdoWrite;
+
+/// Index of the assignment object of sync manager 0 (ETG.1000.6 5.6.7.4).
+pub(super) const ASSIGN: u16 = 0x1C10;
+
+/// A PDO at its place in the process image of its sync manager.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Placed {
+    /// The PDO.
+    pub pdo: &'static PdoInfo,
+    /// Number of the sync manager.
+    pub sync_manager: u8,
+    /// Its first bit, counted from the first of the sync manager's data.
+    pub bit: u32,
+}
+
+/// A legal choice of at most `N` PDOs of a device.
+///
+/// The PDOs of a sync manager follow each other bit by bit, in the order in which they are assigned.
+#[derive(Clone, Copy, Debug)]
+pub struct Assignment<const N: usize = 32> {
+    device: &'static Device,
+    placed: [Option<Placed>; N],
+    len: usize,
+}
+
+/// Why PDOs can't be assigned together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum AssignmentError {
+    /// The device has no PDO with this index.
+    Unknown(u16),
+    /// A PDO is named twice.
+    Twice(u16),
+    /// The second excludes the first, or the other way round.
+    Conflict(u16, u16),
+    /// A mandatory PDO is missing.
+    Missing(u16),
+    /// No sync manager takes the PDO.
+    NoSyncManager(u16),
+    /// The data of a sync manager are longer than it can be.
+    TooLong {
+        /// Number of the sync manager.
+        sync_manager: u8,
+        /// Length of the data in bytes.
+        bytes: usize,
+        /// Greatest length in bytes.
+        max: usize,
+    },
+    /// There are more PDOs than the assignment has room for.
+    TooMany,
+}
+
+impl fmt::Display for AssignmentError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            AssignmentError::Unknown(index) => write!(f, "the device has no PDO {index:#06X}"),
+            AssignmentError::Twice(index) => write!(f, "the PDO {index:#06X} is named twice"),
+            AssignmentError::Conflict(one, other) => {
+                write!(f, "the PDOs {one:#06X} and {other:#06X} exclude each other")
+            }
+            AssignmentError::Missing(index) => write!(f, "the PDO {index:#06X} has to be assigned"),
+            AssignmentError::NoSyncManager(index) => write!(f, "no sync manager takes the PDO {index:#06X}"),
+            AssignmentError::TooLong { sync_manager, bytes, max } => {
+                write!(f, "the data of sync manager {sync_manager} have {bytes} bytes, and at most {max} fit")
+            }
+            AssignmentError::TooMany => f.write_str("there are more PDOs than the assignment has room for"),
+        }
+    }
+}
+
+impl core::error::Error for AssignmentError {}
+
+impl<const N: usize> Assignment<N> {
+    /// The PDOs that are assigned by default.
+    ///
+    /// # Errors
+    ///
+    /// Where the description contradicts itself, or has more than `N` of them.
+    pub fn by_default(device: &'static Device) -> Result<Self, AssignmentError> {
+        Self::new(device, device.default_pdos)
+    }
+
+    /// The PDOs with these indices, in this order.
+    ///
+    /// # Errors
+    ///
+    /// Why they can't be assigned together.
+    pub fn new(device: &'static Device, pdos: &[u16]) -> Result<Self, AssignmentError> {
+        let mut assignment = Self { device, placed: [None; N], len: 0 };
+        for &index in pdos {
+            assignment.add(index)?;
+        }
+        let missing = device.pdos.iter().find(|pdo| pdo.mandatory && assignment.find(pdo.index).is_none());
+        if let Some(pdo) = missing {
+            return Err(AssignmentError::Missing(pdo.index));
+        }
+        for own in device.sync_managers {
+            let bytes = assignment.bytes(own.number);
+            let max = own.max_size.map_or(usize::MAX, usize::from);
+            if bytes > max {
+                return Err(AssignmentError::TooLong { sync_manager: own.number, bytes, max });
+            }
+        }
+        Ok(assignment)
+    }
+
+    fn add(&mut self, index: u16) -> Result<(), AssignmentError> {
+        let pdo = self.device.pdo(index).ok_or(AssignmentError::Unknown(index))?;
+        for other in self.pdos() {
+            if other.pdo.index == index {
+                return Err(AssignmentError::Twice(index));
+            }
+            if other.pdo.conflicts_with(pdo) {
+                return Err(AssignmentError::Conflict(other.pdo.index, index));
+            }
+        }
+        let sync_manager = self.device.sync_manager_of(pdo).ok_or(AssignmentError::NoSyncManager(index))?;
+        let placed = Placed { pdo, sync_manager, bit: self.bits(sync_manager) };
+        *self.placed.get_mut(self.len).ok_or(AssignmentError::TooMany)? = Some(placed);
+        self.len += 1;
+        Ok(())
+    }
+
+    /// The PDOs, in the order in which they are assigned.
+    pub fn pdos(&self) -> impl Iterator<Item = Placed> + '_ {
+        self.placed.iter().copied().flatten()
+    }
+
+    /// The PDO with this index, where it is assigned.
+    #[must_use]
+    pub fn find(&self, index: u16) -> Option<Placed> {
+        self.pdos().find(|placed| placed.pdo.index == index)
+    }
+
+    /// Length in bits of the data of a sync manager.
+    #[must_use]
+    pub fn bits(&self, sync_manager: u8) -> u32 {
+        let own = self.pdos().filter(|placed| placed.sync_manager == sync_manager);
+        own.map(|placed| placed.pdo.bits).fold(0, u32::saturating_add)
+    }
+
+    /// Length in bytes of the data of a sync manager, the last one perhaps not full.
+    #[must_use]
+    pub fn bytes(&self, sync_manager: u8) -> usize {
+        self.bits(sync_manager).div_ceil(8) as usize
+    }
+
+    /// The writes that set the assignment up in Pre-Operational: clear the assignment, write each mapping that can be
+    /// changed, write the assignment (ETG.1000.6 5.6.7.4). What the device lets nobody write is left out.
+    pub fn commands(&self) -> impl Iterator<Item = SdoWrite> + '_ {
+        let coe = self.device.mailbox.coe;
+        let assigns = coe.is_some_and(|coe| coe.pdo_assign);
+        let configures = coe.is_some_and(|coe| coe.pdo_config);
+        let managers = move || self.device.sync_managers.iter().filter(move |own| assigns && own.carries_data());
+        let clear = managers().map(|own| SdoWrite::new_u8(own.assignment(), 0, 0));
+        let mappings = self.pdos().filter(move |placed| configures && placed.pdo.is_writable());
+        let mappings = mappings.flat_map(|placed| mapping_writes(placed.pdo.index, placed.pdo.mapping, 0));
+        let assign = managers().flat_map(move |own| {
+            let placed = move || self.pdos().filter(move |placed| placed.sync_manager == own.number);
+            assignment_writes(own.assignment(), move || placed().map(|placed| placed.pdo.index))
+        });
+        clear.chain(mappings).chain(assign)
+    }
+}
+
+impl super::SyncManager {
+    /// Whether it carries process data.
+    #[must_use]
+    pub const fn carries_data(&self) -> bool {
+        matches!(self.purpose, super::SyncManagerPurpose::Outputs | super::SyncManagerPurpose::Inputs)
+    }
+
+    /// Index of the object that holds the PDOs assigned to it.
+    #[must_use]
+    pub const fn assignment(&self) -> u16 {
+        ASSIGN + self.number as u16
+    }
+}
+
+/// Clear, entries, count. `shift` is added to the indices of mapped objects.
+pub(super) fn mapping_writes(
+    index: u16,
+    mapping: &'static [crate::MappedEntry],
+    shift: u16,
+) -> impl Iterator<Item = SdoWrite> {
+    let entries = mapping.iter().zip(1..=u8::MAX).map(move |(entry, sub)| {
+        let shift = if entry.index == 0 { 0 } else { shift };
+        let entry = crate::MappedEntry { index: entry.index.wrapping_add(shift), ..*entry };
+        SdoWrite::new_u32(index, sub, entry.word())
+    });
+    let count = SdoWrite::new_u8(index, 0, mapping.len() as u8);
+    core::iter::once(SdoWrite::new_u8(index, 0, 0)).chain(entries).chain(core::iter::once(count))
+}
+
+/// Entries and count of an assignment object; nothing where no PDO is assigned.
+pub(super) fn assignment_writes<I: Iterator<Item = u16>>(
+    object: u16,
+    indices: impl Fn() -> I,
+) -> impl Iterator<Item = SdoWrite> {
+    let count = indices().count() as u8;
+    let entries = indices().zip(1..=u8::MAX).map(move |(index, sub)| SdoWrite::new_u16(object, sub, index));
+    entries.chain((count > 0).then(|| SdoWrite::new_u8(object, 0, count)))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::vec::Vec;
+
+    use super::super::samples::DRIVE;
+    use super::*;
+
+    #[test]
+    fn layout_follows_the_order() {
+        let assignment = Assignment::<8>::new(&DRIVE, &[0x1601, 0x1600, 0x1A00]).unwrap();
+        let places: Vec<_> = assignment.pdos().map(|one| (one.pdo.index, one.sync_manager, one.bit)).collect();
+        assert_eq!(places, [(0x1601, 2, 0), (0x1600, 2, 3), (0x1A00, 3, 0)]);
+        assert_eq!((assignment.bits(2), assignment.bytes(2), assignment.bytes(3), assignment.bytes(4)), (19, 3, 2, 0));
+        assert_eq!(assignment.find(0x1600).map(|placed| placed.bit), Some(3));
+    }
+
+    #[test]
+    fn illegal_choices_are_refused() {
+        let new = |pdos: &[u16]| Assignment::<3>::new(&DRIVE, pdos).map(|_| ()).unwrap_err();
+        assert_eq!(new(&[0x1600, 0x1777]), AssignmentError::Unknown(0x1777));
+        assert_eq!(new(&[0x1600, 0x1600]), AssignmentError::Twice(0x1600));
+        assert_eq!(new(&[0x1600, 0x1602, 0x1A00]), AssignmentError::Conflict(0x1600, 0x1602));
+        assert_eq!(new(&[0x1602, 0x1600, 0x1A00]), AssignmentError::Conflict(0x1602, 0x1600));
+        assert_eq!(new(&[0x1600]), AssignmentError::Missing(0x1A00));
+        assert_eq!(new(&[0x1A00, 0x1A01]), AssignmentError::TooLong { sync_manager: 3, bytes: 10, max: 8 });
+        let one = Assignment::<1>::by_default(&DRIVE).map(|_| ()).unwrap_err();
+        assert_eq!(one, AssignmentError::TooMany);
+    }
+
+    #[test]
+    fn commands_clear_map_and_assign() {
+        let assignment = Assignment::<8>::by_default(&DRIVE).unwrap();
+        let commands: Vec<_> = assignment.commands().collect();
+        assert_eq!(
+            commands,
+            [
+                SdoWrite::new_u8(0x1C12, 0, 0),
+                SdoWrite::new_u8(0x1C13, 0, 0),
+                // 0x1600 is fixed; 0x1A00 isn't.
+                SdoWrite::new_u8(0x1A00, 0, 0),
+                SdoWrite::new_u32(0x1A00, 1, 0x6041_0010),
+                SdoWrite::new_u8(0x1A00, 0, 1),
+                SdoWrite::new_u16(0x1C12, 1, 0x1600),
+                SdoWrite::new_u8(0x1C12, 0, 1),
+                SdoWrite::new_u16(0x1C13, 1, 0x1A00),
+                SdoWrite::new_u8(0x1C13, 0, 1),
+            ]
+        );
+    }
+}

@@ -1,0 +1,477 @@
+//! Modules in slots, the process image that they make, and the commands that set it up.
+
+use core::fmt;
+
+use super::assignment::{assignment_writes, mapping_writes};
+use super::mailbox::{InitCommand, Transition};
+use super::module::{Module, Slot};
+use super::pdo::PdoInfo;
+use super::startup::{StartupCommand, StartupData};
+use super::{Device, SyncManager};
+use crate::bus::Object;
+use crate::pdo::{MappedEntry, SdoWrite};
+
+/// Object of the configured module ident list (ETG.5001.1).
+const MODULE_IDENTS: u16 = 0xF030;
+
+/// Which module is in which slot of a modular device with at most `N` slots.
+///
+/// ```ignore
+/// let mut plan = SlotPlan::<16>::new(&coupler::DEVICE)?;
+/// plan.plug(0, &modules::eight_inputs::MODULE)?;
+/// plan.check()?;
+/// let place = plan.place(0, 0x1A00);                     // where the inputs of slot 0 are
+/// plan.try_for_each_command(Transition::PS, |command| command.send(&mut client))?;
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct SlotPlan<const N: usize> {
+    device: &'static Device,
+    modules: [Option<&'static Module>; N],
+}
+
+/// Why a module can't be plugged, or a plan isn't complete.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// The device has no slots, or more than the plan has room for.
+    Slots,
+    /// There is no slot with this number.
+    NoSuchSlot(u16),
+    /// There is a module in the slot.
+    Taken(u16),
+    /// The module with this ident number doesn't fit into the slot.
+    DoesNotFit {
+        /// Number of the slot.
+        slot: u16,
+        /// Ident number of the module.
+        ident: u32,
+    },
+    /// A slot has fewer modules than it has to have; this is the first one that may be added.
+    Empty(u16),
+    /// The data of a sync manager are longer than it can be.
+    TooLong {
+        /// Number of the sync manager.
+        sync_manager: u8,
+        /// Length of the data in bytes.
+        bytes: usize,
+        /// Greatest length in bytes.
+        max: usize,
+    },
+}
+
+impl fmt::Display for PlanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PlanError::Slots => f.write_str("the device has no slots, or more than the plan has room for"),
+            PlanError::NoSuchSlot(slot) => write!(f, "there is no slot {slot}"),
+            PlanError::Taken(slot) => write!(f, "there is a module in slot {slot}"),
+            PlanError::DoesNotFit { slot, ident } => write!(f, "module {ident:#010X} doesn't fit into slot {slot}"),
+            PlanError::Empty(slot) => write!(f, "slot {slot} has to have a module"),
+            PlanError::TooLong { sync_manager, bytes, max } => {
+                write!(f, "the data of sync manager {sync_manager} have {bytes} bytes, and at most {max} fit")
+            }
+        }
+    }
+}
+
+impl core::error::Error for PlanError {}
+
+/// A PDO of a modular device at its place in the process image of its sync manager.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The slot of its module; `None` for a PDO of the device itself.
+    pub slot: Option<u16>,
+    /// Its index with what the slot adds.
+    pub index: u16,
+    /// Number of the sync manager.
+    pub sync_manager: u8,
+    /// Its first bit, counted from the first of the sync manager's data.
+    pub bit: u32,
+    /// Length in bits.
+    pub bits: u32,
+    content: Content,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Content {
+    /// A PDO, whose mapped objects are shifted by so much where they depend on the slot.
+    Pdo(&'static PdoInfo, u16),
+    /// Room in front of a group of modules.
+    Gap,
+}
+
+impl<const N: usize> SlotPlan<N> {
+    /// A plan with no module in any slot.
+    ///
+    /// # Errors
+    ///
+    /// [`PlanError::Slots`] where the device has none, or more than `N`.
+    pub fn new(device: &'static Device) -> Result<Self, PlanError> {
+        let plan = Self { device, modules: [None; N] };
+        let count: usize = plan.slots().iter().map(|slot| usize::from(slot.max)).sum();
+        match device.slots {
+            Some(_) if plan.slots().is_empty() || count <= N => Ok(plan),
+            _ => Err(PlanError::Slots),
+        }
+    }
+
+    /// A plan with the modules that are there by default.
+    ///
+    /// # Errors
+    ///
+    /// As [`SlotPlan::new`] and [`SlotPlan::plug`].
+    pub fn by_default(device: &'static Device) -> Result<Self, PlanError> {
+        let mut plan = Self::new(device)?;
+        for number in 0..plan.count() {
+            let default = plan.slot(number).and_then(|slot| slot.default);
+            let module = default.and_then(|ident| plan.known_modules().iter().find(|own| own.ident == ident));
+            if let Some(module) = module {
+                plan.plug(number, module)?;
+            }
+        }
+        Ok(plan)
+    }
+
+    /// Puts `module` into the slot with this number, counted from 0.
+    ///
+    /// # Errors
+    ///
+    /// Why it can't be plugged there.
+    pub fn plug(&mut self, slot: u16, module: &'static Module) -> Result<(), PlanError> {
+        let place = self.slot(slot).ok_or(PlanError::NoSuchSlot(slot))?;
+        if !place.takes(module) {
+            return Err(PlanError::DoesNotFit { slot, ident: module.ident });
+        }
+        match self.modules.get_mut(usize::from(slot)) {
+            None => Err(PlanError::NoSuchSlot(slot)),
+            Some(Some(_)) => Err(PlanError::Taken(slot)),
+            Some(free) => {
+                *free = Some(module);
+                Ok(())
+            }
+        }
+    }
+
+    /// Takes the module out of a slot.
+    pub fn unplug(&mut self, slot: u16) -> Option<&'static Module> {
+        self.modules.get_mut(usize::from(slot))?.take()
+    }
+
+    /// The module in a slot.
+    #[must_use]
+    pub fn module(&self, slot: u16) -> Option<&'static Module> {
+        self.modules.get(usize::from(slot)).copied().flatten()
+    }
+
+    /// Whether every slot has as many modules as it has to have, and the data fit into their sync managers.
+    ///
+    /// # Errors
+    ///
+    /// What is missing or too long.
+    pub fn check(&self) -> Result<(), PlanError> {
+        let mut first = 0;
+        for slot in self.slots() {
+            let numbers = first..first + slot.max;
+            let plugged = numbers.clone().filter(|&number| self.module(number).is_some()).count();
+            if plugged < usize::from(slot.min) {
+                let free = numbers.clone().find(|&number| self.module(number).is_none());
+                return Err(PlanError::Empty(free.unwrap_or(first)));
+            }
+            first = numbers.end;
+        }
+        for own in self.device.sync_managers.iter().filter(|own| own.carries_data()) {
+            let (bytes, max) = (self.bytes(own.number), own.max_size.map_or(usize::MAX, usize::from));
+            if bytes > max {
+                return Err(PlanError::TooLong { sync_manager: own.number, bytes, max });
+            }
+        }
+        Ok(())
+    }
+
+    /// What the index of a module's objects grows by in a slot, for those that depend on it.
+    #[must_use]
+    pub fn index_offset(&self, slot: u16) -> Option<u16> {
+        self.slot(slot).map(|place| place.index_increment.wrapping_mul(slot))
+    }
+
+    /// The PDOs of a sync manager, in the order of its data: those of the device, then those of the modules, group by
+    /// group and slot by slot.
+    pub fn places(&self, sync_manager: u8) -> impl Iterator<Item = Place> + '_ {
+        let manager = self.device.sync_manager(sync_manager);
+        let own = manager.into_iter().flat_map(move |manager| {
+            let defaults = self.device.default_pdos.iter().filter_map(|&index| self.device.pdo(index));
+            let own = defaults.filter(move |pdo| self.device.sync_manager_of(pdo) == Some(manager.number));
+            let own = own.map(move |pdo| (None, pdo.index, Content::Pdo(pdo, 0), pdo.bits));
+            own.chain(self.groups().flat_map(move |group| self.group(manager, group)))
+        });
+        let mut bit: u32 = 0;
+        own.filter_map(move |(slot, index, content, bits)| {
+            // What a gap carries is the alignment; its length follows from where it stands.
+            let bits = if content == Content::Gap { bit.next_multiple_of(bits.max(1)) - bit } else { bits };
+            let place = Place { slot, index, sync_manager, bit, bits, content };
+            bit = bit.saturating_add(bits);
+            (bits > 0).then_some(place)
+        })
+    }
+
+    /// The place of a module's PDO; `index` is that of slot 0, as the description has it.
+    #[must_use]
+    pub fn place(&self, slot: u16, index: u16) -> Option<Place> {
+        let is_it = |place: &Place| match place.content {
+            Content::Pdo(pdo, _) => place.slot == Some(slot) && pdo.index == index,
+            Content::Gap => false,
+        };
+        self.device.sync_managers.iter().find_map(|own| self.places(own.number).find(is_it))
+    }
+
+    /// Length in bytes of the data of a sync manager, the last one perhaps not full.
+    #[must_use]
+    pub fn bytes(&self, sync_manager: u8) -> usize {
+        let end = self.places(sync_manager).last().map_or(0, |place| place.bit + place.bits);
+        end.div_ceil(8) as usize
+    }
+
+    /// Hands every command of a change of state to `visit`, in order: the list of modules, the commands of the device,
+    /// those of the modules, and the mapping and assignment of PDOs.
+    ///
+    /// # Errors
+    ///
+    /// The first error of `visit`, after which nothing more is handed over.
+    pub fn try_for_each_command<E>(
+        &self,
+        transition: Transition,
+        mut visit: impl FnMut(StartupCommand) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let is_due = |command: &&InitCommand| command.transitions.contains(transition);
+        let setup = transition == Transition::PS;
+        if setup && self.device.slots.is_some_and(|slots| slots.download_idents) {
+            self.idents().map(StartupCommand::of_write).try_for_each(&mut visit)?;
+        }
+        let own = self.device.mailbox.coe.map_or(&[][..], |coe| coe.init_commands);
+        own.iter().filter(is_due).map(|command| startup(command, transition, 0)).try_for_each(&mut visit)?;
+        for (module, slot) in self.plugged() {
+            let shift = self.index_offset(slot).unwrap_or(0);
+            let due = module.init_commands.iter().filter(is_due);
+            due.map(|command| startup(command, transition, shift)).try_for_each(&mut visit)?;
+        }
+        if setup {
+            self.assignment().map(StartupCommand::of_write).try_for_each(&mut visit)?;
+        }
+        Ok(())
+    }
+
+    fn slots(&self) -> &'static [Slot] {
+        self.device.slots.map_or(&[], |slots| slots.slots)
+    }
+
+    fn known_modules(&self) -> &'static [&'static Module] {
+        self.device.slots.map_or(&[], |slots| slots.modules)
+    }
+
+    fn count(&self) -> u16 {
+        self.slots().iter().map(|slot| slot.max).fold(0, u16::saturating_add)
+    }
+
+    /// The slot that this number belongs to.
+    fn slot(&self, number: u16) -> Option<&'static Slot> {
+        let mut first: u16 = 0;
+        self.slots().iter().find(|slot| {
+            let is_it = (first..first.saturating_add(slot.max)).contains(&number);
+            first = first.saturating_add(slot.max);
+            is_it
+        })
+    }
+
+    fn plugged(&self) -> impl Iterator<Item = (&'static Module, u16)> + '_ {
+        self.modules.iter().zip(0..).filter_map(|(module, slot)| Some(((*module)?, slot)))
+    }
+
+    /// The groups of modules; one for all where the device has none.
+    fn groups(&self) -> impl Iterator<Item = Option<u16>> {
+        let count = self.device.slots.map_or(0, |slots| slots.pdo_groups.len()) as u16;
+        (count == 0).then_some(None).into_iter().chain((0..count).map(Some))
+    }
+
+    /// What a group of modules adds to a sync manager's data.
+    fn group(
+        &self,
+        manager: &'static SyncManager,
+        group: Option<u16>,
+    ) -> impl Iterator<Item = (Option<u16>, u16, Content, u32)> + '_ {
+        let rules = group.and_then(|group| self.device.slots?.pdo_groups.get(usize::from(group)));
+        let is_member = move |module: &Module| match group {
+            None => true,
+            // A module that names no existing group goes with the last one.
+            Some(group) => usize::from(module.pdo_group).min(self.last_group()) == usize::from(group),
+        };
+        let members = self.plugged().filter(move |(module, _)| is_member(module));
+        let pdos = members.flat_map(move |(module, slot)| {
+            let own = module.pdos.iter().filter(move |pdo| self.device.sync_manager_of(pdo) == Some(manager.number));
+            own.map(move |pdo| self.in_slot(pdo, slot))
+        });
+        let outputs = manager.purpose == super::SyncManagerPurpose::Outputs;
+        let gap = rules.filter(|rules| rules.alignment > 0).map(|rules| {
+            let index = if outputs { rules.rx_pdo } else { rules.tx_pdo };
+            (None, index.unwrap_or(0), Content::Gap, u32::from(rules.alignment) * 8)
+        });
+        // A group without any data needs no gap in front of it.
+        let mut pdos = pdos.peekable();
+        let gap = gap.filter(|_| pdos.peek().is_some());
+        gap.into_iter().chain(pdos)
+    }
+
+    fn last_group(&self) -> usize {
+        self.device.slots.map_or(0, |slots| slots.pdo_groups.len().saturating_sub(1))
+    }
+
+    fn in_slot(&self, pdo: &'static PdoInfo, slot: u16) -> (Option<u16>, u16, Content, u32) {
+        let increment = self.slot(slot).map_or(0, |place| place.pdo_increment);
+        let shift = if pdo.depends_on_slot { increment.wrapping_mul(slot) } else { 0 };
+        let objects = self.index_offset(slot).unwrap_or(0);
+        (Some(slot), pdo.index.wrapping_add(shift), Content::Pdo(pdo, objects), pdo.bits)
+    }
+
+    fn idents(&self) -> impl Iterator<Item = SdoWrite> + '_ {
+        let last = self.plugged().last().map_or(0, |(_, slot)| slot + 1).min(u16::from(u8::MAX)) as u8;
+        let ident = |slot: u16| self.module(slot).map_or(0, |module| module.ident);
+        let entries = (0..last).map(move |slot| SdoWrite::new_u32(MODULE_IDENTS, slot + 1, ident(u16::from(slot))));
+        let count = SdoWrite::new_u8(MODULE_IDENTS, 0, last);
+        core::iter::once(SdoWrite::new_u8(MODULE_IDENTS, 0, 0)).chain(entries).chain(core::iter::once(count))
+    }
+
+    fn assignment(&self) -> impl Iterator<Item = SdoWrite> + '_ {
+        let coe = self.device.mailbox.coe;
+        let (assigns, configures) = (coe.is_some_and(|coe| coe.pdo_assign), coe.is_some_and(|coe| coe.pdo_config));
+        let all = || self.device.sync_managers.iter().filter(|own| own.carries_data());
+        let managers = move || all().filter(move |_| assigns);
+        let clear = managers().map(|own| SdoWrite::new_u8(own.assignment(), 0, 0));
+        let mappings = all().flat_map(|own| self.places(own.number)).filter(move |_| configures);
+        let mappings = mappings.flat_map(|place| place.mapping());
+        let assign = managers().flat_map(move |own| {
+            let indices = move || self.places(own.number).map(|place| place.index).filter(|&index| index != 0);
+            assignment_writes(own.assignment(), indices)
+        });
+        clear.chain(mappings).chain(assign)
+    }
+}
+
+impl Place {
+    /// The writes of its mapping, where that can be changed; a gap's follows from its length.
+    fn mapping(&self) -> impl Iterator<Item = SdoWrite> {
+        let (pdo, shift) = match self.content {
+            Content::Pdo(pdo, shift) => (pdo.is_writable().then_some(pdo), shift),
+            Content::Gap => (None, 0),
+        };
+        let gap = (self.content == Content::Gap && self.index != 0).then_some(MappedEntry::new(0, 0, self.bits as u16));
+        let (index, shift) = (self.index, if pdo.is_some_and(|pdo| pdo.depends_on_slot) { shift } else { 0 });
+        let own = pdo.into_iter().flat_map(move |pdo| mapping_writes(index, pdo.mapping, shift));
+        let gap = gap.into_iter().flat_map(move |entry| {
+            [SdoWrite::new_u8(index, 0, 0), SdoWrite::new_u32(index, 1, entry.word()), SdoWrite::new_u8(index, 0, 1)]
+        });
+        own.chain(gap)
+    }
+}
+
+fn startup(command: &InitCommand, transition: Transition, shift: u16) -> StartupCommand {
+    let shift = if command.depends_on_slot { shift } else { 0 };
+    StartupCommand {
+        transition,
+        object: Object { index: command.index.wrapping_add(shift), sub_index: command.sub_index },
+        complete_access: command.complete_access,
+        data: StartupData::Bytes(command.data),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::vec::Vec;
+
+    use super::super::samples::{COUPLER, INPUTS, OUTPUTS, WIDE};
+    use super::*;
+
+    fn plan() -> SlotPlan<8> {
+        let mut plan = SlotPlan::new(&COUPLER).unwrap();
+        plan.plug(0, &OUTPUTS).unwrap();
+        plan.plug(1, &INPUTS).unwrap();
+        plan.plug(3, &INPUTS).unwrap();
+        plan
+    }
+
+    fn places(plan: &SlotPlan<8>, manager: u8) -> Vec<(Option<u16>, u16, u32, u32)> {
+        plan.places(manager).map(|place| (place.slot, place.index, place.bit, place.bits)).collect()
+    }
+
+    #[test]
+    fn indices_grow_with_the_slot() {
+        let plan = plan();
+        assert_eq!(places(&plan, 2), [(Some(0), 0x1600, 0, 12)]);
+        // The coupler's own status comes first; the second group begins at a byte.
+        assert_eq!(
+            places(&plan, 3),
+            [(None, 0x1AFF, 0, 4), (None, 0x1AF0, 4, 4), (Some(1), 0x1A04, 8, 8), (Some(3), 0x1A0C, 16, 8)]
+        );
+        assert_eq!((plan.bytes(2), plan.bytes(3)), (2, 3));
+        assert_eq!(plan.place(3, 0x1A00).map(|place| (place.bit, place.index)), Some((16, 0x1A0C)));
+        assert_eq!((plan.index_offset(3), plan.index_offset(8)), (Some(0x30), None));
+        assert_eq!(plan.check(), Ok(()));
+    }
+
+    #[test]
+    fn only_what_fits_is_plugged() {
+        let mut plan = plan();
+        assert_eq!(plan.plug(9, &INPUTS), Err(PlanError::NoSuchSlot(9)));
+        assert_eq!(plan.plug(1, &INPUTS), Err(PlanError::Taken(1)));
+        assert_eq!(plan.plug(2, &WIDE), Err(PlanError::DoesNotFit { slot: 2, ident: WIDE.ident }));
+        assert!(plan.unplug(0).is_some());
+        assert_eq!(plan.check(), Err(PlanError::Empty(0)));
+        assert!(SlotPlan::<3>::new(&COUPLER).is_err());
+        let default = SlotPlan::<8>::by_default(&COUPLER).unwrap();
+        assert_eq!(default.module(0).map(|module| module.ident), Some(OUTPUTS.ident));
+    }
+
+    #[test]
+    fn commands_set_up_modules_and_process_data() {
+        let mut commands = Vec::new();
+        let collected = plan().try_for_each_command(Transition::PS, |command| {
+            commands.push((command.object.index, command.object.sub_index, command.data().to_vec()));
+            Ok::<(), ()>(())
+        });
+        assert_eq!(collected, Ok(()));
+        let expected: [(u16, u8, &[u8]); 20] = [
+            (0xF030, 0, &[0]),
+            (0xF030, 1, &[2, 0, 0, 0]),
+            (0xF030, 2, &[1, 0, 0, 0]),
+            (0xF030, 3, &[0, 0, 0, 0]),
+            (0xF030, 4, &[1, 0, 0, 0]),
+            (0xF030, 0, &[4]),
+            // The modules' own commands, at the index of their slot.
+            (0x8010, 2, &[0x0A, 0]),
+            (0x8030, 2, &[0x0A, 0]),
+            (0x1C12, 0, &[0]),
+            (0x1C13, 0, &[0]),
+            // The gap in front of the second group.
+            (0x1AF0, 0, &[0]),
+            (0x1AF0, 1, &[4, 0, 0, 0]),
+            (0x1AF0, 0, &[1]),
+            (0x1C12, 1, &[0x00, 0x16]),
+            (0x1C12, 0, &[1]),
+            (0x1C13, 1, &[0xFF, 0x1A]),
+            (0x1C13, 2, &[0xF0, 0x1A]),
+            (0x1C13, 3, &[0x04, 0x1A]),
+            (0x1C13, 4, &[0x0C, 0x1A]),
+            (0x1C13, 0, &[4]),
+        ];
+        let expected: Vec<_> = expected.iter().map(|&(index, sub, data)| (index, sub, data.to_vec())).collect();
+        assert_eq!(commands, expected);
+        let mut count = 0;
+        let stopped = plan().try_for_each_command(Transition::PS, |_| {
+            count += 1;
+            if count == 3 {
+                Err("full")
+            } else {
+                Ok(())
+            }
+        });
+        assert_eq!((stopped, count), (Err("full"), 3));
+    }
+}
