@@ -2,7 +2,22 @@
 //!
 //! Bit 0 is the lowest bit of the first byte, bit 8 the lowest of the second: the order of a PDO (CiA 301 7.1.4).
 
+use crate::error::LengthError;
 use crate::pdo::{from_bytes, mask};
+
+/// Whether `data` has at least `bits` bits.
+///
+/// # Errors
+///
+/// [`LengthError`] where it has fewer.
+#[inline]
+pub const fn check_length(data: &[u8], bits: usize) -> Result<(), LengthError> {
+    let expected = bits.div_ceil(8);
+    if data.len() < expected {
+        return Err(LengthError::new(expected, data.len()));
+    }
+    Ok(())
+}
 
 /// The field of `width` bits at `bit`. Bits beyond `data` are 0, and so are those beyond the 64th of the field.
 #[must_use]

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::literal;
+use super::scope::Scope;
 use super::value_type;
 use crate::ir::{Item, Limits, Type, Value};
 
@@ -36,23 +37,24 @@ pub(super) fn escape(text: &str) -> String {
 }
 
 /// The lines about an item: its name, then its address, type, access and values.
-pub(super) fn item(item: &Item, name: &str) -> Vec<String> {
+pub(super) fn item(item: &Item, name: &str, scope: &Scope<'_>) -> Vec<String> {
     let mut lines = Vec::with_capacity(4);
     if !name.trim().is_empty() {
         lines.push(sentence(&escape(name)));
         lines.push(String::new());
     }
-    lines.push(facts(item));
+    lines.push(facts(item, scope));
     documentation(item, &mut lines);
     lines
 }
 
-fn facts(item: &Item) -> String {
+fn facts(item: &Item, scope: &Scope<'_>) -> String {
+    let base = scope.base(item.ty);
     let mut line = String::with_capacity(64);
     if let Some((index, sub)) = item.object() {
         let _ = write!(line, "0x{index:04X}:{sub:02X}, ");
     }
-    let _ = write!(line, "{}, {}", item.ty, item.access.name());
+    let _ = write!(line, "{base}, {}", item.access.name());
     match (item.mappable.rpdo, item.mappable.tpdo) {
         (true, true) => line.push_str(", mappable into any PDO"),
         (true, false) => line.push_str(", mappable into RPDOs"),
@@ -60,7 +62,7 @@ fn facts(item: &Item) -> String {
         (false, false) => {}
     }
     if let Some(default) = &item.default {
-        let _ = write!(line, ", default {}", typed(default, item.ty));
+        let _ = write!(line, ", default {}", typed(default, base));
     }
     if let Some(range) = limits(&item.limits) {
         let _ = write!(line, ", {range}");
@@ -69,7 +71,7 @@ fn facts(item: &Item) -> String {
         let _ = write!(line, ", in {}", escape(&quantity.unit));
     }
     if let Some(configured) = item.configured.as_ref().and_then(|configured| configured.value.as_ref()) {
-        let _ = write!(line, ", configured to {}", typed(configured, item.ty));
+        let _ = write!(line, ", configured to {}", typed(configured, base));
     }
     line.push('.');
     line

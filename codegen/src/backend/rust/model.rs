@@ -3,24 +3,39 @@
 use std::collections::BTreeMap;
 
 use super::docs;
+use super::enumeration::EnumerationModel;
+use super::ethercat::{self, EtherCatModel, ModulePaths};
 use super::literal;
 use super::options::{Presence, RustOptions};
 use super::pdo::{self, PdoModel};
+use super::scope::{ObjectBus, Scope};
 use super::value_type::ValueType;
 use super::INTERFACE_VERSION;
-use crate::ir::{Access, Device, FileInfo, Group, Item, ObjectCode, Value};
+use crate::ir::{Access, Device, FileInfo, Group, Item, Module, ObjectCode, Type, Value};
 use crate::passes::names_unique::{self, Case, Wish};
+
+/// Where a device's code stands.
+#[derive(Default)]
+pub(super) struct Place {
+    /// How far its lines are moved to the right.
+    pub nest: usize,
+    /// The paths of modules, as seen from the device.
+    pub modules: ModulePaths,
+}
 
 /// A device, ready to be written.
 pub(super) struct Model<'a> {
     pub options: &'a RustOptions,
-    pub compiler_version: &'static str,
     pub interface_version: u32,
-    pub file_name: String,
-    pub sha256: &'a str,
     pub device_name: String,
     pub title: String,
-    pub identity: IdentityModel,
+    /// Who made the device; a module of a modular device has none.
+    pub identity: Option<IdentityModel>,
+    /// Whether there is a type of the device with accessor methods.
+    pub has_accessors: bool,
+    /// The type of the handles' location.
+    pub location: &'static str,
+    pub enumerations: Vec<EnumerationModel>,
     pub node_id: Option<u8>,
     pub accessor_derives: Vec<String>,
     /// Lints that a name of the dictionary would trip over.
@@ -28,8 +43,13 @@ pub(super) struct Model<'a> {
     pub objects: Vec<ObjectModel>,
     pub aliases: Vec<Alias>,
     /// Private names of the types of handles: name, access and value.
-    pub handle_types: Vec<(String, &'static str, &'static str)>,
+    pub handle_types: Vec<(String, &'static str, String)>,
     pub pdos: Vec<PdoModel>,
+    /// Whether there are views of PDOs within a process image.
+    pub has_views: bool,
+    pub ethercat: Option<EtherCatModel>,
+    /// `MODULE` of a module.
+    pub module: Option<String>,
     pub table: Option<Vec<EntryModel>>,
     pub table_feature: Option<String>,
 }
@@ -67,7 +87,9 @@ pub(super) struct ItemModel {
     pub docs: Vec<String>,
     pub heading: String,
     pub access: &'static str,
-    pub value: &'static str,
+    /// The type of the value, as the handle's place names it, and as the device's does.
+    pub value: String,
+    pub value_at_top: String,
     /// The private name of the handle's type: one without parameters, so that `rustc` has nothing to infer.
     pub alias: String,
     /// The call that makes the handle, without its type.
@@ -88,7 +110,7 @@ pub(super) struct EntryModel {
     pub index: u16,
     pub sub_index: u8,
     pub name: String,
-    pub data_type: &'static str,
+    pub data_type: String,
     pub access: &'static str,
     pub flags: &'static str,
     pub initial: String,
@@ -99,7 +121,8 @@ pub(super) struct EntryModel {
 
 /// Names that modules and methods of objects must not have: the device's own, and those that would hide a primitive
 /// type or the runtime.
-const RESERVED: [&str; 26] = [
+const RESERVED: [&str; 27] = [
+    "types",
     "new",
     "client",
     "into_client",
@@ -135,32 +158,57 @@ const RESERVED_FOR_DEVICE: [&str; 4] = ["Self", "C", "Option", "Result"];
 const RESERVED_IN_OBJECT: [&str; 4] = ["self", "super", "crate", "rt"];
 
 impl<'a> Model<'a> {
-    pub(super) fn new(device: &'a Device, file: &'a FileInfo, options: &'a RustOptions) -> Self {
-        let objects = objects(device);
+    /// A device.
+    pub(super) fn new(device: &'a Device, file: &'a FileInfo, options: &'a RustOptions, place: &Place) -> Self {
+        let scope = Scope::of_device(device, options);
+        let mut model = Model::of_scope(scope, options);
+        let title = title(device);
+        model.device_name = device_name(device, file, options.device_name.as_deref());
+        model.title = docs::escape(&title);
+        model.identity = (!device.dictionary_only).then(|| IdentityModel::new(device));
+        model.has_accessors = options.accessors && !model.objects.is_empty();
+        model.ethercat = EtherCatModel::new(device, &model.pdos, &place.modules, place.nest);
+        model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);
+        model
+    }
+
+    /// A module of a modular device.
+    pub(super) fn of_module(module: &'a Module, options: &'a RustOptions, nest: usize) -> Self {
+        let mut model = Model::of_scope(Scope::of_module(module, options), options);
+        model.title = docs::escape(&module.name);
+        model.module = Some(ethercat::module(module, &model.pdos, nest));
+        model
+    }
+
+    fn of_scope(scope: Scope<'a>, options: &'a RustOptions) -> Self {
+        let objects = objects(&scope);
         let aliases = ALIASES.iter().filter(|alias| uses(&objects, alias.name)).copied().collect();
         let handle_types = handle_types(&objects);
-        let title = title(device);
+        let pdos = if options.pdos { pdo::models(&scope, options) } else { Vec::new() };
         Model {
             handle_types,
             options,
-            compiler_version: env!("CARGO_PKG_VERSION"),
             interface_version: INTERFACE_VERSION,
-            file_name: file_name(file),
-            sha256: &file.sha256,
-            device_name: device_name(device, file, options.device_name.as_deref()),
-            title: docs::escape(&title),
-            identity: IdentityModel::new(device),
-            node_id: device.commissioning.as_ref().and_then(|own| own.node_id),
+            device_name: String::new(),
+            title: String::new(),
+            identity: None,
+            has_accessors: false,
+            location: scope.bus.location(),
+            node_id: None,
             accessor_derives: options.derives(false),
             method_allow: method_allow(objects.iter().map(|object| object.name.as_str())),
-            pdos: if options.pdos { pdo::models(device, options) } else { Vec::new() },
-            table: (options.table != Presence::Never).then(|| table(device)),
+            ethercat: None,
+            module: None,
+            has_views: scope.bus == ObjectBus::CoE && !pdos.is_empty(),
+            pdos,
+            table: (options.table != Presence::Never).then(|| table(&scope)),
             table_feature: match &options.table {
                 Presence::Feature(feature) => Some(literal::string(feature)),
                 _ => None,
             },
             objects,
             aliases,
+            enumerations: scope.enumerations.into_iter().map(|(_, model)| model).collect(),
         }
     }
 
@@ -171,7 +219,7 @@ impl<'a> Model<'a> {
 }
 
 /// The file's own name, without the folders that lead to it on this machine.
-fn file_name(file: &FileInfo) -> String {
+pub(super) fn file_name(file: &FileInfo) -> String {
     let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
     name.chars().map(|letter| if literal::is_harmless(letter) { letter } else { ' ' }).collect()
 }
@@ -199,7 +247,9 @@ pub(super) fn module_name(device: &Device, file: &FileInfo) -> String {
 fn name_of(device: &Device, file: &FileInfo, chosen: Option<&str>, case: Case) -> String {
     let stem = file_name(file);
     let stem = stem.rsplit_once('.').map_or(stem.as_str(), |(stem, _)| stem);
-    let names = [chosen.unwrap_or(""), &device.name, stem, "device"];
+    // The order code of a slave is what people call it; its name is a sentence.
+    let short = if device.ethercat.is_some() { device.identity.order_code.as_str() } else { "" };
+    let names = [chosen.unwrap_or(""), short, &device.name, stem, "device"];
     let wish = |name| Wish { name, fallback: String::new(), suffix: "Device".into() };
     let candidates =
         names.iter().map(|name| names_unique::unique(&[wish(*name)], &RESERVED_FOR_DEVICE, case).remove(0));
@@ -257,10 +307,15 @@ fn alias(access: Access) -> &'static str {
 }
 
 /// Each type of a handle once, sorted by name.
-fn handle_types(objects: &[ObjectModel]) -> Vec<(String, &'static str, &'static str)> {
+fn handle_types(objects: &[ObjectModel]) -> Vec<(String, &'static str, String)> {
     let all = objects.iter().flat_map(|object| &object.items);
     let names: BTreeMap<&str, &ItemModel> = all.map(|item| (item.alias.as_str(), item)).collect();
-    names.into_iter().map(|(name, item)| (name.to_owned(), item.access, item.value)).collect()
+    // They stand beside the modules of objects, one level below the device.
+    let value = |item: &ItemModel| match item.value_at_top.starts_with("types::") {
+        true => format!("super::{}", item.value_at_top),
+        false => item.value_at_top.clone(),
+    };
+    names.into_iter().map(|(name, item)| (name.to_owned(), item.access, value(item))).collect()
 }
 
 fn uses(objects: &[ObjectModel], alias: &str) -> bool {
@@ -268,16 +323,16 @@ fn uses(objects: &[ObjectModel], alias: &str) -> bool {
 }
 
 /// Objects that have values to read or write; the definitions of types have none.
-pub(super) fn addressable(device: &Device) -> impl Iterator<Item = &Group> {
-    device.groups.iter().filter(|group| {
+pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = &'a Group> + use<'a> {
+    scope.groups.iter().filter(|group| {
         let is_type =
             matches!(group.object_code(), Some(ObjectCode::DefType | ObjectCode::DefStruct | ObjectCode::Null));
         group.index().is_some() && !is_type && !group.items.is_empty()
     })
 }
 
-fn objects(device: &Device) -> Vec<ObjectModel> {
-    let groups: Vec<&Group> = addressable(device).collect();
+fn objects(scope: &Scope<'_>) -> Vec<ObjectModel> {
+    let groups: Vec<&Group> = addressable(scope).collect();
     let wishes: Vec<Wish<'_>> = groups
         .iter()
         .map(|group| {
@@ -286,22 +341,22 @@ fn objects(device: &Device) -> Vec<ObjectModel> {
         })
         .collect();
     let names = names_unique::unique(&wishes, &RESERVED, Case::Snake);
-    groups.iter().zip(names).map(|(group, name)| object(group, name)).collect()
+    groups.iter().zip(names).map(|(group, name)| object(scope, group, name)).collect()
 }
 
 fn is_module(group: &Group) -> bool {
     group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
 }
 
-fn object(group: &Group, name: String) -> ObjectModel {
+fn object(scope: &Scope<'_>, group: &Group, name: String) -> ObjectModel {
     let index = group.index().unwrap_or(0);
     let address = format!("0x{index:04X}");
     let title = if group.name.trim().is_empty() { address.clone() } else { docs::escape(&group.name) };
     let is_module = is_module(group);
     let items = if is_module {
-        sub_items(group)
+        sub_items(scope, group)
     } else {
-        let only = group.items.iter().map(|only| item(only, &name, &group.name));
+        let only = group.items.iter().map(|only| item(scope, only, &name, &group.name, "super::"));
         only.collect()
     };
     let code = group.object_code().map_or("", ObjectCode::name);
@@ -315,7 +370,7 @@ fn object(group: &Group, name: String) -> ObjectModel {
     }
 }
 
-fn sub_items(group: &Group) -> Vec<ItemModel> {
+fn sub_items(scope: &Scope<'_>, group: &Group) -> Vec<ItemModel> {
     let wishes: Vec<Wish<'_>> = group
         .items
         .iter()
@@ -325,7 +380,8 @@ fn sub_items(group: &Group) -> Vec<ItemModel> {
         })
         .collect();
     let names = names_unique::unique(&wishes, &RESERVED_IN_OBJECT, Case::Snake);
-    group.items.iter().zip(names).map(|(sub, name)| item(sub, &name, &sub.name)).collect()
+    let items = group.items.iter().zip(names);
+    items.map(|(sub, name)| item(scope, sub, &name, &sub.name, "super::super::")).collect()
 }
 
 fn heading(name: &str, address: &str) -> String {
@@ -335,41 +391,54 @@ fn heading(name: &str, address: &str) -> String {
     }
 }
 
-fn item(item: &Item, name: &str, original: &str) -> ItemModel {
+/// `outer` leads from the handle's place to the device's.
+fn item(scope: &Scope<'_>, item: &Item, name: &str, original: &str, outer: &str) -> ItemModel {
     let (index, sub) = item.object().unwrap_or((0, 0));
-    let ty = ValueType::of(item.ty);
+    let ty = scope.value_type(item.ty);
+    let named = scope.enumeration(item.ty).map(|named| named.name.as_str());
+    let path = |outer: &str| match named {
+        Some(name) => format!("{outer}types::{name}"),
+        None => ty.path().to_owned(),
+    };
     ItemModel {
         constant: name.to_ascii_uppercase(),
         method: names_unique::escaped(name),
-        docs: docs::item(item, original),
+        docs: docs::item(item, original, scope),
         heading: heading(original, &format!("0x{index:04X}:{sub:02X}")),
         access: alias(item.access),
-        value: ty.path(),
-        alias: format!("{}{}", alias(item.access), ty.word()),
-        constructor: constructor(item, ty, &literal::string(original)),
+        value: path(outer),
+        value_at_top: path(""),
+        alias: format!("{}{}", alias(item.access), named.map_or_else(|| ty.word(), |name| format!("Named{name}"))),
+        constructor: constructor(scope, item, ty, &literal::string(original), named.map(|_| path(outer))),
         real: ty.is_real() && (item.default.is_some() || !item.limits.is_empty()),
     }
 }
 
 /// The shortest call that says everything: every argument costs `rustc` a tenth of what the rest of the handle does.
-fn constructor(item: &Item, ty: ValueType, name: &str) -> String {
+fn constructor(scope: &Scope<'_>, item: &Item, ty: ValueType, name: &str, named: Option<String>) -> String {
     let (index, sub) = item.object().unwrap_or((0, 0));
     let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
-    let (range, flags) = (ty.range(&item.limits), flags(item));
-    let initial = ty.initial(item.default.as_ref());
+    let wrap = |literal: String| match &named {
+        Some(path) => format!("{path}::from_raw({literal})"),
+        None => literal,
+    };
+    let (range, flags) = (ty.range_as(&item.limits, &wrap), flags(item));
+    let initial = ty.initial_as(item.default.as_ref(), &wrap);
     // Byte strings have the type of an array, which only a conversion of its own turns into a slice.
     let literal = item.default.as_ref().and_then(|value| ty.literal(value));
-    let literal = literal.filter(|_| !matches!(ty, ValueType::Bytes(_)));
+    let literal = literal.filter(|_| !matches!(ty, ValueType::Bytes(_))).map(wrap);
     let is_plain = range == "rt::Range::Full" && unit.is_empty();
     let address = format!("0x{index:04X}¦ 0x{sub:02X}¦ {name}");
     let is_flagged = flags != "rt::Flags::NONE";
+    let object = if scope.bus == ObjectBus::CoE { "coe_object" } else { "object" };
     match literal {
-        None if is_plain && initial == "rt::Initial::Unknown" && !is_flagged => format!("object(«{address}»)"),
-        None if is_plain && initial == "rt::Initial::Unknown" => format!("flagged_object(«{address}¦ {flags}»)"),
-        Some(literal) if is_plain && !is_flagged => format!("object_with_default(«{address}¦ {literal}»)"),
-        Some(literal) if is_plain => format!("flagged_object_with_default(«{address}¦ {flags}¦ {literal}»)"),
+        None if is_plain && initial == "rt::Initial::Unknown" && !is_flagged => format!("{object}(«{address}»)"),
+        None if is_plain && initial == "rt::Initial::Unknown" => format!("flagged_{object}(«{address}¦ {flags}»)"),
+        Some(literal) if is_plain && !is_flagged => format!("{object}_with_default(«{address}¦ {literal}»)"),
+        Some(literal) if is_plain => format!("flagged_{object}_with_default(«{address}¦ {flags}¦ {literal}»)"),
         _ => format!(
-            "new(«rt::OnCanOpen::canopen(0x{index:04X}, 0x{sub:02X})¦ {name}¦ {range}¦ {initial}¦ {}¦ {flags}»)",
+            "new(«{}(0x{index:04X}, 0x{sub:02X})¦ {name}¦ {range}¦ {initial}¦ {}¦ {flags}»)",
+            scope.bus.address(),
             literal::string(unit),
         ),
     }
@@ -385,7 +454,7 @@ fn flags(item: &Item) -> &'static str {
 }
 
 /// The attribute that methods of these names need: clippy reads a meaning into some prefixes.
-fn method_allow<'n>(names: impl Iterator<Item = &'n str>) -> Option<String> {
+pub(super) fn method_allow<'n>(names: impl Iterator<Item = &'n str>) -> Option<String> {
     const PREFIXES: [&str; 5] = ["from_", "into_", "to_", "is_", "as_"];
     const TRAITS: [&str; 3] = ["next", "deref_mut", "borrow_mut"];
     let (mut conventions, mut traits) = (false, false);
@@ -402,28 +471,28 @@ fn method_allow<'n>(names: impl Iterator<Item = &'n str>) -> Option<String> {
 }
 
 /// The table of all entries, by index and sub-index.
-fn table(device: &Device) -> Vec<EntryModel> {
+fn table(scope: &Scope<'_>) -> Vec<EntryModel> {
     let mut rows = Vec::new();
-    for group in addressable(device) {
+    for group in addressable(scope) {
         let by_object = !is_module(group);
         for item in &group.items {
             let name = if by_object { &group.name } else { &item.name };
-            rows.push(entry(item, name));
+            rows.push(entry(scope, item, name));
         }
     }
     rows.sort_by_key(|row: &EntryModel| (row.index, row.sub_index));
     rows
 }
 
-fn entry(item: &Item, name: &str) -> EntryModel {
+fn entry(scope: &Scope<'_>, item: &Item, name: &str) -> EntryModel {
     let (index, sub_index) = item.object().unwrap_or((0, 0));
-    let ty = ValueType::of(item.ty);
+    let (base, ty) = (scope.base(item.ty), scope.value_type(item.ty));
     let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
     EntryModel {
         index,
         sub_index,
         name: literal::string(name),
-        data_type: data_type(item.ty),
+        data_type: data_type(base),
         access: match item.access {
             Access::ReadOnly => "ReadOnly",
             Access::WriteOnly => "WriteOnly",
@@ -431,16 +500,16 @@ fn entry(item: &Item, name: &str) -> EntryModel {
             _ => "ReadWrite",
         },
         flags: flags(item),
-        initial: raw_initial(item, ty),
-        low: bound(item.limits.low.as_ref(), item),
-        high: bound(item.limits.high.as_ref(), item),
+        initial: raw_initial(item, base, ty),
+        low: bound(item.limits.low.as_ref(), base),
+        high: bound(item.limits.high.as_ref(), base),
         unit: literal::string(unit),
     }
 }
 
-fn data_type(ty: crate::ir::Type) -> &'static str {
-    use crate::ir::Type;
-    match ty {
+fn data_type(ty: Type) -> String {
+    let name = match ty {
+        Type::Unsigned(bits @ (1..=7 | 9..=15)) => return format!("Bits({bits})"),
         Type::Boolean => "Boolean",
         Type::Integer(8) => "Integer8",
         Type::Integer(16) => "Integer16",
@@ -467,17 +536,18 @@ fn data_type(ty: crate::ir::Type) -> &'static str {
         Type::TimeDifference => "TimeDifference",
         Type::Domain => "Domain",
         _ => "Opaque",
-    }
+    };
+    name.to_owned()
 }
 
 /// The default as the bytes that an SDO upload gives.
-fn raw_initial(item: &Item, ty: ValueType) -> String {
+fn raw_initial(item: &Item, base: Type, ty: ValueType) -> String {
     let formula = item.default.as_ref().and_then(|value| ty.formula(value));
     if let Some(offset) = formula.and_then(|offset| u64::try_from(offset).ok()) {
         return format!("rt::table::RawInitial::NodeId({offset:#x})");
     }
     let bytes = match item.default.as_ref() {
-        Some(value) if ty.literal(value).is_some() => raw_bytes(value, item.ty),
+        Some(value) if ty.literal(value).is_some() => raw_bytes(value, base),
         _ => None,
     };
     match bytes {
@@ -486,17 +556,15 @@ fn raw_initial(item: &Item, ty: ValueType) -> String {
     }
 }
 
-fn raw_bytes(value: &Value, ty: crate::ir::Type) -> Option<Vec<u8>> {
+fn raw_bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
     let length = ty.bits().map(|bits| bits.div_ceil(8) as usize);
     let number = |value: i128| length.map(|length| value.to_le_bytes()[..length.min(16)].to_vec());
     match (value, ty) {
-        (_, crate::ir::Type::Real32) => Some((value.as_real()? as f32).to_le_bytes().to_vec()),
-        (_, crate::ir::Type::Real64) => Some(value.as_real()?.to_le_bytes().to_vec()),
+        (_, Type::Real32) => Some((value.as_real()? as f32).to_le_bytes().to_vec()),
+        (_, Type::Real64) => Some(value.as_real()?.to_le_bytes().to_vec()),
         (Value::Bool(value), _) => Some(vec![u8::from(*value)]),
         (Value::Int(value), _) => number(*value),
-        (Value::Text(text), crate::ir::Type::UnicodeString(_)) => {
-            Some(text.encode_utf16().flat_map(u16::to_le_bytes).collect())
-        }
+        (Value::Text(text), Type::UnicodeString(_)) => Some(text.encode_utf16().flat_map(u16::to_le_bytes).collect()),
         (Value::Text(text), _) => Some(text.as_bytes().to_vec()),
         (Value::Bytes(bytes), _) => Some(bytes.clone()),
         (Value::Time { milliseconds, days }, _) => number(i128::from(*milliseconds) | i128::from(*days) << 32),
@@ -504,8 +572,8 @@ fn raw_bytes(value: &Value, ty: crate::ir::Type) -> Option<Vec<u8>> {
     }
 }
 
-fn bound(value: Option<&Value>, item: &Item) -> String {
-    let real = matches!(item.ty, crate::ir::Type::Real32 | crate::ir::Type::Real64);
+fn bound(value: Option<&Value>, ty: Type) -> String {
+    let real = matches!(ty, Type::Real32 | Type::Real64);
     let Some(value) = value else { return "rt::table::Bound::Unlimited".to_owned() };
     match value {
         _ if real => match value.as_real().and_then(|value| literal::real(value, 64)) {
@@ -513,7 +581,7 @@ fn bound(value: Option<&Value>, item: &Item) -> String {
             None => "rt::table::Bound::Unlimited".to_owned(),
         },
         Value::Int(value) => match (i64::try_from(*value), u64::try_from(*value)) {
-            (_, Ok(unsigned)) if !item.ty.is_signed() => format!("rt::table::Bound::Unsigned({unsigned})"),
+            (_, Ok(unsigned)) if !ty.is_signed() => format!("rt::table::Bound::Unsigned({unsigned})"),
             (Ok(signed), _) => format!("rt::table::Bound::Signed({signed})"),
             _ => "rt::table::Bound::Unlimited".to_owned(),
         },

@@ -1,9 +1,13 @@
 //! PDO structs: fields, packing by whole-word shifts, and the sequence that configures the device.
 
+use std::collections::HashSet;
+
 use super::docs;
+use super::ethercat::beside;
 use super::model::addressable;
 use super::options::RustOptions;
-use crate::ir::{Device, Direction, Group, Pdo, PdoEntry, PdoEntryKind, Type, Value};
+use super::scope::{ObjectBus, Scope};
+use crate::ir::{Direction, Group, Pdo, PdoEntry, PdoEntryKind, Type, Value};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// The longest name of a field: the lines that pack it have to stay below the margin.
@@ -18,6 +22,8 @@ pub(super) struct PdoModel {
     pub docs: Vec<String>,
     pub derives: Vec<String>,
     pub mapping_index: u16,
+    /// The line on which it is declared.
+    line: u32,
     pub bits: u32,
     pub length: usize,
     /// Whether packing and unpacking are `const fn` in the oldest Rust that the runtime supports.
@@ -36,6 +42,9 @@ pub(super) struct PdoModel {
 /// A field.
 pub(super) struct FieldModel {
     pub name: String,
+    /// The names of its methods in a view.
+    pub getter: String,
+    pub setter: String,
     pub docs: Vec<String>,
     pub ty: String,
     /// Its bits as an `u64`.
@@ -49,42 +58,75 @@ pub(super) struct FieldModel {
 }
 
 /// Models of all PDOs that have something to carry.
-pub(super) fn models(device: &Device, options: &RustOptions) -> Vec<PdoModel> {
-    device.process_data.pdos.iter().filter_map(|pdo| model(device, pdo, options)).collect()
+pub(super) fn models(scope: &Scope<'_>, options: &RustOptions) -> Vec<PdoModel> {
+    let names = names(scope);
+    scope.pdos.iter().zip(names).filter_map(|(pdo, name)| model(scope, pdo, name, options)).collect()
 }
 
-fn model(device: &Device, pdo: &Pdo, options: &RustOptions) -> Option<PdoModel> {
+/// Those of CANopen go by their number; those of EtherCAT have names.
+fn names(scope: &Scope<'_>) -> Vec<String> {
+    if scope.bus == ObjectBus::CanOpen {
+        return scope.pdos.iter().map(|pdo| format!("{}{}", prefix(pdo.direction), pdo.number)).collect();
+    }
+    let mut seen = HashSet::new();
+    let wishes: Vec<Wish<'_>> = scope
+        .pdos
+        .iter()
+        .map(|pdo| {
+            // One index twice, on two sync managers, is a fault of the description.
+            let twice = if seen.insert(pdo.mapping_index) { String::new() } else { format!("_{}", pdo.origin.line) };
+            let index = format!("{:04X}{twice}", pdo.mapping_index);
+            Wish { name: &pdo.name, fallback: format!("{} {index}", prefix(pdo.direction)), suffix: index }
+        })
+        .collect();
+    names_unique::unique(&wishes, &RESERVED, Case::Pascal)
+}
+
+/// Names that the code of PDOs uses itself.
+const RESERVED: [&str; 10] = ["Self", "Result", "Ok", "Err", "Option", "Some", "None", "AsRef", "AsMut", "B"];
+
+fn prefix(direction: Direction) -> &'static str {
+    match direction {
+        Direction::Receive => "RxPdo",
+        Direction::Transmit => "TxPdo",
+    }
+}
+
+fn model(scope: &Scope<'_>, pdo: &Pdo, struct_name: String, options: &RustOptions) -> Option<PdoModel> {
     let mapped: Vec<&PdoEntry> = pdo.entries.iter().filter(|entry| is_field(entry)).collect();
     let has_odd_bytes = mapped.iter().any(|entry| entry.bits > WORD && !entry.bits.is_multiple_of(8));
     if mapped.is_empty() || has_odd_bytes {
         return None;
     }
-    let fields = fields(device, &mapped);
-    let (prefix, title) = match pdo.direction {
-        Direction::Receive => ("RxPdo", "RPDO"),
-        Direction::Transmit => ("TxPdo", "TPDO"),
+    let fields = fields(scope, &mapped);
+    let title = match (scope.bus, pdo.direction) {
+        (ObjectBus::CanOpen, Direction::Receive) => format!("RPDO {}", pdo.number),
+        (ObjectBus::CanOpen, Direction::Transmit) => format!("TPDO {}", pdo.number),
+        (ObjectBus::CoE, Direction::Receive) => format!("RxPDO 0x{:04X}", pdo.mapping_index),
+        (ObjectBus::CoE, Direction::Transmit) => format!("TxPDO 0x{:04X}", pdo.mapping_index),
     };
     let name = if pdo.name.is_empty() { String::new() } else { format!(": {}", docs::escape(&pdo.name)) };
-    let is_constant = !mapped.iter().any(|entry| matches!(field_type(entry), FieldType::Real(_)));
+    let is_constant = !mapped.iter().any(|entry| matches!(field_type(scope, entry), FieldType::Real(_)));
     let word = pdo.bits() <= WORD;
     Some(PdoModel {
-        name: format!("{prefix}{}", pdo.number),
+        name: struct_name,
         docs: vec![
-            docs::sentence(&format!("{title} {}{name}", pdo.number)),
+            docs::sentence(&format!("{title}{name}")),
             String::new(),
             format!("Mapping 0x{:04X}, {} bits.", pdo.mapping_index, pdo.bits()),
         ],
         derives: options.derives(true),
         mapping_index: pdo.mapping_index,
+        line: pdo.origin.line,
         bits: pdo.bits(),
         length: pdo.bytes(),
         constant: if is_constant && word { "const " } else { "" },
-        covered: covered(&mapped),
+        covered: covered(scope, &mapped),
         fields,
         mapping: pdo.entries.iter().map(mapping_entry).collect(),
         word,
         cob_id: cob_id(pdo),
-        configuration: configuration(device, pdo),
+        configuration: configuration(scope, pdo),
         has_identifier: has_identifier(pdo),
     })
 }
@@ -94,11 +136,11 @@ fn is_field(entry: &PdoEntry) -> bool {
 }
 
 /// All bits that come back from unpacking and packing: a time has four reserved bits that don't.
-fn covered(mapped: &[&PdoEntry]) -> String {
+fn covered(scope: &Scope<'_>, mapped: &[&PdoEntry]) -> String {
     const TIME: u64 = 0xFFFF_0FFF_FFFF;
     let mut covered: u64 = 0;
     for entry in mapped.iter().filter(|entry| entry.bit_offset + entry.bits <= WORD) {
-        let bits = match field_type(entry) {
+        let bits = match field_type(scope, entry) {
             FieldType::Time(_) => TIME,
             _ => u64::MAX >> (WORD - entry.bits),
         };
@@ -107,12 +149,12 @@ fn covered(mapped: &[&PdoEntry]) -> String {
     format!("{covered:#X}").replace("0X", "0x")
 }
 
-fn mapping_entry(entry: &PdoEntry) -> String {
+pub(super) fn mapping_entry(entry: &PdoEntry) -> String {
     format!("rt::MappedEntry::new(0x{:04X}, 0x{:02X}, {})", entry.index, entry.sub_index, entry.bits)
 }
 
-fn fields(device: &Device, mapped: &[&PdoEntry]) -> Vec<FieldModel> {
-    let texts: Vec<String> = mapped.iter().map(|entry| field_text(device, entry)).collect();
+fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry]) -> Vec<FieldModel> {
+    let texts: Vec<String> = mapped.iter().map(|entry| field_text(scope, entry)).collect();
     let wishes: Vec<Wish<'_>> = mapped
         .iter()
         .zip(&texts)
@@ -128,7 +170,14 @@ fn fields(device: &Device, mapped: &[&PdoEntry]) -> Vec<FieldModel> {
         })
         .collect();
     let names = names_unique::unique_up_to(&wishes, &["self", "super", "crate"], Case::Snake, MAX_FIELD_NAME);
-    mapped.iter().zip(names).zip(&texts).map(|((entry, name), text)| field(entry, &name, text)).collect()
+    let fields = mapped.iter().zip(&names).zip(&texts);
+    let mut fields: Vec<FieldModel> = fields.map(|((entry, name), text)| field(scope, entry, name, text)).collect();
+    // A method called `new` makes the view, and a field may be called as the setter of another.
+    for (field, name) in fields.iter_mut().zip(&names) {
+        field.getter = if name == "new" { "new_".to_owned() } else { field.name.clone() };
+        field.setter = beside(&names, format!("set_{name}"));
+    }
+    fields
 }
 
 fn address(entry: &PdoEntry) -> (u16, u8) {
@@ -136,8 +185,12 @@ fn address(entry: &PdoEntry) -> (u16, u8) {
 }
 
 /// The name of the mapped entry: that of its object, and for one of several of an object also its own.
-fn field_text(device: &Device, entry: &PdoEntry) -> String {
-    let Some(group) = device.object(entry.index) else { return entry.name.to_string() };
+fn field_text(scope: &Scope<'_>, entry: &PdoEntry) -> String {
+    // On EtherCAT the description of the PDO names its entries, mostly better than the dictionary does.
+    if scope.bus == ObjectBus::CoE && !entry.name.is_empty() {
+        return entry.name.to_string();
+    }
+    let Some(group) = scope.object(entry.index) else { return entry.name.to_string() };
     if group.object_code().is_some_and(|code| code.has_subs()) || group.items.len() != 1 {
         let own = entry.name.as_str();
         // Compact objects repeat the object's name in that of each entry.
@@ -161,12 +214,18 @@ enum FieldType {
     Real(u32),
     Time(&'static str),
     Bytes(u32),
+    /// An enumeration: its name, and the type of its numbers.
+    Named(String, &'static str),
 }
 
-fn field_type(entry: &PdoEntry) -> FieldType {
+fn field_type(scope: &Scope<'_>, entry: &PdoEntry) -> FieldType {
     let bits = entry.bits;
-    let is_whole = entry.ty.bits() == Some(bits);
-    match entry.ty {
+    if let Some(named) = scope.enumeration(entry.ty).filter(|named| named.bits == bits && !named.is_signed()) {
+        return FieldType::Named(named.name.clone(), named.native);
+    }
+    let ty = scope.base(entry.ty);
+    let is_whole = ty.bits() == Some(bits);
+    match ty {
         Type::Boolean if bits == 1 => FieldType::Bool,
         Type::Real32 | Type::Real64 if is_whole => FieldType::Real(bits),
         Type::TimeOfDay if is_whole => FieldType::Time("rt::TimeOfDay"),
@@ -196,10 +255,20 @@ fn integer(signed: bool, bits: u32) -> FieldType {
     }
 }
 
-fn field(entry: &PdoEntry, name: &str, text: &str) -> FieldModel {
+fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str) -> FieldModel {
     let name = names_unique::escaped(name);
     let own = format!("self.{name}");
-    let (ty, encode, decode) = match field_type(entry) {
+    let (ty, encode, decode) = match field_type(scope, entry) {
+        FieldType::Named(name, native) => {
+            let path = format!("super::types::{name}");
+            let decode = if native == "u64" {
+                format!("{path}::from_raw(§)")
+            } else {
+                format!("{path}::from_raw(§ as {native})")
+            };
+            let encode = if native == "u64" { format!("{own}.raw()") } else { format!("{own}.raw() as u64") };
+            (path, encode, decode)
+        }
         FieldType::Bool => ("bool".to_owned(), format!("{own} as u64"), "§ & 1 == 1".to_owned()),
         FieldType::Native("u64") => ("u64".to_owned(), own, "§".to_owned()),
         FieldType::Native("i64") => ("i64".to_owned(), format!("{own} as u64"), "§ as i64".to_owned()),
@@ -230,6 +299,8 @@ fn field(entry: &PdoEntry, name: &str, text: &str) -> FieldModel {
         } else {
             vec![format!("{}: {facts}", title.trim_end_matches(['.', ':']))]
         },
+        getter: name.clone(),
+        setter: String::new(),
         name,
         ty,
         encode,
@@ -241,6 +312,16 @@ fn field(entry: &PdoEntry, name: &str, text: &str) -> FieldModel {
 }
 
 impl PdoModel {
+    /// Whether it is the model of `pdo`.
+    pub(super) fn is(&self, pdo: &Pdo) -> bool {
+        self.mapping_index == pdo.mapping_index && self.line == pdo.origin.line
+    }
+
+    /// The attribute that the names of a view's methods need.
+    pub(super) fn view_allow(&self) -> Option<String> {
+        super::model::method_allow(self.fields.iter().map(|field| field.getter.as_str()))
+    }
+
     /// `name: value` for each field, from the frame's bytes.
     pub(super) fn unpacked(&self) -> Vec<String> {
         let value = |field: &FieldModel| if self.word { field.unpack_word() } else { field.unpack_data() };
@@ -270,10 +351,50 @@ impl FieldModel {
     /// The field from `data`, for PDOs of more than a word.
     pub(super) fn unpack_data(&self) -> String {
         if self.long {
-            return format!("rt::bits::get_bytes(data, {})", self.offset);
+            return format!("rt::bits::get_bytes(«data¦ {}»)", self.offset);
         }
-        let bits = format!("rt::bits::get(data, {}, {})", self.offset, self.bits);
-        self.decode.replace('§', &bits)
+        let bits = format!("rt::bits::get(«data¦ {}¦ {}»)", self.offset, self.bits);
+        self.decode_marked(&bits)
+    }
+
+    /// The decoding of `bits`, with marks where a long line may be broken.
+    fn decode_marked(&self, bits: &str) -> String {
+        match self.decode.split_once('(') {
+            Some((path, rest)) => match rest.strip_suffix(')') {
+                Some(inner) => format!("{path}(«{}»)", inner.replace('§', bits)),
+                None => self.decode.replace('§', bits),
+            },
+            None => self.decode.replace('§', bits),
+        }
+    }
+
+    /// The first bit within a process image in which the PDO starts at `BIT`.
+    fn bit(&self) -> String {
+        if self.offset == 0 {
+            "BIT".to_owned()
+        } else {
+            format!("BIT + {}", self.offset)
+        }
+    }
+
+    /// The expression that reads the field from a process image.
+    pub(super) fn get_in_image(&self) -> String {
+        let at = self.bit();
+        if self.long {
+            return format!("rt::bits::get_bytes(«self.data.as_ref()¦ {at}»)");
+        }
+        self.decode_marked(&format!("rt::bits::get(«self.data.as_ref()¦ {at}¦ {}»)", self.bits))
+    }
+
+    /// The statement that writes `value` into a process image.
+    pub(super) fn set_in_image(&self) -> String {
+        let at = self.bit();
+        if self.long {
+            return format!("rt::bits::set_bytes(«self.data.as_mut()¦ {at}¦ &value»);");
+        }
+        let own = format!("self.{}", self.name);
+        let value = self.encode.replace(&own, "value");
+        format!("rt::bits::set(«self.data.as_mut()¦ {at}¦ {}¦ {value}»);", self.bits)
     }
 
     /// The statement that puts the field into `data`, for PDOs of more than a word.
@@ -297,14 +418,14 @@ fn cob_id(pdo: &Pdo) -> Option<String> {
 
 /// The writes that set the PDO up as described: disable, clear, map, count, type, enable (CiA 301 7.5.2.36). What the
 /// device doesn't let anyone write is left out.
-fn configuration(device: &Device, pdo: &Pdo) -> Vec<String> {
+fn configuration(scope: &Scope<'_>, pdo: &Pdo) -> Vec<String> {
     let Some(communication) = &pdo.communication else { return Vec::new() };
     let cob_id_writable = communication.writable.contains(&1);
     if cob_id(pdo).is_none() || !cob_id_writable {
         return Vec::new();
     }
     let mut writes = vec![write("u32", communication.index, 1, "cob_id | 0x8000_0000")];
-    writes.extend(mapping_writes(device, pdo));
+    writes.extend(mapping_writes(scope, pdo));
     let timing = [
         (2, "u8", communication.transmission_type.map(u16::from)),
         (3, "u16", communication.inhibit_time),
@@ -327,9 +448,9 @@ fn has_identifier(pdo: &Pdo) -> bool {
     matches!(value, Some(Value::NodeId(base) | Value::Int(base)) if base & IDENTIFIER != 0)
 }
 
-fn mapping_writes(device: &Device, pdo: &Pdo) -> Vec<String> {
+fn mapping_writes(scope: &Scope<'_>, pdo: &Pdo) -> Vec<String> {
     let writable = |group: &Group, sub| group.sub(sub).is_some_and(|item| item.access.writable());
-    let Some(mapping) = addressable(device).find(|group| group.index() == Some(pdo.mapping_index)) else {
+    let Some(mapping) = addressable(scope).find(|group| group.index() == Some(pdo.mapping_index)) else {
         return Vec::new();
     };
     let count = pdo.entries.len();

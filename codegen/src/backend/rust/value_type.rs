@@ -36,6 +36,20 @@ impl ValueType {
             Type::Integer(40) => odd("rt::Int<40>"),
             Type::Integer(48) => odd("rt::Int<48>"),
             Type::Integer(56) => odd("rt::Int<56>"),
+            Type::Unsigned(1) => odd("rt::Uint<1>"),
+            Type::Unsigned(2) => odd("rt::Uint<2>"),
+            Type::Unsigned(3) => odd("rt::Uint<3>"),
+            Type::Unsigned(4) => odd("rt::Uint<4>"),
+            Type::Unsigned(5) => odd("rt::Uint<5>"),
+            Type::Unsigned(6) => odd("rt::Uint<6>"),
+            Type::Unsigned(7) => odd("rt::Uint<7>"),
+            Type::Unsigned(9) => odd("rt::Uint<9>"),
+            Type::Unsigned(10) => odd("rt::Uint<10>"),
+            Type::Unsigned(11) => odd("rt::Uint<11>"),
+            Type::Unsigned(12) => odd("rt::Uint<12>"),
+            Type::Unsigned(13) => odd("rt::Uint<13>"),
+            Type::Unsigned(14) => odd("rt::Uint<14>"),
+            Type::Unsigned(15) => odd("rt::Uint<15>"),
             Type::Unsigned(24) => odd("rt::Uint<24>"),
             Type::Unsigned(40) => odd("rt::Uint<40>"),
             Type::Unsigned(48) => odd("rt::Uint<48>"),
@@ -58,6 +72,23 @@ impl ValueType {
             ValueType::Native { name, .. } | ValueType::Odd { name, .. } => name,
             ValueType::Text(path) | ValueType::Bytes(path) | ValueType::Time(path) => path,
         }
+    }
+
+    /// For an integer, its path and the type of its numbers.
+    pub(super) fn number(self) -> Option<(&'static str, &'static str)> {
+        let (low, high) = self.integers()?;
+        let width = 128 - if low < 0 { high + 1 } else { high }.leading_zeros();
+        let native = match (low < 0, width) {
+            (false, ..=8) => "u8",
+            (false, ..=16) => "u16",
+            (false, ..=32) => "u32",
+            (false, _) => "u64",
+            (true, ..=8) => "i8",
+            (true, ..=16) => "i16",
+            (true, ..=32) => "i32",
+            (true, _) => "i64",
+        };
+        Some((self.path(), native))
     }
 
     /// Its name as a part of another one: `U16`, `Int24`, `VisibleString`.
@@ -107,8 +138,8 @@ impl ValueType {
         }
     }
 
-    /// An `Initial` of the type.
-    pub(super) fn initial(self, value: Option<&Value>) -> String {
+    /// An `Initial` of the type, whose values `wrap` makes of literals.
+    pub(super) fn initial_as(self, value: Option<&Value>, wrap: &dyn Fn(String) -> String) -> String {
         if let Some(offset) = value.and_then(|value| self.formula(value)) {
             // A negative number in hexadecimal would be its two's complement.
             let offset = if offset < 0 { offset.to_string() } else { format!("{offset:#x}") };
@@ -116,13 +147,13 @@ impl ValueType {
         }
         match value.and_then(|value| self.literal(value)) {
             Some(literal) if matches!(self, ValueType::Bytes(_)) => format!("rt::Initial::bytes(«{literal}»)"),
-            Some(literal) => format!("rt::Initial::Value(«{literal}»)"),
+            Some(literal) => format!("rt::Initial::Value(«{}»)", wrap(literal)),
             None => "rt::Initial::Unknown".to_owned(),
         }
     }
 
     /// A `Range` of the type: limits beyond the type are clamped to it, impossible ones are not checked.
-    pub(super) fn range(self, limits: &Limits) -> String {
+    pub(super) fn range_as(self, limits: &Limits, wrap: &dyn Fn(String) -> String) -> String {
         const FULL: &str = "rt::Range::Full";
         if limits.is_empty() {
             return FULL.to_owned();
@@ -138,7 +169,7 @@ impl ValueType {
             },
             None => return FULL.to_owned(),
         };
-        match (low, high) {
+        match (low.map(wrap), high.map(wrap)) {
             (None, None) => FULL.to_owned(),
             (Some(low), None) => format!("rt::Range::From({low})"),
             (None, Some(high)) => format!("rt::Range::To({high})"),
@@ -185,6 +216,10 @@ pub(super) fn number(value: i128, unsigned: bool) -> String {
 mod tests {
     use super::*;
 
+    fn same(literal: String) -> String {
+        literal
+    }
+
     fn limits(low: i128, high: i128) -> Limits {
         Limits { low: Some(Value::Int(low)), high: Some(Value::Int(high)), ..Limits::default() }
     }
@@ -192,19 +227,19 @@ mod tests {
     #[test]
     fn limits_are_clamped_and_impossible_ones_are_not_checked() {
         let u16 = ValueType::of(Type::Unsigned(16));
-        assert_eq!(u16.range(&limits(0, 65536)), "rt::Range::Full");
-        assert_eq!(u16.range(&limits(5, 65536)), "rt::Range::From(5)");
-        assert_eq!(u16.range(&limits(5, 4)), "rt::Range::Full");
-        assert_eq!(ValueType::of(Type::Integer(24)).range(&limits(-8_388_608, 5)), "rt::Range::To(5)");
-        assert_eq!(ValueType::of(Type::Real32).range(&limits(0, 5)), "rt::Range::Between(0.0, 5.0)");
+        assert_eq!(u16.range_as(&limits(0, 65536), &same), "rt::Range::Full");
+        assert_eq!(u16.range_as(&limits(5, 65536), &same), "rt::Range::From(5)");
+        assert_eq!(u16.range_as(&limits(5, 4), &same), "rt::Range::Full");
+        assert_eq!(ValueType::of(Type::Integer(24)).range_as(&limits(-8_388_608, 5), &same), "rt::Range::To(5)");
+        assert_eq!(ValueType::of(Type::Real32).range_as(&limits(0, 5), &same), "rt::Range::Between(0.0, 5.0)");
     }
 
     #[test]
     fn initial_values() {
         let u32 = ValueType::of(Type::Unsigned(32));
-        assert_eq!(u32.initial(Some(&Value::NodeId(0x180))), "rt::Initial::NodeId(0x180)");
-        assert_eq!(u32.initial(Some(&Value::Int(-1))), "rt::Initial::Unknown");
-        assert_eq!(u32.initial(Some(&Value::Int(7))), "rt::Initial::Value(«7»)");
-        assert_eq!(ValueType::of(Type::Boolean).initial(Some(&Value::Int(2))), "rt::Initial::Unknown");
+        assert_eq!(u32.initial_as(Some(&Value::NodeId(0x180)), &same), "rt::Initial::NodeId(0x180)");
+        assert_eq!(u32.initial_as(Some(&Value::Int(-1)), &same), "rt::Initial::Unknown");
+        assert_eq!(u32.initial_as(Some(&Value::Int(7)), &same), "rt::Initial::Value(«7»)");
+        assert_eq!(ValueType::of(Type::Boolean).initial_as(Some(&Value::Int(2)), &same), "rt::Initial::Unknown");
     }
 }

@@ -1,0 +1,133 @@
+//! All devices and modules of a file in one Rust module.
+
+use std::fmt::Write;
+
+use super::ethercat::ModulePaths;
+use super::model::{self, Model, Place};
+use super::options::RustOptions;
+use super::{docs, header, layout, render};
+use crate::ir::{Catalog, Device, FileInfo, Module, ModuleId};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// How far the content of a module stands to the right of the module.
+const STEP: usize = 4;
+
+/// Names that a device's module can't have.
+const RESERVED: [&str; 5] = ["self", "super", "crate", "modules", "rt"];
+
+pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) -> Option<String> {
+    let modules = reachable(catalog);
+    let names = module_names(&modules);
+    let mut text = header(file);
+    match catalog.devices.as_slice() {
+        [] if modules.is_empty() => return None,
+        [] => {}
+        [device] => {
+            let place = Place { nest: 0, modules: paths(&modules, &names, "modules") };
+            text += &render(Model::new(device, file, options, &place));
+        }
+        devices => {
+            let paths = paths(&modules, &names, "super::modules");
+            for (device, name) in devices.iter().zip(device_names(devices, file)) {
+                let place = Place { nest: STEP, modules: paths.clone() };
+                let body = render(Model::new(device, file, options, &place));
+                let title = docs::escape(&device.name);
+                open(&mut text, 0, &name, if title.is_empty() { &name } else { &title });
+                close(&mut text, 0, &body);
+            }
+        }
+    }
+    if !modules.is_empty() {
+        if !text.ends_with('\n') {
+            text.push('\n');
+        }
+        text += "/// Modules that can be plugged in. Indices that depend on the slot are those of slot 0.\npub mod modules {\n";
+        for ((_, module), name) in modules.iter().zip(&names) {
+            let body = render(Model::of_module(module, options, 2 * STEP));
+            let title = docs::escape(&module.name);
+            open(&mut text, STEP, name, if title.is_empty() { name } else { &title });
+            close(&mut text, STEP, &body);
+        }
+        text += "}\n";
+    }
+    Some(layout::fit(&text))
+}
+
+/// The modules that a device takes, or all where there is no device.
+fn reachable(catalog: &Catalog) -> Vec<(ModuleId, &Module)> {
+    let all = catalog.modules.iter().zip(0..).map(|(module, position)| (ModuleId(position), module));
+    if catalog.devices.is_empty() {
+        return all.collect();
+    }
+    let taken: std::collections::HashSet<ModuleId> = catalog
+        .devices
+        .iter()
+        .filter(|device| device.ethercat.is_some())
+        .flat_map(|device| device.modules.iter().map(|own| own.module))
+        .collect();
+    all.filter(|(id, _)| taken.contains(id)).collect()
+}
+
+fn module_names(modules: &[(ModuleId, &Module)]) -> Vec<String> {
+    let wishes: Vec<Wish<'_>> = modules
+        .iter()
+        .map(|(id, module)| {
+            let name = if module.id.is_empty() { &module.name } else { &module.id };
+            let twice = modules.iter().filter(|(_, other)| other.number == module.number).count() > 1;
+            let place = if twice { format!("_{}", id.0) } else { String::new() };
+            let ident = format!("{:08X}{place}", module.number);
+            Wish { name, fallback: format!("module {ident}"), suffix: ident }
+        })
+        .collect();
+    escaped(names_unique::unique(&wishes, &RESERVED, Case::Snake))
+}
+
+/// Devices go by their order code, which is shorter than their name; revisions are told apart by their number.
+fn device_names(devices: &[Device], file: &FileInfo) -> Vec<String> {
+    let names: Vec<String> = devices.iter().map(|device| model::module_name(device, file)).collect();
+    let wishes: Vec<Wish<'_>> = devices
+        .iter()
+        .zip(&names)
+        .enumerate()
+        .map(|(position, (device, name))| {
+            let identity = &device.identity;
+            let key = |device: &Device| (device.identity.product_code, device.identity.revision_number);
+            let twice = devices[..position].iter().any(|other| key(other) == key(device));
+            let place = if twice { format!("_{position}") } else { String::new() };
+            let revision = identity.revision_number.unwrap_or(0);
+            let same_name = |other: &Device| other.identity.revision_number == identity.revision_number;
+            let product =
+                devices.iter().zip(&names).filter(|(other, own)| *own == name && same_name(other)).count() > 1;
+            let product = if product { format!("{:08X}_", identity.product_code.unwrap_or(0)) } else { String::new() };
+            let suffix = format!("{product}{revision:08X}{place}");
+            Wish { name, fallback: format!("device {suffix}"), suffix }
+        })
+        .collect();
+    escaped(names_unique::unique(&wishes, &RESERVED, Case::Snake))
+}
+
+fn escaped(names: Vec<String>) -> Vec<String> {
+    names.iter().map(|name| names_unique::escaped(name)).collect()
+}
+
+fn paths(modules: &[(ModuleId, &Module)], names: &[String], outer: &str) -> ModulePaths {
+    modules.iter().zip(names).map(|((id, _), name)| (*id, format!("{outer}::{name}::MODULE"))).collect()
+}
+
+fn open(text: &mut String, indent: usize, name: &str, title: &str) {
+    let title = docs::sentence(title);
+    let _ = writeln!(text, "{:indent$}/// {title}\n{:indent$}pub mod {name} {{", "", "");
+}
+
+/// The content of a module, moved to the right, and its end.
+fn close(text: &mut String, indent: usize, body: &str) {
+    let inner = indent + STEP;
+    for line in body.lines() {
+        if line.is_empty() {
+            text.push('\n');
+        } else {
+            let _ = writeln!(text, "{:inner$}{line}", "");
+        }
+    }
+    let _ = writeln!(text, "{:indent$}}}", "");
+}

@@ -1,0 +1,207 @@
+//! `DEVICE` and `MODULE`: the description of a slave as the runtime wants it.
+
+use super::{Assigned, ModulePaths};
+use crate::backend::rust::data::Data;
+use crate::backend::rust::literal;
+use crate::backend::rust::pdo::PdoModel;
+use crate::ir::{
+    Coe, Device, Direction, EtherCatSettings, Fit, InitCommand, Mailbox, Module, ModulePdoGroup, Pdo, Slot, SlotRules,
+    SyncManager, SyncManagerPurpose,
+};
+
+/// Changes of state that the runtime knows.
+const TRANSITIONS: [&str; 6] = ["IP", "PS", "SO", "SP", "OP", "OS"];
+
+pub(super) fn device(
+    device: &Device,
+    settings: &EtherCatSettings,
+    pdos: &[PdoModel],
+    modules: &ModulePaths,
+    assigned: &[Assigned<'_>],
+) -> Data {
+    let slots = settings.slots.as_deref().map(|rules| slots(device, rules, modules));
+    Data::Struct(
+        "rt::ethercat::Device",
+        vec![
+            ("identity", Data::text("IDENTITY")),
+            ("sync_managers", Data::Slice(device.process_data.sync_managers.iter().map(sync_manager).collect())),
+            ("pdos", pdo_list(&device.process_data.pdos, pdos)),
+            ("default_pdos", Data::Slice(assigned.iter().map(|own| Data::index(own.pdo.mapping_index)).collect())),
+            ("mailbox", mailbox(settings.mailbox.as_deref())),
+            ("slots", slots.map_or_else(|| Data::text("None"), |slots| Data::Call("Some", vec![slots]))),
+        ],
+    )
+}
+
+pub(super) fn module(module: &Module, pdos: &[PdoModel]) -> Data {
+    Data::Struct(
+        "rt::ethercat::Module",
+        vec![
+            ("ident", Data::text(format!("0x{:08X}", module.number))),
+            ("name", Data::text(literal::string(&module.name))),
+            ("class", Data::text(literal::string(&module.class))),
+            ("pdo_group", Data::text(module.pdo_group.unwrap_or(0).to_string())),
+            ("pdos", pdo_list(&module.process_data.pdos, pdos)),
+            ("init_commands", Data::Slice(module.init_commands.iter().map(init_command).collect())),
+        ],
+    )
+}
+
+fn sync_manager(own: &SyncManager) -> Data {
+    let purpose = match own.purpose {
+        SyncManagerPurpose::MailboxOut => "MailboxOut",
+        SyncManagerPurpose::MailboxIn => "MailboxIn",
+        SyncManagerPurpose::Outputs => "Outputs",
+        SyncManagerPurpose::Inputs => "Inputs",
+    };
+    Data::Struct(
+        "rt::ethercat::SyncManager",
+        vec![
+            ("number", Data::text(own.number.to_string())),
+            ("purpose", Data::text(format!("rt::ethercat::SyncManagerPurpose::{purpose}"))),
+            ("start_address", Data::index(own.start_address)),
+            ("default_size", Data::text(own.default_size.unwrap_or(0).to_string())),
+            ("min_size", Data::option(own.size_range.0)),
+            ("max_size", Data::option(own.size_range.1)),
+            ("control", Data::text(format!("0x{:02X}", own.control))),
+            ("enable", Data::flag(own.enable)),
+            ("op_only", Data::flag(own.op_only)),
+        ],
+    )
+}
+
+/// Outputs first, as the runtime has them.
+fn pdo_list(pdos: &[Pdo], models: &[PdoModel]) -> Data {
+    let of = |direction| pdos.iter().filter(move |pdo| pdo.direction == direction && !pdo.is_virtual);
+    let all = of(Direction::Receive).chain(of(Direction::Transmit));
+    Data::Slice(all.map(|pdo| pdo_info(pdo, models)).collect())
+}
+
+fn pdo_info(pdo: &Pdo, models: &[PdoModel]) -> Data {
+    let direction = match pdo.direction {
+        Direction::Receive => "Output",
+        Direction::Transmit => "Input",
+    };
+    let numbers = |list: Vec<String>| Data::Slice(list.into_iter().map(Data::Text).collect());
+    Data::Struct(
+        "rt::ethercat::PdoInfo",
+        vec![
+            ("index", Data::index(pdo.mapping_index)),
+            ("direction", Data::text(format!("rt::ethercat::Direction::{direction}"))),
+            ("bits", Data::text(pdo.bits().to_string())),
+            ("sync_manager", Data::option(pdo.sync_manager)),
+            ("excluded_sync_managers", numbers(pdo.excluded_sync_managers.iter().map(u8::to_string).collect())),
+            ("fixed", Data::flag(pdo.fixed)),
+            ("mandatory", Data::flag(pdo.mandatory)),
+            ("depends_on_slot", Data::flag(pdo.depends_on_slot)),
+            ("excludes", numbers(pdo.excludes.iter().map(|index| format!("0x{index:04X}")).collect())),
+            ("mapping", mapping(pdo, models)),
+        ],
+    )
+}
+
+/// The mapping of a PDO that has a struct is said there.
+fn mapping(pdo: &Pdo, models: &[PdoModel]) -> Data {
+    let model = models.iter().find(|model| model.is(pdo));
+    match model {
+        Some(model) => Data::text(format!("<pdo::{} as rt::Pdo>::MAPPING", model.name)),
+        None => {
+            Data::Slice(pdo.entries.iter().map(|entry| Data::text(super::super::pdo::mapping_entry(entry))).collect())
+        }
+    }
+}
+
+fn mailbox(mailbox: Option<&Mailbox>) -> Data {
+    let Some(mailbox) = mailbox else { return Data::text("rt::ethercat::Mailbox::NONE") };
+    let coe = mailbox.coe.as_ref().map(coe);
+    Data::Struct(
+        "rt::ethercat::Mailbox",
+        vec![
+            ("coe", coe.map_or_else(|| Data::text("None"), |coe| Data::Call("Some", vec![coe]))),
+            ("aoe", Data::flag(mailbox.aoe.is_some())),
+            ("eoe", Data::flag(mailbox.eoe.is_some())),
+            ("foe", Data::flag(mailbox.foe.is_some())),
+            ("soe", Data::flag(mailbox.soe.is_some())),
+            ("voe", Data::flag(mailbox.voe.is_some())),
+        ],
+    )
+}
+
+fn coe(coe: &Coe) -> Data {
+    Data::Struct(
+        "rt::ethercat::Coe",
+        vec![
+            ("sdo_info", Data::flag(coe.sdo_info)),
+            ("pdo_assign", Data::flag(coe.pdo_assign)),
+            ("pdo_config", Data::flag(coe.pdo_config)),
+            ("complete_access", Data::flag(coe.complete_access)),
+            ("init_commands", Data::Slice(coe.init_commands.iter().map(init_command).collect())),
+        ],
+    )
+}
+
+fn init_command(command: &InitCommand) -> Data {
+    let known = TRANSITIONS.iter().filter(|name| command.transitions.iter().any(|own| own == **name));
+    let transitions = known.map(|name| Data::text(format!("rt::ethercat::Transition::{name}"))).collect();
+    Data::Struct(
+        "rt::ethercat::InitCommand",
+        vec![
+            ("transitions", Data::Call("rt::ethercat::Transitions::of", vec![Data::Slice(transitions)])),
+            ("index", Data::index(command.index)),
+            ("sub_index", Data::text(format!("0x{:02X}", command.sub_index))),
+            ("complete_access", Data::flag(command.complete_access)),
+            ("depends_on_slot", Data::flag(command.depends_on_slot)),
+            ("data", Data::text(literal::bytes(&command.data))),
+        ],
+    )
+}
+
+fn slots(device: &Device, rules: &SlotRules, modules: &ModulePaths) -> Data {
+    let known = device.modules.iter().filter_map(|own| modules.get(&own.module));
+    Data::Struct(
+        "rt::ethercat::Slots",
+        vec![
+            ("slots", Data::Slice(device.slots.iter().map(slot).collect())),
+            ("modules", Data::Slice(known.map(|path| Data::text(format!("&{path}"))).collect())),
+            ("pdo_groups", Data::Slice(rules.pdo_groups.iter().map(pdo_group).collect())),
+            ("download_idents", Data::flag(rules.download_idents)),
+        ],
+    )
+}
+
+fn slot(slot: &Slot) -> Data {
+    let fit = |fit: &Fit| match fit {
+        Fit::Ident(ident) => Data::text(format!("rt::ethercat::Fit::Ident(0x{ident:08X})")),
+        Fit::Class(name) | Fit::Name(name) => {
+            Data::Call("rt::ethercat::Fit::Class", vec![Data::text(literal::string(name))])
+        }
+    };
+    let default = match &slot.default {
+        Some(Fit::Ident(ident)) => Some(format!("0x{ident:08X}")),
+        _ => None,
+    };
+    Data::Struct(
+        "rt::ethercat::Slot",
+        vec![
+            ("name", Data::text(literal::string(&slot.name))),
+            ("min", Data::text(slot.instances.0.to_string())),
+            ("max", Data::text(slot.instances.1.to_string())),
+            ("fits", Data::Slice(slot.fits.iter().map(fit).collect())),
+            ("default", Data::option(default)),
+            ("index_increment", Data::text(format!("0x{:X}", slot.index_increment))),
+            ("pdo_increment", Data::text(format!("0x{:X}", slot.pdo_increment))),
+        ],
+    )
+}
+
+fn pdo_group(group: &ModulePdoGroup) -> Data {
+    let index = |index: Option<u16>| Data::option(index.map(|index| format!("0x{index:04X}")));
+    Data::Struct(
+        "rt::ethercat::PdoGroup",
+        vec![
+            ("alignment", Data::text(group.alignment.to_string())),
+            ("rx_pdo", index(group.rx_pdo)),
+            ("tx_pdo", index(group.tx_pdo)),
+        ],
+    )
+}

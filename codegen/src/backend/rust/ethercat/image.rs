@@ -1,0 +1,122 @@
+//! The process image by default: for each sync manager, the PDOs that are assigned to it, one behind the other.
+
+use super::Assigned;
+use crate::backend::rust::docs;
+use crate::backend::rust::pdo::PdoModel;
+use crate::ir::{Device, Direction};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// The data of a sync manager.
+pub(in super::super) struct ImageModel {
+    pub name: String,
+    pub title: String,
+    pub sync_manager: u8,
+    pub bits: u32,
+    pub length: usize,
+    pub derives: Vec<String>,
+    pub fields: Vec<ImageField>,
+}
+
+impl ImageModel {
+    /// The struct literal that unpacking ends with.
+    pub(in super::super) fn names(&self) -> String {
+        let names: Vec<&str> = self.fields.iter().map(|field| field.name.as_str()).collect();
+        let short = format!("Self {{ {} }}", names.join(", "));
+        /// A struct literal that is longer than this up to its closing brace gets a line a field.
+        const SHORT: usize = 34;
+        if short.len() - 1 <= SHORT {
+            return short;
+        }
+        let lines: String = names.iter().map(|name| format!("                {name},\n")).collect();
+        format!("Self {{\n{lines}            }}")
+    }
+}
+
+/// A PDO of an image.
+pub(in super::super) struct ImageField {
+    pub name: String,
+    /// The name of its mutable view.
+    pub name_mut: String,
+    /// The name of its struct.
+    pub pdo: String,
+    pub docs: String,
+    pub bit: u32,
+    pub length: usize,
+}
+
+pub(super) fn models(device: &Device, pdos: &[PdoModel], assigned: &[Assigned<'_>]) -> Vec<ImageModel> {
+    let mut images = Vec::new();
+    for own in &device.process_data.sync_managers {
+        let inside: Vec<&Assigned<'_>> = assigned.iter().filter(|one| one.sync_manager == own.number).collect();
+        let Some(first) = inside.first() else { continue };
+        let kind = match first.pdo.direction {
+            Direction::Receive => "Outputs",
+            Direction::Transmit => "Inputs",
+        };
+        if let Some(image) = model(kind, own.number, &inside, pdos) {
+            images.push(image);
+        }
+    }
+    let mut kinds: Vec<String> = images.iter().map(|image| image.name.clone()).collect();
+    kinds.sort();
+    for image in &mut images {
+        if kinds.iter().filter(|kind| **kind == image.name).count() > 1 {
+            image.name = format!("{}Sm{}", image.name, image.sync_manager);
+        }
+    }
+    images
+}
+
+fn model(kind: &str, sync_manager: u8, inside: &[&Assigned<'_>], pdos: &[PdoModel]) -> Option<ImageModel> {
+    let mut bit = 0u32;
+    let mut placed = Vec::new();
+    for one in inside {
+        let model = pdos.iter().find(|model| model.is(one.pdo));
+        placed.extend(model.map(|model| (model, bit)));
+        bit = bit.checked_add(one.pdo.bits())?;
+    }
+    let derives = placed.first()?.0.derives.clone();
+    Some(ImageModel {
+        name: kind.to_owned(),
+        title: format!("{kind}: the data of sync manager {sync_manager} by default."),
+        sync_manager,
+        bits: bit,
+        length: bit.div_ceil(8) as usize,
+        derives,
+        fields: fields(&placed),
+    })
+}
+
+/// Methods of a view that aren't fields.
+const RESERVED: [&str; 4] = ["new", "self", "super", "crate"];
+
+/// The longest name: the lines that unpack it have to stay below the margin.
+const MAX_NAME: usize = 30;
+
+fn fields(placed: &[(&PdoModel, u32)]) -> Vec<ImageField> {
+    let wishes: Vec<Wish<'_>> = placed
+        .iter()
+        .map(|(model, bit)| {
+            let index = format!("{:04X}", model.mapping_index);
+            Wish { name: &model.name, fallback: format!("pdo {index}"), suffix: format!("{index}_{bit}") }
+        })
+        .collect();
+    let names = names_unique::unique_up_to(&wishes, &RESERVED, Case::Snake, MAX_NAME);
+    let field = |((model, bit), name): (&(&PdoModel, u32), &String)| ImageField {
+        name: names_unique::escaped(name),
+        name_mut: beside(&names, format!("{name}_mut")),
+        pdo: model.name.clone(),
+        docs: docs::sentence(model.docs.first().map_or("", String::as_str)),
+        bit: *bit,
+        length: model.length,
+    };
+    placed.iter().zip(&names).map(field).collect()
+}
+
+/// A name that none of `taken` has.
+pub(in super::super) fn beside(taken: &[String], mut name: String) -> String {
+    while taken.contains(&name) {
+        name.push('_');
+    }
+    name
+}

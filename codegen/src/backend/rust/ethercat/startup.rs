@@ -1,0 +1,54 @@
+//! The writes that set up the assignment by default: what `rt::ethercat::Assignment::by_default` gives, as a constant.
+
+use super::Assigned;
+use crate::backend::rust::data::Data;
+use crate::ir::{Device, EtherCatSettings, SyncManager, SyncManagerPurpose};
+
+/// Index of the assignment object of sync manager 0 (ETG.1000.6 5.6.7.4).
+const ASSIGN: u16 = 0x1C10;
+
+/// Sub-indices of a mapping or assignment object.
+const MAX_SUBS: usize = 254;
+
+pub(super) fn commands(device: &Device, settings: &EtherCatSettings, assigned: &[Assigned<'_>]) -> Vec<Data> {
+    let Some(coe) = settings.mailbox.as_ref().and_then(|mailbox| mailbox.coe.as_ref()) else { return Vec::new() };
+    // What a plan of modules assigns can't be known here.
+    if assigned.is_empty() || settings.slots.is_some() {
+        return Vec::new();
+    }
+    let mut commands = Vec::new();
+    let carries = |own: &&SyncManager| matches!(own.purpose, SyncManagerPurpose::Outputs | SyncManagerPurpose::Inputs);
+    let managers: Vec<&SyncManager> =
+        device.process_data.sync_managers.iter().filter(carries).filter(|_| coe.pdo_assign).collect();
+    commands.extend(managers.iter().map(|own| write("u8", ASSIGN + u16::from(own.number), 0, "0")));
+    for Assigned { pdo, .. } in assigned.iter().filter(|_| coe.pdo_config) {
+        let fits = pdo.entries.len() <= MAX_SUBS && pdo.entries.iter().all(|entry| entry.bits <= 255);
+        if pdo.fixed || !fits {
+            continue;
+        }
+        commands.push(write("u8", pdo.mapping_index, 0, "0"));
+        for (entry, sub) in pdo.entries.iter().zip(1..=u8::MAX) {
+            let low = u32::from(entry.sub_index) << 8 | entry.bits;
+            commands.push(write("u32", pdo.mapping_index, sub, &format!("0x{:04X}_{low:04X}", entry.index)));
+        }
+        commands.push(write("u8", pdo.mapping_index, 0, &pdo.entries.len().to_string()));
+    }
+    for own in managers {
+        let object = ASSIGN + u16::from(own.number);
+        let list: Vec<u16> = assigned
+            .iter()
+            .filter(|assigned| assigned.sync_manager == own.number)
+            .map(|assigned| assigned.pdo.mapping_index)
+            .collect();
+        let entries = list.iter().zip(1..=u8::MAX);
+        commands.extend(entries.map(|(index, sub)| write("u16", object, sub, &format!("0x{index:04X}"))));
+        if !list.is_empty() {
+            commands.push(write("u8", object, 0, &list.len().to_string()));
+        }
+    }
+    commands
+}
+
+fn write(ty: &str, index: u16, sub: u8, value: &str) -> Data {
+    Data::text(format!("rt::SdoWrite::new_{ty}(0x{index:04X}, 0x{sub:02X}, {value})"))
+}
