@@ -82,6 +82,7 @@ mod item;
 mod location;
 mod node_id;
 pub mod pdo;
+pub mod profinet;
 mod range;
 pub mod table;
 mod text;

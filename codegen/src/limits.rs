@@ -5,7 +5,7 @@
 
 pub use crate::source::MAX_INPUT_BYTES;
 
-/// Sub-indices that a file may declare through CompactSubObj, in total.
+/// Sub-indices that a file may declare through CompactSubObj, in total; and copies of named values that types of GSDML need.
 pub const MAX_DERIVED_ITEMS: usize = 200_000;
 
 /// Implicit PDOs that a file may declare through CompactPDO, per direction (CiA 301 knows 512).
@@ -16,3 +16,12 @@ pub const MAX_COMPARED_EXTENSIONS: usize = 64;
 
 /// Depth to which XML elements may be nested.
 pub const MAX_XML_DEPTH: usize = 128;
+
+/// Modules that all slots of a description may take together.
+pub const MAX_MODULE_USES: usize = 200_000;
+
+/// Bytes of text that a GSDML file may copy by referring to its text list, for each byte of the file.
+pub const MAX_TEXT_COPIES_PER_BYTE: usize = 8;
+
+/// Bytes of text that any GSDML file may copy so.
+pub const MIN_TEXT_COPIES: usize = 1 << 20;

@@ -5,6 +5,8 @@ use std::process::{Command, Output};
 
 const DEMO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../dictionaries/demo-drive.eds");
 
+const COUPLER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/coupler.esi.xml");
+
 const QUIRKY: &str = "[DeviceInfo]\nProductName=Quirky\n[ManufacturerObjects]\nSupportedObjects=1\n1=0x2000\n\
                       [2000]\nParameterName=Gain\nDataType=0x0006\nAccessType=rw\nDefaultValue=012\n";
 
@@ -201,4 +203,56 @@ fn results_do_not_depend_on_the_number_of_jobs() {
 fn the_command_line_and_the_build_script_give_the_same_bytes() {
     let by_builder = lexibus_codegen::Builder::new().quiet().generate(DEMO).expect("bindings");
     assert_eq!(out(&lexibus(&["generate", DEMO])), by_builder);
+}
+
+#[test]
+fn of_many_devices_those_that_are_selected() {
+    let generate = |arguments: &[&str]| {
+        let output = lexibus(&[&["generate", COUPLER, "-A", "warnings"], arguments].concat());
+        assert_eq!(code(&output), 0, "{}", err(&output));
+        out(&output)
+    };
+    let all = generate(&[]);
+    assert!(["pub mod cp_32 {", "pub mod sv_1 {", "pub mod modules {"].iter().all(|part| all.contains(part)));
+    let drive = generate(&["--device", "0x00A10002@0x00020001", "--objects", "0x6000..0xFFFF"]);
+    assert!(drive.contains("pub struct Sv1<C>") && drive.contains("TARGET_POSITION"));
+    for absent in ["cp_32", "mod modules", "0x2000", "MOTOR"] {
+        assert!(!drive.contains(absent), "{absent}");
+    }
+    // The layout of PDOs doesn't depend on what is selected.
+    assert!(drive.contains("pub struct PositionMode"));
+    let coupler = generate(&["--device", "cp-*", "--module", "DI-16", "--module", "0x2001"]);
+    assert!(coupler.contains("pub mod di_16 {") && coupler.contains("pub mod do_8 {") && !coupler.contains("ai_2"));
+
+    let wrong = lexibus(&["generate", COUPLER, "--device", "SV-2"]);
+    assert_eq!((code(&wrong), out(&wrong)), (1, String::new()));
+    assert!(err(&wrong).contains("IO004") && err(&wrong).contains("did you mean `SV-1`?"), "{}", err(&wrong));
+    let wrong = lexibus(&["generate", COUPLER, "--objects", "0x6000..x"]);
+    assert_eq!(code(&wrong), 2);
+    assert!(err(&wrong).contains("expected 0x6040 or 0x6000..0x67FF"), "{}", err(&wrong));
+}
+
+#[test]
+fn info_lists_devices_and_modules() {
+    let text = out(&lexibus(&["info", COUPLER]));
+    assert!(text.contains("SV-1 servo drive\n    vendor 0x00000abc, product 0x00a10002"), "{text}");
+    assert!(text.contains("module AI-2 (0x00003001): 1 objects, 2 entries, 1 PDOs"), "{text}");
+    let json = out(&lexibus(&["info", "--format", "json", COUPLER]));
+    let info: serde_json::Value = serde_json::from_str(&json).expect("one object");
+    assert_eq!((info["format"].as_str(), info["devices"].as_array().map(Vec::len)), (Some("esi"), Some(2)));
+    assert_eq!(info["devices"][1]["rx_pdos"][0], serde_json::json!({"index": 0x1600, "entries": 2, "bits": 48}));
+    assert_eq!(info["modules"][2]["tx_pdos"][0], serde_json::json!({"index": 0x1A00, "entries": 5, "bits": 40}));
+    assert!(info.get("daps").is_none());
+}
+
+#[test]
+fn folders_are_searched_for_xml_that_describes_devices() {
+    let folder = folder("xml");
+    std::fs::copy(COUPLER, folder.join("coupler.xml")).expect("a copy");
+    file(&folder, "pom.xml", "<project/>");
+    file(&folder, "broken.xml", "<EtherCATInfo><Vendor>");
+    let checked = lexibus(&["check", &folder.to_string_lossy(), "-A", "warnings"]);
+    let said = out(&checked) + &err(&checked);
+    assert_eq!(code(&checked), 1, "{said}");
+    assert!(said.contains("broken.xml:1:") && !said.contains("pom.xml") && said.contains("2 files"), "{said}");
 }

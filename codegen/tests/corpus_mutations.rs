@@ -12,7 +12,7 @@ mod corpus_support;
 use std::cell::Cell;
 use std::fmt::Debug;
 
-use corpus_support::{files, File};
+use corpus_support::{files, files_of, File};
 use lexibus_codegen::backend::{json, rust};
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{codes, render, Diagnostic, Level};
@@ -58,12 +58,10 @@ fn emitted(compilation: &Compilation) {
     /// More text than this takes `syn` too long.
     const PARSED: usize = 60_000;
     let Some(catalog) = &compilation.catalog else { return };
-    for device in &catalog.devices {
-        let text = rust::emit(device, &catalog.files[0], &Options::default().rust);
-        if text.len() < PARSED {
-            if let Err(error) = syn::parse_file(&text) {
-                panic!("what is emitted is no Rust: {error}:\n{text}");
-            }
+    let Some(text) = rust::emit_catalog(catalog, &Options::default().rust) else { return };
+    if text.len() < PARSED {
+        if let Err(error) = syn::parse_file(&text) {
+            panic!("what is emitted is no Rust: {error}:\n{text}");
         }
     }
 }
@@ -114,6 +112,12 @@ enum Edit {
     Insert(Index, &'static str),
     /// Gives the next entry or attribute another value.
     Value(Index, &'static str),
+    /// Gives the next XML element that has one another text.
+    Text(Index, &'static str),
+    DeleteElement(Index),
+    RepeatElement(Index),
+    /// Puts the next XML element in front of another one.
+    MoveElement(Index, Index),
     DeleteLine(Index),
     RepeatLine(Index),
     SwapLines(Index, Index),
@@ -153,7 +157,10 @@ const WORDS: &[&str] = &[
     "\nCompactPDO=0x17\n", "\nNrOfTXPDO=512\n", "\n../x.dcf\n", "self", "crate", "fn", "async", "_", "Self", "1st",
     "Gerät µ°", "日本", "\u{202e}", "\u{feff}", "\u{1b}[31m", "\0", "\r", "\n", "\u{1a}", "é", "\u{301}", "ß", "İ", "<",
     ">", "</", "/>", "<!--", "-->", "<![CDATA[", "]]>", "<?x?>", "&", "&amp;", "&#0;", "&#x10FFFF;", "&lt;!", "&x;",
-    "<!DOCTYPE a [<!ENTITY x \"y\">]>", "UID_1", "FFFF", "1A00", "0001", "2000",
+    "<!DOCTYPE a [<!ENTITY x \"y\">]>", "UID_1", "FFFF", "1A00", "0001", "2000", "#x0", "#x1600",
+    "#xFFFFFFFF", "#x", "BOOL", "DINT", "BIT3", "BITARR8", "STRING(5)", "STRING(99999999)", "ARRAY [0..254] OF BYTE",
+    "ARRAY [0..99999999] OF ARRAY", "Unsigned16", "Float32", "Bit", "BitArea", "OctetString", "F_MessageTrailer4Byte",
+    "0..4 7", "-5..5", "1..65535", "0..99999999", "0x00,0x01", "DependOnSlot", "TR", "MBoxOut", "Outputs", "PS",
 ];
 
 /// The changes of a file, or of a part of it.
@@ -207,6 +214,29 @@ fn apply(bytes: &mut Vec<u8>, edit: &Edit, files: &[File]) {
             let value = value_behind(bytes, start);
             bytes.splice(value, word.bytes());
         }
+        Edit::Text(at, word) => {
+            let start = place(at, bytes);
+            let text = text_behind(bytes, start);
+            if !text.is_empty() {
+                bytes.splice(text, word.bytes());
+            }
+        }
+        Edit::DeleteElement(at) => drop(bytes.drain(element_behind(bytes, place(at, bytes)))),
+        Edit::RepeatElement(at) => {
+            let element = element_behind(bytes, place(at, bytes));
+            let part = bytes[element.clone()].to_vec();
+            bytes.splice(element.start..element.start, part);
+        }
+        Edit::MoveElement(at, to) => {
+            let element = element_behind(bytes, place(at, bytes));
+            let to = element_behind(bytes, place(to, bytes)).start;
+            if to <= element.start || to >= element.end {
+                let part = bytes[element.clone()].to_vec();
+                let to = if to >= element.end { to - part.len() } else { to };
+                bytes.drain(element);
+                bytes.splice(to..to, part);
+            }
+        }
         Edit::DeleteLine(at) => drop(bytes.drain(line_at(bytes, place(at, bytes)))),
         Edit::RepeatLine(at) => {
             let line = line_at(bytes, place(at, bytes));
@@ -247,6 +277,56 @@ fn value_behind(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
         if bytes.get(start) == Some(&b'"') { (start + 1, b"\"") } else { (start, b"\r\n") };
     let length = bytes[start..].iter().position(|byte| ends.contains(byte)).unwrap_or(bytes.len() - start);
     start..start + length
+}
+
+/// The text of the next element behind a place that has one.
+fn text_behind(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
+    let mut start = at;
+    while let Some(end) = bytes[start..].iter().position(|&byte| byte == b'>') {
+        start += end + 1;
+        let length = bytes[start..].iter().position(|&byte| byte == b'<').unwrap_or(0);
+        if bytes[start..start + length].iter().any(|byte| !byte.is_ascii_whitespace()) {
+            return start..start + length;
+        }
+    }
+    at..at
+}
+
+/// The next element behind a place that isn't the document's root, from its first byte to its last.
+fn element_behind(bytes: &[u8], at: usize) -> std::ops::Range<usize> {
+    /// Larger ones are most of a file.
+    const LARGEST: usize = 20_000;
+    let is_tag = |at: usize| bytes[at] == b'<' && bytes.get(at + 1).is_some_and(u8::is_ascii_alphabetic);
+    let is_start = |at: usize| is_tag(at) && !in_comment(bytes, at);
+    let starts = (at..bytes.len()).filter(|&at| is_start(at)).take(20);
+    let mut elements = starts.filter_map(|start| Some(start..end_of_element(&bytes[start..])? + start));
+    elements.find(|element| element.len() < LARGEST).unwrap_or(at..at)
+}
+
+/// Whether a place is within an XML comment.
+fn in_comment(bytes: &[u8], at: usize) -> bool {
+    let last = |mark: &[u8]| bytes[..at].windows(mark.len()).rposition(|part| part == mark);
+    last(b"<!--").is_some_and(|start| last(b"-->").is_none_or(|end| end < start))
+}
+
+/// Where the element ends that starts here.
+fn end_of_element(bytes: &[u8]) -> Option<usize> {
+    let (mut at, mut depth) = (0, 0);
+    loop {
+        at += bytes.get(at..)?.iter().position(|&byte| byte == b'<')?;
+        let mark: &[u8] = if bytes[at..].starts_with(b"<!--") { b"-->" } else { b">" };
+        let end = at + bytes[at..].windows(mark.len()).position(|part| part == mark)? + mark.len();
+        match bytes[at + 1] {
+            b'!' | b'?' => {}
+            b'/' => depth -= 1,
+            _ if bytes[end - 2] == b'/' => {}
+            _ => depth += 1,
+        }
+        at = end;
+        if depth <= 0 {
+            return Some(at);
+        }
+    }
 }
 
 fn of_kind(xml: bool) -> Option<Vec<File>> {
@@ -292,6 +372,67 @@ fn xml_files_with_other_values() {
         }
         (file.name.clone(), bytes)
     });
+}
+
+/// What leaves XML well formed: other values, and elements that are missing, doubled, or at another place.
+fn regular_edit() -> impl Strategy<Value = Edit> {
+    let harmless: Vec<&str> = WORDS.iter().copied().filter(|word| !word.contains(['<', '"', '&', '\0'])).collect();
+    let at = any::<Index>;
+    prop_oneof![
+        2 => (at(), select(harmless.clone())).prop_map(|(at, word)| Edit::Value(at, word)),
+        4 => (at(), select(harmless)).prop_map(|(at, word)| Edit::Text(at, word)),
+        1 => at().prop_map(Edit::DeleteElement),
+        1 => at().prop_map(Edit::RepeatElement),
+        2 => (at(), at()).prop_map(|(at, to)| Edit::MoveElement(at, to)),
+    ]
+}
+
+/// The files of a format that aren't too large to be tried a hundred times.
+fn small_files(format: &str) -> Option<Vec<File>> {
+    const LARGEST: usize = 120_000;
+    let mut files = files_of(format)?;
+    files.retain(|file| file.bytes.len() <= LARGEST);
+    Some(files)
+}
+
+fn damaged(format: &str) {
+    let Some(files) = small_files(format) else { return };
+    hold(250, 5, recipe(), |recipe| {
+        let file = &files[recipe.file.index(files.len())];
+        let mut bytes = file.bytes.clone();
+        recipe.edits.iter().for_each(|edit| apply(&mut bytes, edit, &files));
+        (file.name.clone(), bytes)
+    });
+}
+
+fn rearranged(format: &str) {
+    let Some(files) = small_files(format) else { return };
+    hold(400, 60, (any::<Index>(), vec(regular_edit(), 1..25)), |(file, edits)| {
+        let file = &files[file.index(files.len())];
+        let mut bytes = file.bytes.clone();
+        edits.iter().for_each(|edit| apply(&mut bytes, edit, &files));
+        (file.name.clone(), bytes)
+    });
+}
+
+#[test]
+fn damaged_esi_files() {
+    damaged("esi");
+}
+
+#[test]
+fn damaged_gsdml_files() {
+    damaged("gsdml");
+}
+
+#[test]
+fn rearranged_esi_files() {
+    rearranged("esi");
+}
+
+#[test]
+fn rearranged_gsdml_files() {
+    rearranged("gsdml");
 }
 
 #[test]

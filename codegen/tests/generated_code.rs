@@ -3,9 +3,7 @@
 mod compile_support;
 mod corpus_support;
 
-use std::collections::HashSet;
 use std::path::Path;
-use std::sync::Mutex;
 
 use compile_support::{compile, compile_in};
 use lexibus_codegen::compile::{check, Options};
@@ -16,52 +14,12 @@ fn everything() -> RustOptions {
     RustOptions { table: Presence::Always, ..RustOptions::default() }
 }
 
-/// The text below the header, which names the file and its digest.
-fn body(text: &str) -> &str {
-    text.split_once("\n\n").map_or(text, |(_, body)| body)
-}
-
-/// One file of the corpus: its bindings where it has any, else the diagnostic that says why not.
-fn bindings(file: &corpus_support::File) -> Option<String> {
-    let options = Options { rust: everything(), ..Options::default() };
-    let compilation = check(Source::new(file.name.as_str(), file.bytes.clone()), &options);
-    let text = compilation.rust(&options.rust);
-    assert!(text.is_some() || compilation.diagnostics.has_errors(), "{}: rejected in silence", file.name);
-    text
-}
-
 #[test]
 fn every_file_of_the_corpus_compiles_or_is_rejected_with_a_reason() {
-    let Some(files) = corpus_support::files() else { return };
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let queue = Mutex::new((files.into_iter(), HashSet::new()));
-    let failures = Mutex::new(Vec::new());
-    let next = || {
-        let mut queue = queue.lock().expect("the queue");
-        loop {
-            let file = queue.0.next()?;
-            let Some(text) = bindings(&file) else { continue };
-            // Many files differ in nothing that shows in their bindings.
-            if queue.1.insert(body(&text).to_owned()) {
-                return Some((file.name, text));
-            }
-        }
-    };
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                while let Some((name, text)) = next() {
-                    if let Err(message) = compile(&name, &text) {
-                        failures.lock().expect("the failures").push(message);
-                    }
-                }
-            });
-        }
-    });
-    let compiled = queue.into_inner().expect("the queue").1.len();
-    let failures = failures.into_inner().expect("the failures");
-    assert!(failures.is_empty(), "{} of {compiled}:\n{}", failures.len(), failures.join("\n\n"));
-    assert!(compiled > 150, "only {compiled} different devices");
+    let Some(files) = corpus_support::all_files() else { return };
+    let options = Options { rust: everything(), ..Options::default() };
+    let compiled = corpus_support::bindings::each(files, &options, compile);
+    assert!(compiled > 500, "only {compiled} different devices");
 }
 
 const NASTY_NAMES: &str = "[DeviceInfo]\nProductName=\n\

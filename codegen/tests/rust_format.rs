@@ -2,6 +2,8 @@
 
 mod corpus_support;
 
+use std::path::Path;
+
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::Presence;
@@ -15,28 +17,33 @@ fn without_header(text: &str) -> String {
         .collect()
 }
 
-fn assert_canonical(name: &str, text: &str) {
+/// The first line that isn't as `prettyplease` prints it.
+fn canonical(name: &str, text: &str) -> Result<(), String> {
     let text = without_header(text);
-    let parsed = syn::parse_file(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let parsed = syn::parse_file(&text).map_err(|error| format!("{name}: {error}"))?;
     let expected = prettyplease::unparse(&parsed);
     for (line, (ours, theirs)) in text.lines().zip(expected.lines()).enumerate() {
-        assert_eq!(ours, theirs, "{name}, line {}", line + 1);
+        if ours != theirs {
+            return Err(format!("{name}, line {}:\n    {ours}\n    {theirs}", line + 1));
+        }
     }
-    assert_eq!(text.len(), expected.len(), "{name}");
+    (text.len() == expected.len()).then_some(()).ok_or_else(|| format!("{name}: not of the same length"))
 }
 
 #[test]
 fn output_is_as_prettyplease_prints_it() {
-    let Some(files) = corpus_support::files() else { return };
-    let mut compiled = 0;
-    for file in files {
-        let mut options = Options::default();
-        options.rust.table = Presence::Feature("table".into());
-        let compilation = check(Source::new(file.name.as_str(), file.bytes), &options);
-        if let Some(text) = compilation.rust(&options.rust) {
-            assert_canonical(&file.name, &text);
-            compiled += 1;
-        }
-    }
-    assert!(compiled > 200, "only {compiled} files were compiled");
+    let Some(files) = corpus_support::all_files() else { return };
+    let mut options = Options::default();
+    options.rust.table = Presence::Feature("table".into());
+    let compared = corpus_support::bindings::each(files, &options, canonical);
+    assert!(compared > 500, "only {compared} different devices");
+}
+
+/// Several devices and modules of one file are modules of one another.
+#[test]
+fn nested_modules_are_as_prettyplease_prints_them() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/coupler.esi.xml");
+    let compilation = check(Source::read(Path::new(path)).expect("the example"), &Options::default());
+    let text = compilation.rust(&Options::default().rust).expect("bindings");
+    assert_eq!(canonical(path, &text), Ok(()));
 }

@@ -71,3 +71,25 @@ fn findings_on_a_terminal() {
         list.map(|finding| render::terminal::render(finding, &compilation.sources, false)).collect();
     insta::assert_snapshot!(rendered.join("\n\n"));
 }
+
+const STATION: &str = "\
+<EtherCATInfo><Vendor><Id>#x1234</Id><Name>Example</Name></Vendor><Descriptions><Devices>
+<Device Physics=\"YY\"><Type ProductCode=\"#x10\" RevisionNo=\"#x1\">DIO-2</Type><Name>Two inputs, two outputs</Name>
+<Sm StartAddress=\"#x1000\" ControlByte=\"#x44\" Enable=\"1\">Outputs</Sm>
+<Sm StartAddress=\"#x1100\" ControlByte=\"#x20\" Enable=\"1\">Inputs</Sm>
+<RxPdo Fixed=\"1\" Sm=\"0\"><Index>#x1600</Index><Name>Outputs</Name>
+<Entry><Index>#x7000</Index><SubIndex>1</SubIndex><BitLen>1</BitLen><Name>Output 1</Name><DataType>BOOL</DataType></Entry>
+<Entry><Index>0</Index><BitLen>7</BitLen></Entry>
+</RxPdo>
+<TxPdo Fixed=\"1\" Sm=\"1\"><Index>#x1A00</Index><Name>Inputs</Name>
+<Entry><Index>#x6000</Index><SubIndex>1</SubIndex><BitLen>12</BitLen><Name>Level</Name><DataType>UINT</DataType></Entry>
+</TxPdo>
+</Device></Devices></Descriptions></EtherCATInfo>
+";
+
+#[test]
+fn rust_of_a_small_slave() {
+    let options = Options::default();
+    let text = check(Source::new("dio.xml", STATION.into()), &options).rust(&options.rust).expect("bindings");
+    insta::assert_snapshot!(text);
+}

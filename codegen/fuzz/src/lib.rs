@@ -15,8 +15,6 @@ pub fn everything(name: &str, bytes: &[u8]) {
     }
     json::info(&compilation);
     if let Some(catalog) = &compilation.catalog {
-        for device in &catalog.devices {
-            rust::emit(device, &catalog.files[0], &RustOptions::default());
-        }
+        rust::emit_catalog(catalog, &RustOptions::default());
     }
 }

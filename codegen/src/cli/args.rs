@@ -236,11 +236,8 @@ impl Inputs {
         for (code, level) in &self.levels {
             levels.set(code, *level).map_err(|error| Failure::Usage(error.to_string()))?;
         }
-        let select = Selection {
-            devices: self.device.clone(),
-            modules: self.module.clone(),
-            objects: self.objects.clone(),
-        };
+        let select =
+            Selection { devices: self.device.clone(), modules: self.module.clone(), objects: self.objects.clone() };
         Ok(Options { levels, node_id_aliases: self.node_id_alias.clone(), select, ..Options::default() })
     }
 }

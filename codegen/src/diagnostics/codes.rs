@@ -362,6 +362,115 @@ codes! {
         "a file that the description refers to wasn't read"
         "References are followed to files beside the description or in folders below it, never elsewhere. What the \
         file would have added is missing."
+    ESI001 ESI_VALUE "esi-value" Repair Warn
+        "a text or attribute has an unknown form"
+        "ETG.2000 fixes the form: a decimal number or `#x` and hexadecimal digits, `true` or `false`, pairs of \
+        hexadecimal digits, one of a few words. What can't be read is left out, or kept as text where the IR can hold it."
+    ESI002 ESI_UNKNOWN_ELEMENT "esi-unknown-element" Lint Allow
+        "an element or attribute has no meaning in ETG.2000"
+        "What it says is kept as an extension attribute. Tools add elements of their own outside of VendorSpecific."
+    ESI003 BARE_HEX "bare-hex" Repair Warn
+        "a hexadecimal number has no `#x`"
+        "A number is decimal unless it starts with `#x`. This one has letters, so that it can only be hexadecimal; its \
+        neighbours without letters are read as decimal, and may be meant as hexadecimal, too."
+    ESI010 UNRESOLVED_TYPE "unresolved-type" Repair Warn
+        "a data type isn't known"
+        "The name is neither that of a DataType of this dictionary nor one of a basic type (ETG.1000.6), or the \
+        DataType says nothing but its name. The value is kept as raw bytes."
+    ESI011 TYPE_ALIAS "type-alias" Lint Allow
+        "a basic type goes by another name"
+        "ETG.1000.6 calls it USINT, UINT, UDINT and so on; the name is that of the same type in CiA 301 or in C."
+    ESI012 GUESSED_TYPE "guessed-type" Repair Warn
+        "a data type was guessed from the beginning of its name"
+        "The name begins with that of a basic type (`UINT_hex`), the sizes agree, and nothing else says what it is."
+    ESI013 DUPLICATE_TYPE "duplicate-type" Repair Warn
+        "two data types have the same name"
+        "References can mean either. The first one is used, as most tools do."
+    ESI014 SUB_ITEM_NAME "sub-item-name" Lint Warn
+        "a sub-item has no name of its own"
+        "The name is missing, or another sub-item of the data type has it, too. Generated code tells them apart by their \
+        sub-indices."
+    ESI015 ENDLESS_TYPE "endless-type" Repair Warn
+        "a data type is made of itself"
+        "The BaseType or a SubItem leads back to the data type, or there are too many layers. That part is kept as raw \
+        bytes."
+    ESI016 MISSING_BASE_TYPE "missing-base-type" Repair Warn
+        "an enumeration or array has no usable BaseType"
+        "BaseType says which integer the values are, or what the elements are. An enumeration is read as an unsigned \
+        integer of its BitSize."
+    ESI017 ARRAY_BOUNDS "array-bounds" Repair Warn
+        "the number of elements of an array is missing or can't be right"
+        "ArrayInfo has LBound and Elements, and BitSize is the size of all elements together. A number that is missing \
+        follows from the sizes."
+    ESI018 SUB_ITEM_MISMATCH "sub-item-mismatch" Repair Warn
+        "the sub-items of an object aren't those of its data type"
+        "Sub-items of an object belong to those of its data type by name. One whose name the data type doesn't have was \
+        taken by its place."
+    ESI019 BIT_SIZE "bit-size" Lint Warn
+        "BitSize isn't the size of the data type"
+        "The size of an object or data type contradicts the type that it is made of."
+    ESI020 ODD_HEX "odd-hex" Repair Warn
+        "an odd number of hexadecimal digits"
+        "Two digits are one byte. A zero was put in front of the first digit."
+    ESI021 HEX_LENGTH "hex-length" Lint Warn
+        "DefaultData, MinData or MaxData has another length than the type"
+        "The bytes are those of memory, the least significant one first, as many as the type has. Bytes that are missing \
+        are zeros; with bytes that are too many the value is kept as bytes."
+    ESI022 ESI_OUT_OF_TYPE "esi-out-of-type" Lint Warn
+        "a value doesn't fit its data type"
+        "No value of this data type can be as large or small. It is kept in the IR; generated code clamps a limit to the \
+        type and leaves such a default out."
+    ESI023 VALUE_FORM "value-form" Repair Warn
+        "a value has the form of another type"
+        "A fraction is given for an integer, a text for a number, or the other way round. It is read for what it can only \
+        mean, or kept as text."
+    ESI024 MINUS_ONE "minus-one" Repair Warn
+        "-1 is given for an unsigned integer"
+        "That is how C writes a number of which all bits are set. It is read as such."
+    ESI030 ESI_MISSING_ACCESS "esi-missing-access" Lint Warn
+        "nothing says how an object may be accessed"
+        "Flags of the object or of the sub-item have an Access: ro, rw or wo. Without it the item is kept read-only, which \
+        can do no harm."
+    ESI031 UNKNOWN_FLAG "unknown-flag" Repair Warn
+        "a flag has an unknown value"
+        "Access is ro, rw or wo; Category is m, o or c; PdoMapping is R, T or RT; SafetyMapping is si, so, sio or sp."
+    ESI032 ESI_DUPLICATE_OBJECT "esi-duplicate-object" Repair Warn
+        "an object or sub-index occurs twice"
+        "An index is unique in a device and a sub-index in its object. The first one is used."
+    ESI033 ESI_MISSING_INDEX "esi-missing-index" Repair Warn
+        "an object, PDO entry or module has no usable number"
+        "Without an index an object can't be addressed and is left out; an entry becomes padding. A module without an \
+        ident number fits into no slot."
+    ESI034 SUB_INDEX_RANGE "sub-index-range" Repair Warn
+        "an object has more than 255 sub-indices"
+        "Sub-indices are numbers of one byte. An array that has no room is kept as one value, and a sub-item behind \
+        sub-index 255 is left out; often the number of elements of an array is wrong."
+    ESI040 SYNC_MANAGER_PURPOSE "sync-manager-purpose" Repair Warn
+        "nothing says what a sync manager is for"
+        "The text of Sm is MBoxOut, MBoxIn, Outputs or Inputs. The purpose follows from the control byte, or else from the \
+        place among the others."
+    ESI041 PDO_WITHOUT_INDEX "pdo-without-index" Repair Warn
+        "a PDO has no index"
+        "Old files describe process data by other means (Ref, Chn). The entries are kept, but nothing can be assigned."
+    ESI042 DUPLICATE_PDO "duplicate-pdo" Lint Warn
+        "two PDOs have the same index"
+        "Both are kept: some devices offer one PDO on either of two sync managers, and only one can be assigned."
+    ESI043 UNNAMED_PDO "unnamed-pdo" Lint Warn
+        "a PDO has no name"
+        "Name is mandatory. Generated code names the PDO by its index."
+    ESI044 ENTRY_LENGTH "entry-length" Lint Warn
+        "the length of a PDO entry isn't that of its data type"
+        "BitLen decides the layout. The type of the entry is the one that it names."
+    ESI050 DUPLICATE_MODULE "duplicate-module" Lint Warn
+        "two modules have the same ident number"
+        "A device tells modules apart by their ident numbers. Both are kept."
+    ESI051 NO_MODULE_FITS "no-module-fits" Lint Warn
+        "no module fits into a slot"
+        "The slot names ident numbers or classes that no module of this description or of the files that it refers to \
+        has."
+    ESI060 MISSING_IDENTITY "missing-identity" Lint Warn
+        "the number of the vendor or product is missing"
+        "A master finds the description of a slave by vendor number, product code and revision."
     XDD002 POWERLINK_XDD "powerlink-xdd" Error Deny
         "a POWERLINK XDD was given"
         "Ethernet POWERLINK uses XDD files of the same outer form (EPSG 311), with other communication profiles. \
@@ -385,6 +494,83 @@ codes! {
     XDD008 MISSING_INDEX "missing-index" Repair Warn
         "an object has no usable index"
         "Without an index or sub-index in hexadecimal digits the object can't be addressed; it is left out."
+    GSD001 NOT_A_GSDML "not-a-gsdml" Error Deny
+        "the XML is no GSDML"
+        "A GSDML file has the root element ISO15745Profile, and in it a ProfileBody with an ApplicationProcess. This one \
+        has another root."
+    GSD002 NO_DEVICE_ACCESS_POINT "no-device-access-point" Lint Warn
+        "a GSDML describes no device"
+        "Every device access point is a device. Without one the file has nothing to generate bindings for."
+    GSD003 GSDML_FILE_NAME "gsdml-file-name" Lint Allow
+        "the name of a GSDML file isn't formed as it should be"
+        "Engineering tools find files by names of the form `GSDML-V2.35-Vendor-Device-20200131.xml`, and some refuse any \
+        other. The version is that of the schema. Lexibus goes by the content, so that this lint is off unless asked for."
+    GSD004 UNKNOWN_GSDML_ELEMENT "unknown-gsdml-element" Lint Allow
+        "an element or attribute has no meaning in GSDML V2.35"
+        "Lexibus keeps it as an extension attribute. Files of later versions have such elements, so that this lint is off \
+        unless asked for."
+    GSD005 GSDML_VALUE "gsdml-value" Repair Warn
+        "an attribute's value has an unknown form"
+        "The schema fixes the form of the attribute: a decimal number, `0x` and hexadecimal digits for ident numbers, `true` or \
+        `false`, or a list such as `1..3 7`. What can only mean one thing was read so; anything else was left out."
+    GSD006 GSDML_MISSING "gsdml-missing" Repair Warn
+        "a mandatory attribute or element is missing"
+        "The schema makes it mandatory. The message says what was done without it."
+    GSD007 ATTRIBUTE_CASE "attribute-case" Repair Warn
+        "an attribute's name is spelt in another case"
+        "XML tells cases apart, so that an engineering tool doesn't see the attribute. It was read for what it can only mean."
+    GSD008 MISSING_TEXT "missing-text" Repair Warn
+        "a text isn't in the text list"
+        "Names are references to ExternalTextList. Where a reference leads nowhere, the identifier itself is used as the name."
+    GSD009 MISSING_TRANSLATION "missing-translation" Lint Warn
+        "a language lacks texts that the primary language has"
+        "For these texts, readers of that language get those of the primary language, which is English."
+    GSD010 DUPLICATE_ID "duplicate-id" Repair Warn
+        "something that has to be unique occurs twice"
+        "Identifiers are unique among the elements of one kind, and texts and languages in the text list. References lead to the \
+        first."
+    GSD011 UNRESOLVED_TARGET "unresolved-target" Repair Warn
+        "a reference leads to no element"
+        "An attribute such as ModuleItemTarget names an element by its ID, and no element of that kind has it. What the \
+        reference would have added is missing."
+    GSD012 UNKNOWN_GSDML_TYPE "unknown-gsdml-type" Repair Warn
+        "a data type isn't known"
+        "The name is none of the data types of GSDML. The value is kept as raw bytes of the length that is given beside it; \
+        without a length it takes no room, and what follows may stand elsewhere."
+    GSD013 GSDML_DEFAULT "gsdml-default" Repair Warn
+        "a default isn't written as its data type wants"
+        "Numbers are decimal, octets are written `0x00,0x1F`, a bit is 0 or 1. A hexadecimal number was read; anything else is \
+        kept as text."
+    GSD014 ALLOWED_VALUES "allowed-values" Repair Warn
+        "a part of AllowedValues is no number and no range"
+        "The list has numbers and ranges between blanks: `0..4 7 9`. A range whose last value is less than its first was read \
+        the other way round; any other part was left out."
+    GSD015 RECORD_BOUNDS "record-bounds" Lint Warn
+        "a parameter or constant reaches beyond its record"
+        "The record is shorter than what stands in it. A device refuses a record of another length than it expects."
+    GSD016 PARAMETERS_OVERLAP "parameters-overlap" Lint Warn
+        "two parameters of a record share bits"
+        "Writing one of them changes the other."
+    GSD017 BIT_DATA_ITEM "bit-data-item" Repair Warn
+        "a named bit doesn't go with its data item"
+        "A BitDataItem names a bit of a data item that is used as bits: within its length, and once."
+    GSD018 IO_LENGTH "io-length" Lint Warn
+        "a module has more data than its device exchanges"
+        "MaxInputLength, MaxOutputLength and MaxDataLength count the data of all submodules with their status bytes. A module \
+        that is longer by itself can't be used in the device."
+    GSD019 RECORD_SIZE "record-size" Lint Warn
+        "a record is longer than the device takes"
+        "MaxSupportedRecordSize is the greatest length of a record; where it isn't given, 4068 bytes."
+    GSD020 SLOT_RANGE "slot-range" Lint Warn
+        "a module is for slots that the device doesn't have"
+        "PhysicalSlots lists the slots of a device. Every other slot that a module names is of no use."
+    GSD021 SUBSLOT_TAKEN "subslot-taken" Lint Warn
+        "two submodules are fixed in one subslot"
+        "Built-in submodules have subslots of their own. A VirtualSubmoduleItem that names none is in subslot 1."
+    GSD022 UNUSED_TEXT "unused-text" Lint Allow
+        "nothing refers to a text"
+        "The text is kept as an extension attribute of the catalogue. Tools leave such texts behind, so that this lint is off \
+        unless asked for."
     PDO001 MAPPED_OBJECT_MISSING "mapped-object-missing" Lint Warn
         "a PDO maps an object that doesn't exist"
         "The mapping names an index and sub-index that this file doesn't describe. The field is kept as raw bits."
@@ -444,6 +630,21 @@ codes! {
         "a PDO maps an object whose access doesn't tell the direction"
         "CiA 306 has rwr for objects that go into a TPDO and rww for those that come in an RPDO. Plain rw allows both, \
         and a tool can't tell which of the two the device means."
+    PDO018 DEFAULT_PDOS_CONFLICT "default-pdos-conflict" Lint Warn
+        "two PDOs that exclude each other are both assigned by default"
+        "A PDO with an Sm is assigned by default, and one that it excludes can't be. A master that assigns both gets \
+        an error from the slave. The first one is in the process image by default; the other can be chosen."
+    PDO019 NO_SUCH_SYNC_MANAGER "no-such-sync-manager" Lint Warn
+        "a PDO is assigned to a sync manager that isn't described"
+        "The number is the position of an Sm element, counted from 0. The PDO is no part of the process image by \
+        default."
+    PDO020 EXCLUDED_PDO_MISSING "excluded-pdo-missing" Lint Warn
+        "a PDO excludes one that isn't described"
+        "Exclude names the index of another PDO of the same device or module. There is none with this index, so that \
+        nothing is excluded."
+    PDO021 IMAGE_TOO_LONG "image-too-long" Lint Warn
+        "the PDOs by default are longer than their sync manager"
+        "MaxSize of a sync manager bounds the process data that it carries. A slave refuses what is longer."
     MOD001 MODULE_INDEX_CLASH "module-index-clash" Lint Warn
         "a module's fixed object exists in the device already"
         "The fixed objects of a module get an index of their own; the device describes this one itself, so that one \

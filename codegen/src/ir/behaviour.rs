@@ -164,6 +164,11 @@ impl Binding {
     pub fn canopen(index: u16, sub_index: u8) -> Self {
         Binding::Object { buses: ObjectBuses::CANOPEN, index, sub_index }
     }
+
+    /// An entry of the object dictionary of an EtherCAT slave.
+    pub fn coe(index: u16, sub_index: u8) -> Self {
+        Binding::Object { buses: ObjectBuses::COE, index, sub_index }
+    }
 }
 
 /// Where an item is found on Modbus.

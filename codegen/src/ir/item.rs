@@ -138,6 +138,13 @@ pub struct Group {
     pub links: Vec<u16>,
     /// ObjFlags of the object itself.
     pub flags: u32,
+    /// Whether its index grows with the slot of its module (ETG.2000).
+    pub depends_on_slot: bool,
+    /// Whether its index grows with the slot group of its module (ETG.2000).
+    pub depends_on_slot_group: bool,
+    /// How many of its items the source describes at the object itself (SubItem in Info of ETG.2000); the others follow
+    /// from its type.
+    pub described: u32,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
     /// Contradictions of the source.
@@ -160,6 +167,9 @@ impl Group {
             items: Vec::new(),
             links: Vec::new(),
             flags: 0,
+            depends_on_slot: false,
+            depends_on_slot_group: false,
+            described: 0,
             documentation: None,
             doubts: Vec::new(),
             extensions: Vec::new(),

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     CompactString, Documentation, Extension, Group, Identity, InitCommand, Item, Numbers, Places, ProcessData,
-    SubmoduleUse, Texts, TypeDef,
+    SubmoduleUse, SubslotName, Texts, TypeDef,
 };
 use crate::source::Origin;
 
@@ -97,6 +97,8 @@ pub struct Module {
     pub submodules: Vec<SubmoduleUse>,
     /// Subslots that there are (GSDML, PhysicalSubslots); empty = those of its own submodules.
     pub subslots: Numbers,
+    /// Names of its subslots (GSDML, SubslotList).
+    pub subslot_names: Vec<SubslotName>,
     /// Device profiles that it follows, by number.
     pub profiles: Vec<u32>,
     /// What the source says beyond that.

@@ -16,6 +16,29 @@ pub struct ProcessData {
     pub images: Vec<ProcessImage>,
 }
 
+impl ProcessData {
+    /// The PDOs that are assigned by default, each with its sync manager: outputs first, in the order of the source. Of
+    /// PDOs that exclude each other, and of those of one index, the first one counts (ETG.2000, Sm of RxPdo and TxPdo).
+    pub fn assigned_by_default(&self) -> Vec<(&Pdo, u8)> {
+        let mut assigned: Vec<(&Pdo, u8)> = Vec::new();
+        for direction in [Direction::Receive, Direction::Transmit] {
+            for pdo in self.pdos.iter().filter(|pdo| pdo.direction == direction && !pdo.is_virtual) {
+                let Some(number) = pdo.sync_manager else { continue };
+                let is_free = !assigned.iter().any(|(other, _)| other.conflicts_with(pdo));
+                if is_free && self.has_sync_manager(number) {
+                    assigned.push((pdo, number));
+                }
+            }
+        }
+        assigned
+    }
+
+    /// Whether there is a sync manager with this number. Some descriptions have no list of them at all.
+    pub fn has_sync_manager(&self, number: u8) -> bool {
+        self.sync_managers.is_empty() || self.sync_managers.iter().any(|own| own.number == number)
+    }
+}
+
 /// Direction of cyclic data, seen from the device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -100,6 +123,13 @@ impl Pdo {
             implicit: false,
             origin: Origin::default(),
         }
+    }
+
+    /// Whether the two can't be assigned together: one excludes the other, or they are one PDO described twice.
+    pub fn conflicts_with(&self, other: &Pdo) -> bool {
+        self.mapping_index == other.mapping_index
+            || self.excludes.contains(&other.mapping_index)
+            || other.excludes.contains(&self.mapping_index)
     }
 
     /// Length in bits.

@@ -38,8 +38,38 @@ pub struct ProfinetSettings {
     pub send_clocks: super::Numbers,
     /// Reduction ratios, a power of two.
     pub reduction_ratios: super::Numbers,
-    /// Further attributes, as the source spells them.
+    /// Slots in which the device access point itself may or has to be.
+    pub places: Places,
+    /// Names of its subslots (`SubslotList`).
+    pub subslot_names: Vec<SubslotName>,
+    /// What a controller may send when it connects (`ARVendorBlock`).
+    pub vendor_blocks: Vec<VendorBlock>,
+    /// Further attributes, as the source spells them; those of an element within it as `Element@Attribute`.
     pub attributes: Vec<(CompactString, CompactString)>,
+}
+
+/// The name of a subslot.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SubslotName {
+    /// Its number.
+    pub number: u16,
+    /// Its name.
+    pub name: CompactString,
+    /// The name in other languages.
+    pub names: Texts,
+}
+
+/// A block of a vendor's data in the request that opens an application relation (`Request` of `ARVendorBlock`).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct VendorBlock {
+    /// API number.
+    pub api: u32,
+    /// Structure identifier (`APStructureIdentifier`).
+    pub identifier: u16,
+    /// Its fields, as those of a record whose index is the structure identifier.
+    pub record: Group,
+    /// Menus of an engineering tool.
+    pub menus: Vec<Menu>,
 }
 
 /// Greatest lengths of the data that a device access point exchanges (`IOConfigData`), in bytes.
@@ -116,8 +146,31 @@ pub struct IoData {
     pub image: ProcessImage,
     /// Whether all items have to be consistent with each other.
     pub consistent: bool,
+    /// Data items that aren't one field of the image each, in their order; every other field is a data item.
+    pub items: Vec<IoItem>,
     /// Channels (V2.45), by number.
     pub channels: Vec<IoChannel>,
+}
+
+/// A data item that became several fields (bits, a value with its status), or none (an F message trailer).
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct IoItem {
+    /// Its name.
+    pub name: CompactString,
+    /// The name in other languages.
+    pub names: Texts,
+    /// Its data type, as the source spells it.
+    pub data_type: CompactString,
+    /// First bit, counted from the start of the data.
+    pub bit_offset: u32,
+    /// Number of bits.
+    pub bits: u32,
+    /// Position of its first field in the image.
+    pub first_field: u32,
+    /// Number of its fields, padding included.
+    pub fields: u32,
+    /// Whether it belongs to the item before it (`Subordinate`).
+    pub subordinate: bool,
 }
 
 /// A channel of V2.45: which bits belong to it, and which bits tell their quality.
@@ -209,8 +262,14 @@ pub struct UnitDiagnosis {
     pub identifier: u16,
     /// Its name.
     pub name: CompactString,
-    /// Its fields; the binding of each tells the bits.
+    /// The name in other languages.
+    pub names: Texts,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+    /// Its fields.
     pub fields: Vec<UnitDiagnosisField>,
+    /// What the source says beyond that.
+    pub extensions: Vec<Extension>,
     /// Where it is declared.
     pub origin: Origin,
 }
@@ -220,6 +279,8 @@ pub struct UnitDiagnosis {
 pub struct UnitDiagnosisField {
     /// Its name.
     pub name: CompactString,
+    /// The name in other languages.
+    pub names: Texts,
     /// First bit, counted from the first of the structure.
     pub bit_offset: u32,
     /// Number of bits.
@@ -228,4 +289,6 @@ pub struct UnitDiagnosisField {
     pub ty: super::Type,
     /// The enumeration of its values, where it has one.
     pub values: Option<TypeId>,
+    /// The value that it has where the structure is meant, or by default.
+    pub default: Option<super::Value>,
 }

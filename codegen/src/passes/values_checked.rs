@@ -45,10 +45,25 @@ fn limits(item: &Item, diagnostics: &mut Diagnostics) {
         let (relation, limit, at) = match (below, above) {
             (Some(low), _) => ("below the lower", low, item.at.low),
             (_, Some(high)) => ("above the upper", high, item.at.high),
-            _ => continue,
+            _ => {
+                if !is_allowed(value, &item.limits.allowed) {
+                    let message = format!("the {what} {value} is none of the allowed values");
+                    report(diagnostics, span.or(item.origin.span), message, item.at.low);
+                }
+                continue;
+            }
         };
         report(diagnostics, span.or(item.origin.span), format!("the {what} {value} is {relation} limit {limit}"), at);
     }
+}
+
+/// Whether a number is in one of the ranges, where there are any.
+fn is_allowed(value: &Value, allowed: &[(Value, Value)]) -> bool {
+    let within = |(first, last): &(Value, Value)| {
+        compare(first, value).is_none_or(|order| order != Ordering::Greater)
+            && compare(value, last).is_none_or(|order| order != Ordering::Greater)
+    };
+    allowed.is_empty() || allowed.iter().any(within)
 }
 
 fn report(diagnostics: &mut Diagnostics, span: Span, message: String, limit: Span) {

@@ -6,6 +6,7 @@
 // Each test is a program of its own and uses its part of this module.
 #![allow(dead_code)]
 
+pub mod bindings;
 pub mod number;
 pub mod reading;
 
@@ -29,9 +30,14 @@ impl File {
     }
 }
 
-/// Where the corpus is, if it is there.
+/// Where the corpus of CANopen files is, if it is there.
 pub fn folder() -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus/eds");
+    folder_of("eds")
+}
+
+/// Where the files of a format are: `eds`, `esi` or `gsdml`.
+pub fn folder_of(format: &str) -> Option<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus").join(format);
     if folder.is_dir() {
         return Some(folder);
     }
@@ -39,9 +45,24 @@ pub fn folder() -> Option<PathBuf> {
     None
 }
 
-/// Every description of the corpus, sorted by name; `None`, with a message, where it isn't there.
+/// Every CANopen description of the corpus, sorted by name; `None`, with a message, where it isn't there.
 pub fn files() -> Option<Vec<File>> {
-    let mut paths: Vec<PathBuf> = std::fs::read_dir(folder()?)
+    let files = files_of("eds")?;
+    assert!(files.len() >= 285, "only {} files are in the corpus", files.len());
+    Some(files)
+}
+
+/// Every description of all formats.
+pub fn all_files() -> Option<Vec<File>> {
+    let lists: Option<Vec<Vec<File>>> = ["eds", "esi", "gsdml"].into_iter().map(files_of).collect();
+    let files: Vec<File> = lists?.into_iter().flatten().collect();
+    assert!(files.len() >= 500, "only {} files are in the corpus", files.len());
+    Some(files)
+}
+
+/// The descriptions of one format.
+pub fn files_of(format: &str) -> Option<Vec<File>> {
+    let mut paths: Vec<PathBuf> = std::fs::read_dir(folder_of(format)?)
         .expect("the corpus is readable")
         .map(|entry| entry.expect("an entry of the corpus").path())
         .collect();
@@ -51,7 +72,6 @@ pub fn files() -> Option<Vec<File>> {
         .filter(|path| !path.ends_with("MANIFEST.tsv") && !path.ends_with("oracle.json"))
         .map(|path| File { name: name(path), bytes: std::fs::read(path).expect("a file of the corpus") })
         .collect();
-    assert!(files.len() >= 285, "only {} files are in the corpus", files.len());
     Some(files)
 }
 

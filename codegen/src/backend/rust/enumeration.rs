@@ -18,6 +18,8 @@ pub(super) struct EnumerationModel {
     pub base: &'static str,
     /// The type of its numbers: `u8`.
     pub native: &'static str,
+    /// The integer below.
+    pub ty: Type,
     /// Length in bits.
     pub bits: u32,
     pub variants: Vec<VariantModel>,
@@ -90,6 +92,7 @@ fn model(scope: &Scope<'_>, position: u32, name: String, options: &RustOptions) 
         derives: options.derives(true),
         base: path,
         native,
+        ty: base,
         bits: base.bits()?,
         variants: variants(&values),
         name,

@@ -2,7 +2,7 @@
 //!
 //! The template writes every construct on one line and marks where it may be broken: `«` and `»` enclose a group,
 //! `¦` separates its members, and `¬` stands where `prettyplease` could break a line but never does. A group that doesn't fit the line has each member on a line of its own, with a comma behind
-//! each. As in Oppen's algorithm, what follows a group up to the next place for a break has to fit, too. The marks are
+//! each. `‡` is a blank, or the start of a further line where what follows doesn't fit. As in Oppen's algorithm, what follows a group up to the next place for a break has to fit, too. The marks are
 //! taken out of everything that comes from a description before it gets here.
 
 /// The greatest width of a line, in bytes as `prettyplease` counts.
@@ -12,13 +12,14 @@ const OPEN: char = '«';
 const CLOSE: char = '»';
 const NEXT: char = '¦';
 const STOP: char = '¬';
+const SOFT: char = '‡';
 
 /// `text` with its marks carried out.
 pub(super) fn fit(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + text.len() / 16);
     for line in text.split_inclusive('\n') {
         let is_comment = line.trim_start().starts_with("//");
-        if is_comment || memchr::memchr(0xC2, line.as_bytes()).is_none() || !line.contains(OPEN) {
+        if is_comment || memchr::memchr(0xC2, line.as_bytes()).is_none() || !line.contains([OPEN, SOFT]) {
             out.push_str(line);
         } else {
             break_line(line, &mut out);
@@ -50,6 +51,8 @@ enum Token<'a> {
     Close,
     /// A place for a break that is never used, but ends the look ahead.
     Stop,
+    /// A blank in front of an operator.
+    Soft,
 }
 
 fn tokenize(line: &str) -> Vec<Token<'_>> {
@@ -63,7 +66,7 @@ fn tokenize(line: &str) -> Vec<Token<'_>> {
         }
         // `\\` is a backslash, and not the escape of what follows.
         previous = if previous == '\\' && letter == '\\' { ' ' } else { letter };
-        if in_string || !matches!(letter, OPEN | CLOSE | NEXT | STOP) {
+        if in_string || !matches!(letter, OPEN | CLOSE | NEXT | STOP | SOFT) {
             continue;
         }
         if at > start {
@@ -73,6 +76,7 @@ fn tokenize(line: &str) -> Vec<Token<'_>> {
             OPEN => Token::Open,
             CLOSE => Token::Close,
             STOP => Token::Stop,
+            SOFT => Token::Soft,
             _ => Token::Next,
         });
         start = at + letter.len_utf8();
@@ -102,6 +106,15 @@ impl Printer<'_, '_> {
         match &self.tokens[at] {
             Token::Text(text) => self.text(text),
             Token::Stop => {}
+            Token::Soft => {
+                if !parent_fits && self.column + 1 + self.width(at + 1) > MARGIN {
+                    self.indent += 4;
+                    self.newline();
+                    self.indent -= 4;
+                } else {
+                    self.text(" ");
+                }
+            }
             Token::Open => {
                 let breaks = !parent_fits && self.column + self.width(at) > MARGIN;
                 self.broken.push(breaks);
@@ -149,8 +162,9 @@ impl Printer<'_, '_> {
                 Token::Open => depth += 1,
                 // Behind the group, a separator or the end of the group around it.
                 Token::Next if depth == 0 => return width + 1,
-                Token::Close | Token::Stop if depth == 0 => return width,
+                Token::Close | Token::Stop | Token::Soft if depth == 0 => return width,
                 Token::Stop => {}
+                Token::Soft => width += 1,
                 Token::Next => width += 2,
                 Token::Close => depth -= 1,
             }
@@ -176,6 +190,12 @@ mod tests {
         assert_eq!(
             fit(&format!("    {name}(«aaaaaaaa¦ f(«b»)»);\n")),
             format!("    {name}(\n        aaaaaaaa,\n        f(b),\n    );\n")
+        );
+        assert_eq!(fit(&format!("{name}: get(«a¦ b»)‡as u32,\n")), format!("{name}: get(a, b) as u32,\n"));
+        let long = format!("{name}{name}");
+        assert_eq!(
+            fit(&format!("{}: get(«a»)‡as u32,\n", &long[..75])),
+            format!("{}: get(a)\n    as u32,\n", &long[..75])
         );
         let line = format!("fn {name}(«&mut self») -> f<«u8»> {{\n");
         assert_eq!(fit(&line), format!("fn {name}(\n    &mut self,\n) -> f<u8> {{\n"));

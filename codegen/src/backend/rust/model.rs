@@ -98,6 +98,17 @@ pub(super) struct ItemModel {
     pub real: bool,
 }
 
+impl ItemModel {
+    /// The expression that joins a handle to the device's client. A long name would break the chain of calls.
+    pub(super) fn at_client(&self) -> String {
+        const LONG: usize = 48;
+        match self.constant.len() > LONG {
+            true => format!("rt::Item::at(«objects::{}¦ &mut self.client»)", self.constant),
+            false => format!("objects::{}.at(&mut self.client)", self.constant),
+        }
+    }
+}
+
 /// A short name of the handles with one access.
 pub(super) struct Alias {
     pub name: &'static str,
@@ -166,7 +177,7 @@ impl<'a> Model<'a> {
         model.device_name = device_name(device, file, options.device_name.as_deref());
         model.title = docs::escape(&title);
         model.identity = (!device.dictionary_only).then(|| IdentityModel::new(device));
-        model.has_accessors = options.accessors && !model.objects.is_empty();
+        model.has_accessors = options.accessors && !model.objects.is_empty() && has_object_access(device);
         model.ethercat = EtherCatModel::new(device, &model.pdos, &place.modules, place.nest);
         model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);
         model
@@ -216,6 +227,13 @@ impl<'a> Model<'a> {
         let items: usize = self.objects.iter().map(|object| object.items.len()).sum();
         4096 + items * 900 + self.pdos.len() * 4096 + self.table.as_ref().map_or(0, |table| table.len() * 400)
     }
+}
+
+/// Whether a client can reach the objects: those that PDOs prove of a slave without CoE are nowhere but in its PDOs.
+fn has_object_access(device: &Device) -> bool {
+    let Some(ethercat) = &device.ethercat else { return true };
+    let coe = ethercat.mailbox.as_ref().is_some_and(|mailbox| mailbox.coe.is_some());
+    coe || device.groups.iter().any(|group| group.origin.line > 0)
 }
 
 /// The file's own name, without the folders that lead to it on this machine.
@@ -394,8 +412,10 @@ fn heading(name: &str, address: &str) -> String {
 /// `outer` leads from the handle's place to the device's.
 fn item(scope: &Scope<'_>, item: &Item, name: &str, original: &str, outer: &str) -> ItemModel {
     let (index, sub) = item.object().unwrap_or((0, 0));
-    let ty = scope.value_type(item.ty);
-    let named = scope.enumeration(item.ty).map(|named| named.name.as_str());
+    let named = scope.enumeration(item.ty);
+    // The number below an enumeration may be a truth value, which its code writes as one bit.
+    let ty = named.map_or_else(|| scope.value_type(item.ty), |named| ValueType::of(named.ty));
+    let named = named.map(|named| named.name.as_str());
     let path = |outer: &str| match named {
         Some(name) => format!("{outer}types::{name}"),
         None => ty.path().to_owned(),
@@ -423,9 +443,12 @@ fn constructor(scope: &Scope<'_>, item: &Item, ty: ValueType, name: &str, named:
         None => literal,
     };
     let (range, flags) = (ty.range_as(&item.limits, &wrap), flags(item));
-    let initial = ty.initial_as(item.default.as_ref(), &wrap);
+    // A truth value is the number of an enumeration.
+    let number = item.default.as_ref().filter(|_| named.is_some()).and_then(Value::as_int).map(Value::Int);
+    let default = number.as_ref().or(item.default.as_ref());
+    let initial = ty.initial_as(default, &wrap);
     // Byte strings have the type of an array, which only a conversion of its own turns into a slice.
-    let literal = item.default.as_ref().and_then(|value| ty.literal(value));
+    let literal = default.and_then(|value| ty.literal(value));
     let literal = literal.filter(|_| !matches!(ty, ValueType::Bytes(_))).map(wrap);
     let is_plain = range == "rt::Range::Full" && unit.is_empty();
     let address = format!("0x{index:04X}¦ 0x{sub:02X}¦ {name}");

@@ -172,10 +172,12 @@ fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry]) -> Vec<FieldModel> {
     let names = names_unique::unique_up_to(&wishes, &["self", "super", "crate"], Case::Snake, MAX_FIELD_NAME);
     let fields = mapped.iter().zip(&names).zip(&texts);
     let mut fields: Vec<FieldModel> = fields.map(|((entry, name), text)| field(scope, entry, name, text)).collect();
-    // A method called `new` makes the view, and a field may be called as the setter of another.
+    // Methods called `new` and `at` make the view, and a field may be called as the setter of another.
     for (field, name) in fields.iter_mut().zip(&names) {
-        field.getter = if name == "new" { "new_".to_owned() } else { field.name.clone() };
-        field.setter = beside(&names, format!("set_{name}"));
+        let makes_view = name == "new" || name == "at";
+        field.getter = if makes_view { format!("{name}_") } else { field.name.clone() };
+        // A name that starts with a digit has a line in front of it already.
+        field.setter = beside(&names, format!("set_{}", name.trim_start_matches('_')));
     }
     fields
 }
@@ -359,9 +361,15 @@ impl FieldModel {
 
     /// The decoding of `bits`, with marks where a long line may be broken.
     fn decode_marked(&self, bits: &str) -> String {
+        if self.decode == "§ & 1 == 1" {
+            return format!("{bits}‡!= 0");
+        }
+        if let Some(ty) = self.decode.strip_prefix("§ as ") {
+            return format!("{bits}‡as {ty}");
+        }
         match self.decode.split_once('(') {
             Some((path, rest)) => match rest.strip_suffix(')') {
-                Some(inner) => format!("{path}(«{}»)", inner.replace('§', bits)),
+                Some(inner) => format!("{path}(«{}»)", inner.replace(" as ", "‡as ").replace('§', bits)),
                 None => self.decode.replace('§', bits),
             },
             None => self.decode.replace('§', bits),

@@ -3,7 +3,7 @@
 use super::Assigned;
 use crate::backend::rust::docs;
 use crate::backend::rust::pdo::PdoModel;
-use crate::ir::{Device, Direction};
+use crate::ir::Direction;
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// The data of a sync manager.
@@ -44,16 +44,19 @@ pub(in super::super) struct ImageField {
     pub length: usize,
 }
 
-pub(super) fn models(device: &Device, pdos: &[PdoModel], assigned: &[Assigned<'_>]) -> Vec<ImageModel> {
+pub(super) fn models(pdos: &[PdoModel], assigned: &[Assigned<'_>]) -> Vec<ImageModel> {
     let mut images = Vec::new();
-    for own in &device.process_data.sync_managers {
-        let inside: Vec<&Assigned<'_>> = assigned.iter().filter(|one| one.sync_manager == own.number).collect();
+    let mut numbers: Vec<u8> = assigned.iter().map(|one| one.sync_manager).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    for number in numbers {
+        let inside: Vec<&Assigned<'_>> = assigned.iter().filter(|one| one.sync_manager == number).collect();
         let Some(first) = inside.first() else { continue };
         let kind = match first.pdo.direction {
             Direction::Receive => "Outputs",
             Direction::Transmit => "Inputs",
         };
-        if let Some(image) = model(kind, own.number, &inside, pdos) {
+        if let Some(image) = model(kind, number, &inside, pdos) {
             images.push(image);
         }
     }

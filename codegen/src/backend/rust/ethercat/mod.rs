@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use super::data::Data;
 use super::literal;
 use super::pdo::PdoModel;
-use crate::ir::{ClockMode, ClockTime, Device, Direction, EtherCatSettings, Fmmu, Module, ModuleId, Pdo};
+use crate::ir::{ClockMode, ClockTime, Device, EtherCatSettings, Fmmu, Module, ModuleId, Pdo};
 
 pub(super) use image::{beside, ImageModel};
 
@@ -39,7 +39,7 @@ fn constant(data: &Data, name: &str, ty: &str, nest: usize) -> String {
 
 impl EtherCatModel {
     pub(super) fn new(device: &Device, pdos: &[PdoModel], modules: &ModulePaths, nest: usize) -> Option<Self> {
-        let settings = device.ethercat.as_deref()?;
+        let settings = device.ethercat.as_deref().filter(|_| !device.dictionary_only)?;
         let assigned = assigned_by_default(device);
         let descriptor = descriptor::device(device, settings, pdos, modules, &assigned);
         let column = "pub static DEVICE: rt::ethercat::Device = ".len();
@@ -56,7 +56,7 @@ impl EtherCatModel {
             }),
             startup: list(startup::commands(device, settings, &assigned), "STARTUP", "&[rt::SdoWrite]"),
             bytes: bytes(settings),
-            images: image::models(device, pdos, &assigned),
+            images: image::models(pdos, &assigned),
         })
     }
 }
@@ -73,23 +73,9 @@ pub(super) struct Assigned<'a> {
     pub sync_manager: u8,
 }
 
-/// The PDOs that name a sync manager, outputs first. Of two that exclude each other the first one counts.
 fn assigned_by_default(device: &Device) -> Vec<Assigned<'_>> {
-    let mut assigned: Vec<Assigned<'_>> = Vec::new();
-    for direction in [Direction::Receive, Direction::Transmit] {
-        for pdo in device.process_data.pdos.iter().filter(|pdo| pdo.direction == direction && !pdo.is_virtual) {
-            let excluded = assigned.iter().any(|other| {
-                other.pdo.mapping_index == pdo.mapping_index
-                    || other.pdo.excludes.contains(&pdo.mapping_index)
-                    || pdo.excludes.contains(&other.pdo.mapping_index)
-            });
-            let carries = |number: &u8| device.process_data.sync_managers.iter().any(|own| own.number == *number);
-            if let Some(sync_manager) = pdo.sync_manager.filter(carries).filter(|_| !excluded) {
-                assigned.push(Assigned { pdo, sync_manager });
-            }
-        }
-    }
-    assigned
+    let assigned = device.process_data.assigned_by_default();
+    assigned.into_iter().map(|(pdo, sync_manager)| Assigned { pdo, sync_manager }).collect()
 }
 
 fn fmmu(fmmu: &Fmmu) -> Data {

@@ -1,0 +1,223 @@
+//! Modules, submodules and device access points as constant data.
+
+use super::docs;
+use super::f_record::{self, FRecordModel};
+use super::image::{self, ImageModel};
+use super::literal;
+use super::record::{self, RecordModel};
+use super::scope::{AccessPoint, Scope};
+use crate::ir::{Direction, IoData, Module, ModuleUse, Numbers, Places, Submodule, SubmoduleUse};
+
+/// A submodule, ready to be written.
+pub(super) struct SubmoduleModel<'a> {
+    pub name: &'a str,
+    pub docs: Vec<String>,
+    pub ident: u32,
+    pub api: u32,
+    pub title: String,
+    pub input_len: String,
+    pub output_len: String,
+    pub provider_len: u8,
+    pub consumer_len: u8,
+    pub images: Vec<ImageModel>,
+    pub records: Vec<RecordModel>,
+    pub f_record: Option<FRecordModel>,
+    /// Elements of the list of records, in the order of transfer.
+    pub record_list: String,
+    /// Whether a field is an enumeration.
+    pub uses_values: bool,
+}
+
+pub(super) fn submodule<'s>(scope: &'s Scope<'_>, submodule: &'s Submodule, name: &'s str) -> SubmoduleModel<'s> {
+    let directions = [Direction::Transmit, Direction::Receive].into_iter();
+    let images = directions.filter_map(|direction| image::model(submodule, direction, &scope.values, scope.options));
+    let images: Vec<ImageModel> = images.collect();
+    let records = record::models(&submodule.records, &scope.values, scope.options);
+    let f_record = submodule.f_parameters.as_deref().map(f_record::model);
+    let types = images.iter().flat_map(|image| &image.fields).chain(records.iter().flat_map(|record| &record.fields));
+    let constants = records.iter().flat_map(|record| &record.constants).map(|constant| &constant.ty);
+    let uses_values = types.map(|field| &field.ty).chain(constants).any(|ty| ty.starts_with("values::"));
+    SubmoduleModel {
+        name,
+        docs: submodule_docs(submodule),
+        ident: submodule.ident,
+        api: submodule.api,
+        title: literal::string(&submodule.name),
+        input_len: length(submodule.input.as_deref()),
+        output_len: length(submodule.output.as_deref()),
+        provider_len: submodule.status_lengths.0,
+        consumer_len: submodule.status_lengths.1,
+        record_list: record_list(&records, f_record.as_ref()),
+        images,
+        records,
+        f_record,
+        uses_values,
+    }
+}
+
+fn submodule_docs(submodule: &Submodule) -> Vec<String> {
+    let api = if submodule.api == 0 { String::new() } else { format!(" of API 0x{:04X}", submodule.api) };
+    let mut lines = vec![docs::titled(&submodule.name, &format!("submodule 0x{:08X}{api}", submodule.ident))];
+    docs::paragraphs(&submodule.name, submodule.documentation.as_deref(), &mut lines);
+    let too_long = submodule.records.iter().filter(|group| match &group.kind {
+        crate::ir::GroupKind::Record(record) => !(1..=record::MAX_LENGTH).contains(&record.length),
+        _ => false,
+    });
+    let too_long = too_long.count();
+    if too_long > 0 {
+        let text = format!("{too_long} records without bytes, or of more than 65,535, are left out.");
+        lines.extend([String::new(), text]);
+    }
+    lines
+}
+
+/// Length of the data, an F message trailer included.
+fn length(data: Option<&IoData>) -> String {
+    let Some(data) = data else { return "None".to_owned() };
+    let length = u64::from(data.image.length) + u64::from(data.image.overhead);
+    format!("Some({})", length.min(u64::from(u16::MAX)))
+}
+
+/// By their transfer sequence; 0 leaves the order open, and comes last.
+fn record_list(records: &[RecordModel], f_record: Option<&FRecordModel>) -> String {
+    let element = |index: u16, sequence: u16, title: &str, data: &str| {
+        let call = format!("rt::profinet::Record::new(«0x{index:04X}¦ {sequence}¦ {title}¦ &{data}»)");
+        (if sequence == 0 { u16::MAX } else { sequence }, call)
+    };
+    let own = records.iter().map(|record| {
+        let data = format!("{}::DEFAULT_BYTES", record.name);
+        element(record.index, record.transfer_sequence, &record.title, &data)
+    });
+    let safe = f_record
+        .map(|record| element(record.index, record.transfer_sequence, "\"F-parameters\"", "F_PARAMETERS_DEFAULT"));
+    let mut list: Vec<(u16, String)> = safe.into_iter().chain(own).collect();
+    list.sort_by_key(|(sequence, _)| *sequence);
+    list.into_iter().map(|(_, call)| call).collect::<Vec<_>>().join("¦ ")
+}
+
+/// A module, ready to be written.
+pub(super) struct ModuleModel<'a> {
+    pub name: &'a str,
+    pub docs: Vec<String>,
+    pub ident: u32,
+    pub title: String,
+    pub submodules: String,
+    pub subslots: String,
+}
+
+pub(super) fn module<'s>(scope: &'s Scope<'_>, module: &'s Module, name: &'s str) -> ModuleModel<'s> {
+    let mut docs = vec![docs::titled(&module.name, &format!("module 0x{:08X}", module.number))];
+    docs::paragraphs(&module.name, module.documentation.as_deref(), &mut docs);
+    list_submodules(scope, &module.submodules, &mut docs);
+    ModuleModel {
+        name,
+        docs,
+        ident: module.number,
+        title: literal::string(&module.name),
+        submodules: submodule_uses(scope, &module.submodules, "super::super::"),
+        subslots: numbers(&module.subslots),
+    }
+}
+
+/// A device access point, ready to be written.
+pub(super) struct DapModel<'a> {
+    pub name: &'a str,
+    pub docs: Vec<String>,
+    /// What the comments call it.
+    pub heading: String,
+    pub vendor_id: u16,
+    pub device_id: u16,
+    pub slot: u16,
+    pub ident: u32,
+    pub title: String,
+    pub vendor_name: String,
+    pub order_code: String,
+    pub submodules: String,
+    pub slots: String,
+    pub modules: String,
+    pub max_lengths: [String; 3],
+    pub max_record_size: u32,
+}
+
+pub(super) fn access_point<'s>(scope: &'s Scope<'_>, point: &'s AccessPoint<'_>) -> DapModel<'s> {
+    let AccessPoint { device, settings, name } = point;
+    let outer = if scope.is_single() { "" } else { "super::" };
+    let facts = format!("device access point 0x{:08X}", settings.ident);
+    let mut docs = vec![docs::titled(&device.name, &facts)];
+    docs::paragraphs(&device.name, device.documentation.as_deref(), &mut docs);
+    let lengths = settings.max_lengths;
+    let fixed = settings.places.fixed.iter().next();
+    let slot = fixed.or_else(|| settings.places.allowed.iter().next()).unwrap_or(0);
+    DapModel {
+        name,
+        docs,
+        heading: docs::titled(&device.name, &facts),
+        vendor_id: device.identity.vendor_id.map_or(0, |id| (id & 0xFFFF) as u16),
+        device_id: settings.device_id,
+        slot,
+        ident: settings.ident,
+        title: literal::string(&device.name),
+        vendor_name: literal::string(&device.identity.vendor_name),
+        order_code: literal::string(&device.identity.order_code),
+        submodules: submodule_uses(scope, &device.submodules, outer),
+        slots: numbers(&settings.slots),
+        modules: module_uses(scope, &device.modules, outer),
+        max_lengths: [lengths.input, lengths.output, lengths.data].map(option),
+        max_record_size: settings.max_record_size,
+    }
+}
+
+fn option(value: Option<u16>) -> String {
+    value.map_or_else(|| "None".to_owned(), |value| format!("Some({value})"))
+}
+
+fn list_submodules(scope: &Scope<'_>, uses: &[SubmoduleUse], docs: &mut Vec<String>) {
+    let mut named = uses.iter().filter_map(|usage| Some((usage, scope.submodules.get(&usage.submodule.0)?))).peekable();
+    if named.peek().is_none() {
+        return;
+    }
+    docs.push(String::new());
+    for (usage, (_, name)) in named {
+        let built_in = if usage.places.fixed.is_empty() { "can be plugged in" } else { "built in" };
+        docs.push(format!("- [`{name}`](super::super::submodules::{name}), {built_in}"));
+    }
+}
+
+fn submodule_uses(scope: &Scope<'_>, uses: &[SubmoduleUse], outer: &str) -> String {
+    let element = |usage: &SubmoduleUse| {
+        let (_, name) = scope.submodules.get(&usage.submodule.0)?;
+        let place = places(&usage.places);
+        Some(format!("rt::profinet::SubmoduleUse::new(«&{outer}submodules::{name}::SUBMODULE¦ {place}»)"))
+    };
+    uses.iter().filter_map(element).collect::<Vec<_>>().join("¦ ")
+}
+
+fn module_uses(scope: &Scope<'_>, uses: &[ModuleUse], outer: &str) -> String {
+    let element = |usage: &ModuleUse| {
+        let (_, name) = scope.modules.get(&usage.module.0)?;
+        let place = places(&usage.places);
+        Some(format!("rt::profinet::ModuleUse::new(«&{outer}modules::{name}::MODULE¦ {place}»)"))
+    };
+    uses.iter().filter_map(element).collect::<Vec<_>>().join("¦ ")
+}
+
+fn places(places: &Places) -> String {
+    let Places { allowed, fixed, used } = places;
+    match (allowed.is_empty(), fixed.is_empty(), used.is_empty()) {
+        (true, false, true) => format!("rt::profinet::Places::fixed(«&[«{}»]»)", numbers(fixed)),
+        (false, true, true) => format!("rt::profinet::Places::allowed(«&[«{}»]»)", numbers(allowed)),
+        _ => format!(
+            "rt::profinet::Places::new(«&[«{}»]¦ &[«{}»]¦ &[«{}»]»)",
+            numbers(allowed),
+            numbers(fixed),
+            numbers(used)
+        ),
+    }
+}
+
+fn numbers(numbers: &Numbers) -> String {
+    // Subslots of interfaces and ports are known by their hexadecimal numbers.
+    let number = |number: u16| if number < 0x8000 { number.to_string() } else { format!("0x{number:04X}") };
+    let range = |&(first, last): &(u16, u16)| format!("({}, {})", number(first), number(last));
+    numbers.0.iter().map(range).collect::<Vec<_>>().join("¦ ")
+}

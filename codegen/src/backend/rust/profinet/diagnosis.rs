@@ -1,0 +1,132 @@
+//! Channel diagnosis and user structures.
+
+use std::collections::BTreeMap;
+
+use super::docs;
+use super::field::{Field, Use};
+use super::image::{self, FieldModel};
+use super::literal;
+use super::values::Values;
+use super::RustOptions;
+use crate::ir::{Catalog, CodeRow, Type, UnitDiagnosis, Value};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// The longest user structure that becomes a struct: that of an alarm lies far below.
+const MAX_LENGTH: u32 = 0xFFFF;
+
+/// The table of errors in the IR.
+const ERRORS: &str = "channel_diagnosis";
+
+/// The table of extended errors; their first cell is the error type that they belong to.
+const EXTENDED: &str = "extended_channel_diagnosis";
+
+/// The errors of channels that the source names, as elements of a table: each by its type once.
+pub(super) fn channel_errors(catalog: &Catalog) -> Vec<String> {
+    let rows = |name: &'static str| {
+        catalog.code_tables.iter().filter(move |table| table.name == name).flat_map(|table| &table.rows)
+    };
+    let mut extended: BTreeMap<u16, BTreeMap<u16, &CodeRow>> = BTreeMap::new();
+    for row in rows(EXTENDED) {
+        let parent = row.cells.first().and_then(Value::as_int).and_then(|parent| u16::try_from(parent).ok());
+        if let (Some(parent), Ok(code)) = (parent, u16::try_from(row.code)) {
+            extended.entry(parent).or_default().entry(code).or_insert(row);
+        }
+    }
+    let mut errors: BTreeMap<u16, Option<&CodeRow>> = extended.keys().map(|&code| (code, None)).collect();
+    for row in rows(ERRORS) {
+        if let Ok(code) = u16::try_from(row.code) {
+            errors.entry(code).or_default().get_or_insert(row);
+        }
+    }
+    let none = BTreeMap::new();
+    errors.iter().map(|(code, row)| error(*code, *row, extended.get(code).unwrap_or(&none))).collect()
+}
+
+fn error(code: u16, row: Option<&CodeRow>, extended: &BTreeMap<u16, &CodeRow>) -> String {
+    let (name, help) = row.map_or(("\"\"".to_owned(), "\"\"".to_owned()), texts);
+    let extended: Vec<String> = extended
+        .iter()
+        .map(|(code, row)| {
+            let (name, help) = texts(row);
+            format!("rt::profinet::ExtendedError::new(«0x{code:04X}¦ {name}¦ {help}»)")
+        })
+        .collect();
+    format!("rt::profinet::ChannelError::new(«0x{code:04X}¦ {name}¦ {help}¦ &[«{}»]»)", extended.join("¦ "))
+}
+
+fn texts(row: &CodeRow) -> (String, String) {
+    let help = row.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
+    (literal::string(&row.name), literal::string(help))
+}
+
+/// A user structure, ready to be written.
+pub(super) struct UnitModel {
+    pub name: String,
+    pub docs: Vec<String>,
+    pub derives: Vec<String>,
+    pub api: u32,
+    pub identifier: u16,
+    pub length: u32,
+    pub fields: Vec<FieldModel>,
+}
+
+/// User structures that have fields.
+pub(super) fn units(catalog: &Catalog, values: &Values<'_>, options: &RustOptions) -> Vec<UnitModel> {
+    let units: Vec<&UnitDiagnosis> = catalog.unit_diagnoses.iter().filter(|unit| length(unit).is_some()).collect();
+    let wishes: Vec<Wish<'_>> = units
+        .iter()
+        .map(|unit| Wish {
+            name: &unit.name,
+            fallback: format!("structure {:04X}", unit.identifier),
+            suffix: format!("{:04X}", unit.identifier),
+        })
+        .collect();
+    let names = names_unique::unique_up_to(&wishes, &[], Case::Pascal, 40);
+    let models = units.iter().zip(names).map(|(unit, name)| unit_model(unit, name, values, options));
+    models.filter(|model| !model.fields.is_empty()).collect()
+}
+
+/// The bytes up to the end of the last field.
+fn length(unit: &UnitDiagnosis) -> Option<u32> {
+    let ends = unit.fields.iter().map(|field| u64::from(field.bit_offset) + u64::from(field.bits));
+    let length = u32::try_from(ends.max()?.div_ceil(8)).ok()?;
+    (1..=MAX_LENGTH).contains(&length).then_some(length)
+}
+
+fn unit_model(unit: &UnitDiagnosis, name: String, values: &Values<'_>, options: &RustOptions) -> UnitModel {
+    let length = length(unit).unwrap_or(0);
+    let found: Vec<_> = unit
+        .fields
+        .iter()
+        .filter_map(|field| {
+            let ty = field.values.map_or(field.ty, Type::Named);
+            Some((field, Field::new(values, ty, (field.bit_offset, field.bits), length, Use::Record)?))
+        })
+        .collect();
+    let wishes: Vec<Wish<'_>> = found.iter().map(|(entry, field)| image::wish(&entry.name, field)).collect();
+    let names = names_unique::unique_up_to(&wishes, &["self", "super", "crate"], Case::Snake, 30);
+    let fields = found.iter().zip(names).map(|((entry, field), name)| {
+        let facts = field.facts(values.types, entry.ty);
+        FieldModel::new(field, &name, vec![docs::titled(&entry.name, &facts)], options)
+    });
+    let facts = format!("user structure 0x{:04X} of {}", unit.identifier, docs::bytes(length));
+    let mut lines = vec![docs::titled(&unit.name, &facts)];
+    docs::paragraphs(&unit.name, unit.documentation.as_deref(), &mut lines);
+    UnitModel {
+        name: format!("{name}Diagnosis"),
+        docs: lines,
+        derives: options.derives(true),
+        api: unit.api,
+        identifier: unit.identifier,
+        length,
+        fields: fields.collect(),
+    }
+}
+
+impl UnitModel {
+    /// The struct from the array `data`.
+    pub(super) fn decoded(&self) -> Vec<String> {
+        let fields: Vec<_> = self.fields.iter().map(|field| (field.name.clone(), field.read.clone())).collect();
+        image::literal("Ok(", &fields, ")")
+    }
+}

@@ -1,0 +1,116 @@
+//! The F-parameter record of PROFIsafe.
+
+use crate::ir::{FParameter, FParameters};
+
+/// The record, ready to be written.
+pub(super) struct FRecordModel {
+    pub index: u16,
+    pub transfer_sequence: u16,
+    pub length: u32,
+    pub docs: Vec<String>,
+    /// Each parameter of the runtime's type with its default.
+    pub defaults: Vec<(&'static str, String)>,
+    pub limits: Vec<String>,
+}
+
+/// A parameter: its name in GSDML, the field of the runtime's struct, and the variant of its `FField`.
+const PARAMETERS: [(&str, &str, &str); 12] = [
+    ("F_Check_iPar", "check_i_par", "CheckIPar"),
+    ("F_SIL", "sil", "Sil"),
+    ("F_CRC_Length", "crc_length", "CrcLength"),
+    ("F_CRC_Seed", "crc_seed", "CrcSeed"),
+    ("F_Passivation", "passivation", "Passivation"),
+    ("F_Block_ID", "block_id", "BlockId"),
+    ("F_Par_Version", "par_version", "ParVersion"),
+    ("F_Source_Add", "source_address", "SourceAddress"),
+    ("F_Dest_Add", "destination_address", "DestinationAddress"),
+    ("F_WD_Time", "watchdog_time", "WatchdogTime"),
+    ("F_WD_Time_2", "watchdog_time_2", "WatchdogTime2"),
+    ("F_iPar_CRC", "i_par_crc", "IParCrc"),
+];
+
+/// Labels by their number in the record. The only seed that GSDML knows stands for a clear bit: the checksums that
+/// vendors give for their defaults say so.
+const LABELS: [(&str, u32); 12] = [
+    ("NoCheck", 0),
+    ("Check", 1),
+    ("SIL1", 0),
+    ("SIL2", 1),
+    ("SIL3", 2),
+    ("NoSIL", 3),
+    ("3-Byte-CRC", 0),
+    ("2-Byte-CRC", 1),
+    ("4-Byte-CRC", 2),
+    ("CRC-Seed24/32", 0),
+    ("Device/Module", 0),
+    ("Channel", 1),
+];
+
+pub(super) fn model(record: &FParameters) -> FRecordModel {
+    let default = |name: &str| find(record, name).map_or(0, number);
+    let block_id = default("F_Block_ID");
+    let length = 10 + if block_id & 1 != 0 { 4 } else { 0 } + if block_id & 2 != 0 { 2 } else { 0 };
+    let defaults = PARAMETERS.iter().map(|&(name, field, _)| (field, literal(field, default(name)))).collect();
+    let limits = PARAMETERS.iter().filter_map(|&(name, _, variant)| limit(find(record, name)?, variant)).collect();
+    FRecordModel {
+        index: record.index,
+        transfer_sequence: record.transfer_sequence,
+        length,
+        docs: vec![format!("F-parameters: record 0x{:04X} of {length} bytes (PROFIsafe).", record.index)],
+        defaults,
+        limits,
+    }
+}
+
+fn find<'r>(record: &'r FParameters, name: &str) -> Option<&'r FParameter> {
+    record.parameters.iter().find(|parameter| parameter.name == name)
+}
+
+fn label(text: &str) -> Option<u32> {
+    LABELS.iter().find(|(label, _)| *label == text).map(|(_, number)| *number)
+}
+
+/// The default as it stands in the record.
+fn number(parameter: &FParameter) -> u32 {
+    label(&parameter.label).unwrap_or_else(|| u32::try_from(parameter.default).unwrap_or(0))
+}
+
+fn literal(field: &str, value: u32) -> String {
+    match field {
+        "check_i_par" | "crc_seed" => (value != 0).to_string(),
+        "sil" => format!("rt::profinet::Sil::{}", ["Sil1", "Sil2", "Sil3", "NoSil"][value as usize & 3]),
+        "crc_length" => {
+            let names = ["ThreeBytes", "TwoBytes", "FourBytes", "Reserved"];
+            format!("rt::profinet::FCrcLength::{}", names[value as usize & 3])
+        }
+        "passivation" => {
+            format!("rt::profinet::FPassivation::{}", ["DeviceOrModule", "Channel"][value as usize & 1])
+        }
+        "block_id" => (value & 7).to_string(),
+        "par_version" => (value & 3).to_string(),
+        "i_par_crc" => value.to_string(),
+        _ => (value & 0xFFFF).to_string(),
+    }
+}
+
+/// What a parameter may be; `None` where that is anything.
+fn limit(parameter: &FParameter, variant: &str) -> Option<String> {
+    let default = number(parameter);
+    let mut list: Vec<(u32, u32)> = parameter
+        .allowed
+        .iter()
+        .filter_map(|&(first, last)| {
+            let last = u32::try_from(last.min(i128::from(u32::MAX))).ok()?;
+            Some((u32::try_from(first.max(0)).ok()?, last)).filter(|(first, last)| first <= last)
+        })
+        .collect();
+    list.extend(parameter.allowed_labels.iter().filter_map(|text| label(text)).map(|number| (number, number)));
+    if !parameter.changeable {
+        list = vec![(default, default)];
+    }
+    if list.is_empty() || list.contains(&(0, u32::MAX)) {
+        return None;
+    }
+    let list: Vec<String> = list.iter().map(|(first, last)| format!("({first}, {last})")).collect();
+    Some(format!("rt::profinet::FLimit::new(«rt::profinet::FField::{variant}¦ &[«{}»]»)", list.join("¦ ")))
+}

@@ -1,0 +1,311 @@
+//! A field of a byte string: its Rust type, and the code that reads and writes it.
+
+use super::types::type_name;
+use super::values::{Enumeration, Values};
+use crate::ir::{TimeFormat, Type, TypeDef};
+
+/// Bits of a word, the longest field that is no byte string.
+const WORD: u32 = 64;
+
+/// Where bits stand. A field that spans bytes without filling them is a part of the big-endian number in these bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Place {
+    pub byte: u32,
+    /// Bits below it in the byte, or in the number.
+    pub bit: u32,
+    pub bits: u32,
+}
+
+impl Place {
+    /// `bits` bits from `offset` on, where they lie within `length` bytes.
+    pub(super) fn within(length: u32, offset: u32, bits: u32) -> Option<Self> {
+        let place = Place { byte: offset / 8, bit: offset % 8, bits };
+        let last_bit = (place.bit + 8).checked_add(bits)?;
+        let end = place.byte.checked_add(last_bit.div_ceil(8))? - 1;
+        (bits > 0 && end <= length).then_some(place)
+    }
+
+    fn is_bytes(self) -> bool {
+        self.bit == 0 && self.bits.is_multiple_of(8)
+    }
+
+    /// The place in words: `bytes 2 and 3`.
+    pub(super) fn words(self) -> String {
+        let last_bit = self.bit + self.bits - 1;
+        let bytes = match (last_bit / 8, self.byte) {
+            (0, first) => format!("byte {first}"),
+            (1, first) => format!("bytes {first} and {}", first + 1),
+            (more, first) => format!("bytes {first} to {}", first + more),
+        };
+        match self.bits {
+            _ if self.is_bytes() => bytes,
+            1 => format!("bit {} of {bytes}", self.bit),
+            _ if last_bit < 8 => format!("bits {} to {last_bit} of {bytes}", self.bit),
+            _ => format!("bits {} to {last_bit} of the big-endian number in {bytes}", self.bit),
+        }
+    }
+}
+
+/// How the bits of a field are to be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// One bit.
+    Bit,
+    /// A byte that is zero or not.
+    Flag,
+    /// An integer of one of Rust's widths, in bytes of its own.
+    Native {
+        signed: bool,
+    },
+    /// Any other integer of up to 64 bits.
+    Number {
+        signed: bool,
+    },
+    Real,
+    /// A runtime type of six bytes, by the name of the functions that convert it.
+    Time(&'static str),
+    Bytes,
+}
+
+/// Where a field's struct is used, which decides how odd widths are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Use {
+    /// In an image, which is written without a check: types that hold no other values.
+    Image,
+    /// In a record, whose fields are checked: integers of Rust's own.
+    Record,
+}
+
+/// A field, ready to be written as code.
+#[derive(Clone, Copy)]
+pub(super) struct Field<'v> {
+    kind: Kind,
+    pub place: Place,
+    pub enumeration: Option<&'v Enumeration>,
+    usage: Use,
+}
+
+impl<'v> Field<'v> {
+    /// The field of type `ty`, of so many bits from `offset` on; `None` where it doesn't lie within `length` bytes or
+    /// has no form in Rust.
+    pub(super) fn new(
+        values: &'v Values<'_>,
+        ty: Type,
+        (offset, bits): (u32, u32),
+        length: u32,
+        usage: Use,
+    ) -> Option<Self> {
+        let place = Place::within(length, offset, bits)?;
+        let (base, enumeration) = values.resolve(ty);
+        let kind = kind(base, place)?;
+        let enumeration = enumeration.filter(|_| matches!(kind, Kind::Native { .. } | Kind::Number { .. }));
+        Some(Field { kind, place, enumeration, usage })
+    }
+
+    /// Its type in the source and its place, in words.
+    pub(super) fn facts(&self, types: &[TypeDef], ty: Type) -> String {
+        let place = self.place.words();
+        match self.kind {
+            // Single bits and bit areas have no other type than their bits.
+            Kind::Bit => place,
+            Kind::Number { .. } if !self.place.is_bytes() => place,
+            _ => format!("{}, {place}", type_name(types, ty)),
+        }
+    }
+
+    /// Its type.
+    pub(super) fn rust_type(&self) -> String {
+        if let Some(enumeration) = self.enumeration {
+            return enumeration.path.clone();
+        }
+        match self.kind {
+            Kind::Bit | Kind::Flag => "bool".to_owned(),
+            Kind::Number { signed } if self.usage == Use::Image => {
+                format!("rt::{}<{}>", if signed { "Int" } else { "Uint" }, self.place.bits)
+            }
+            Kind::Native { .. } | Kind::Number { .. } => self.native().to_owned(),
+            Kind::Real => format!("f{}", self.place.bits),
+            Kind::Time("time_of_day") => "rt::TimeOfDay".to_owned(),
+            Kind::Time(_) => "rt::TimeDifference".to_owned(),
+            Kind::Bytes => format!("[u8; {}]", self.place.bits / 8),
+        }
+    }
+
+    /// The integer of Rust's own that holds it; of an enumeration, the one below.
+    pub(super) fn native(&self) -> &'static str {
+        match self.enumeration {
+            Some(enumeration) => enumeration.native,
+            None => native(self.is_signed(), self.place.bits),
+        }
+    }
+
+    fn is_signed(&self) -> bool {
+        matches!(self.kind, Kind::Native { signed: true } | Kind::Number { signed: true })
+    }
+
+    /// Whether it is a real number.
+    pub(super) fn is_real(&self) -> bool {
+        self.kind == Kind::Real
+    }
+
+    /// Whether it is a truth value.
+    pub(super) fn is_bool(&self) -> bool {
+        matches!(self.kind, Kind::Bit | Kind::Flag)
+    }
+
+    /// Length of a byte string.
+    pub(super) fn byte_string(&self) -> Option<u32> {
+        (self.kind == Kind::Bytes).then_some(self.place.bits / 8)
+    }
+
+    /// Least and greatest value of an integer.
+    pub(super) fn range(&self) -> Option<(i128, i128)> {
+        let bits = u8::try_from(self.place.bits).ok()?;
+        match self.kind {
+            Kind::Native { signed: true } | Kind::Number { signed: true } => Type::Integer(bits).integer_range(),
+            Kind::Native { .. } | Kind::Number { .. } => Type::Unsigned(bits).integer_range(),
+            _ => None,
+        }
+    }
+
+    /// Whether the type has values that the field has no bits for.
+    pub(super) fn is_narrow(&self) -> bool {
+        self.usage == Use::Record
+            && matches!(self.kind, Kind::Number { .. })
+            && !matches!(self.place.bits, 8 | 16 | 32 | 64)
+    }
+
+    /// Whether the field can be read in a constant by the oldest Rust that the runtime supports.
+    pub(super) fn is_const(&self) -> bool {
+        self.kind != Kind::Real
+    }
+
+    /// The field's value, from the reference `data` to an array of bytes.
+    pub(super) fn read(&self, data: &str) -> String {
+        let Place { byte, bit, bits } = self.place;
+        let from_bytes = |ty: &str| format!("{ty}::from_be_bytes(«rt::profinet::be::bytes(«{data}¦ {byte}»)»)");
+        let cut = |name: &str| format!("rt::profinet::be::{name}(«{data}¦ {byte}¦ {bit}¦ {bits}»)");
+        if let Some(enumeration) = self.enumeration {
+            let raw = match self.kind {
+                Kind::Native { signed: false } if bits == 8 => format!("{data}[{byte}]"),
+                Kind::Native { .. } if bits > 8 => from_bytes(enumeration.native),
+                _ => cut(&format!("bits_{}", enumeration.native)),
+            };
+            return format!("{}::from_raw(«{raw}»)", enumeration.path);
+        }
+        match self.kind {
+            Kind::Bit => format!("{data}[{byte}] & 0x{:02X} != 0", 1 << bit),
+            Kind::Flag => format!("{data}[{byte}] != 0"),
+            Kind::Native { signed: false } if bits == 8 => format!("{data}[{byte}]"),
+            Kind::Native { .. } if bits == 8 => format!("{data}[{byte}] as i8"),
+            Kind::Native { .. } | Kind::Real => from_bytes(&self.rust_type()),
+            Kind::Number { signed } if self.usage == Use::Image => {
+                format!("rt::{}::from_raw(«{}»)", if signed { "Int" } else { "Uint" }, cut("number"))
+            }
+            Kind::Number { .. } => cut(&format!("bits_{}", self.native())),
+            Kind::Time(name) => format!("rt::profinet::be::{name}(«{data}¦ {byte}»)"),
+            Kind::Bytes => format!("rt::profinet::be::bytes(«{data}¦ {byte}»)"),
+        }
+    }
+
+    /// The statement that puts `value` into an array of bytes: `data` names the array, `reference` is a mutable
+    /// reference to it.
+    pub(super) fn write(&self, data: &str, reference: &str, value: &str) -> String {
+        let Place { byte, bit, bits } = self.place;
+        let raw = if self.enumeration.is_some() { format!("{value}.raw()") } else { value.to_owned() };
+        let put = |bytes: &str| format!("rt::profinet::be::put(«{reference}¦ {byte}¦ {bytes}»);");
+        match self.kind {
+            Kind::Bit => format!("rt::profinet::be::put_bit(«{reference}¦ {byte}¦ {bit}¦ {value}»);"),
+            Kind::Native { signed: false } if bits == 8 => format!("{data}[{byte}] = {raw};"),
+            Kind::Flag => format!("{data}[{byte}] = {value} as u8;"),
+            Kind::Native { .. } if bits == 8 => format!("{data}[{byte}] = {raw} as u8;"),
+            Kind::Native { .. } | Kind::Real => put(&format!("&{raw}.to_be_bytes()")),
+            Kind::Number { .. } => {
+                let number = match (self.usage, self.enumeration, self.native()) {
+                    (Use::Image, None, _) => format!("{value}.raw()"),
+                    (_, _, "u64") => raw,
+                    _ => format!("{raw} as u64"),
+                };
+                format!("rt::profinet::be::put_number(«{reference}¦ {byte}¦ {bit}¦ {bits}¦ {number}»);")
+            }
+            Kind::Time(name) => put(&format!("&rt::profinet::be::from_{name}(«{value}»)")),
+            Kind::Bytes => put(&format!("&{value}")),
+        }
+    }
+}
+
+/// The kind of a field of a basic type.
+fn kind(base: Type, place: Place) -> Option<Kind> {
+    let Place { bit, bits, .. } = place;
+    let is_bytes = place.is_bytes();
+    let fits = is_bytes && base.bits() == Some(bits);
+    let signed = matches!(base, Type::Integer(_));
+    let integer = match bits {
+        8 | 16 | 32 | 64 if is_bytes => Some(Kind::Native { signed }),
+        _ if bit + bits <= WORD => Some(Kind::Number { signed }),
+        _ => None,
+    };
+    let bytes = is_bytes.then_some(Kind::Bytes);
+    match base {
+        Type::Boolean if bits == 1 => Some(Kind::Bit),
+        Type::Boolean if is_bytes && bits == 8 => Some(Kind::Flag),
+        Type::Real32 | Type::Real64 if fits => Some(Kind::Real),
+        Type::TimeOfDay if fits => Some(Kind::Time("time_of_day")),
+        Type::TimeDifference if fits => Some(Kind::Time("time_difference")),
+        Type::Boolean | Type::Integer(_) | Type::Unsigned(_) => integer.or(bytes),
+        Type::Time(TimeFormat::TimeOfDay | TimeFormat::TimeDifference) if fits => integer,
+        _ => bytes.or(integer),
+    }
+}
+
+/// The narrowest integer of Rust's own with so many bits.
+pub(super) fn native(signed: bool, bits: u32) -> &'static str {
+    match (signed, bits) {
+        (false, ..=8) => "u8",
+        (false, ..=16) => "u16",
+        (false, ..=32) => "u32",
+        (false, _) => "u64",
+        (true, ..=8) => "i8",
+        (true, ..=16) => "i16",
+        (true, ..=32) => "i32",
+        (true, _) => "i64",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn place(offset: u32, bits: u32) -> Place {
+        Place::within(100, offset, bits).unwrap()
+    }
+
+    #[test]
+    fn places_in_words() {
+        assert_eq!(place(16, 8).words(), "byte 2");
+        assert_eq!(place(16, 16).words(), "bytes 2 and 3");
+        assert_eq!(place(16, 32).words(), "bytes 2 to 5");
+        assert_eq!(place(19, 1).words(), "bit 3 of byte 2");
+        assert_eq!(place(19, 3).words(), "bits 3 to 5 of byte 2");
+        assert_eq!(place(14, 4).words(), "bits 6 to 9 of the big-endian number in bytes 1 and 2");
+    }
+
+    #[test]
+    fn fields_lie_within_their_bytes() {
+        assert!(Place::within(2, 8, 8).is_some() && Place::within(2, 9, 8).is_none());
+        assert!(Place::within(2, 0, 0).is_none());
+        assert!(Place::within(u32::MAX, u32::MAX, 64).is_some() && Place::within(u32::MAX, 9, u32::MAX).is_none());
+    }
+
+    #[test]
+    fn kinds() {
+        assert_eq!(kind(Type::Unsigned(16), place(8, 16)), Some(Kind::Native { signed: false }));
+        assert_eq!(kind(Type::Integer(24), place(8, 24)), Some(Kind::Number { signed: true }));
+        assert_eq!(kind(Type::Unsigned(16), place(9, 16)), Some(Kind::Number { signed: false }));
+        assert_eq!(kind(Type::Unsigned(64), place(9, 64)), None, "more than a word");
+        assert_eq!(kind(Type::Boolean, place(8, 8)), Some(Kind::Flag));
+        assert_eq!(kind(Type::Opaque(None), place(8, 80)), Some(Kind::Bytes));
+        assert_eq!(kind(Type::Opaque(None), place(9, 3)), Some(Kind::Number { signed: false }));
+        assert_eq!(kind(Type::Real32, place(0, 16)), Some(Kind::Bytes), "a number of the wrong length");
+    }
+}

@@ -1,0 +1,213 @@
+//! Structs and views of a submodule's cyclic data.
+
+use super::docs;
+use super::field::{Field, Use};
+use super::values::Values;
+use super::{Presence, RustOptions};
+use crate::ir::{Direction, IoData, PdoEntry, PdoEntryKind, Submodule};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// The longest name of a field: the lines that read and write it have to stay below the margin.
+const MAX_FIELD_NAME: usize = 30;
+
+/// Names that no field may have.
+const RESERVED: [&str; 6] = ["self", "super", "crate", "new", "view", "clone"];
+
+/// Traits of `serde` end at arrays of this length.
+const SERDE_ARRAY: u32 = 32;
+
+/// A struct of strictly less than this, up to the blank before its closing brace, stays on one line.
+const SHORT_STRUCT: usize = 34;
+
+/// The greatest width of a line.
+const MARGIN: usize = 89;
+
+/// Where the literal in a function of a submodule stands.
+const LITERAL_INDENT: usize = 16;
+
+/// The data of one direction, ready to be written.
+pub(super) struct ImageModel {
+    /// `Inputs` or `Outputs`.
+    pub name: &'static str,
+    pub is_output: bool,
+    pub docs: Vec<String>,
+    pub derives: Vec<String>,
+    pub length: u32,
+    pub trailer: u32,
+    pub status: u8,
+    /// Lints that a name would trip over.
+    pub allow: Option<&'static str>,
+    pub fields: Vec<FieldModel>,
+}
+
+/// A field of a struct.
+pub(super) struct FieldModel {
+    pub name: String,
+    pub docs: Vec<String>,
+    pub heading: String,
+    pub ty: String,
+    /// The attribute in front of it.
+    pub attribute: Option<String>,
+    /// Its value from a view.
+    pub get: String,
+    /// Its value from the array `data`.
+    pub read: String,
+    /// The statement that puts `self`'s field into the array `data`.
+    pub pack: String,
+    /// The statement that puts `value` into a view.
+    pub set: String,
+    /// `const ` where it can be read in a constant.
+    pub constant: &'static str,
+}
+
+/// The inputs or outputs of `submodule`, where it has some with fields.
+pub(super) fn model(
+    submodule: &Submodule,
+    direction: Direction,
+    values: &Values<'_>,
+    options: &RustOptions,
+) -> Option<ImageModel> {
+    let data = match direction {
+        Direction::Transmit => submodule.input.as_deref()?,
+        Direction::Receive => submodule.output.as_deref()?,
+    };
+    let fields = fields(data, values, options);
+    let (name, title) = match direction {
+        Direction::Transmit => ("Inputs", "what the device sends to the controller"),
+        Direction::Receive => ("Outputs", "what the controller sends to the device"),
+    };
+    let image = &data.image;
+    let mut docs = vec![format!("{name}: {title}."), String::new()];
+    let consistency = if data.consistent { "consistent as a whole" } else { "consistent item by item" };
+    let length = super::docs::bytes(image.length);
+    docs.push(format!("{length} of user data, {consistency}{}.", trailer(image.overhead)));
+    (!fields.is_empty()).then(|| ImageModel {
+        name,
+        is_output: direction == Direction::Receive,
+        docs,
+        derives: options.derives(true),
+        length: image.length,
+        trailer: image.overhead,
+        status: submodule.status_lengths.0,
+        allow: allow(fields.iter().map(|field| field.name.as_str())),
+        fields,
+    })
+}
+
+fn trailer(bytes: u32) -> String {
+    match bytes {
+        0 => String::new(),
+        length => format!("; behind them an F message trailer of {}", docs::bytes(length)),
+    }
+}
+
+fn fields(data: &IoData, values: &Values<'_>, options: &RustOptions) -> Vec<FieldModel> {
+    let is_field = |entry: &&PdoEntry| entry.kind != PdoEntryKind::Padding;
+    let found: Vec<(&PdoEntry, Field<'_>)> = data
+        .image
+        .fields
+        .iter()
+        .filter(is_field)
+        .filter_map(|entry| {
+            let bits = (entry.bit_offset, entry.bits);
+            Some((entry, Field::new(values, entry.ty, bits, data.image.length, Use::Image)?))
+        })
+        .collect();
+    let wishes = found.iter().map(|(entry, field)| wish(&entry.name, field)).collect::<Vec<_>>();
+    let names = names_unique::unique_up_to(&wishes, &RESERVED, Case::Snake, MAX_FIELD_NAME);
+    let all = found.iter().zip(names);
+    all.map(|((entry, field), name)| {
+        let facts = field.facts(values.types, entry.ty);
+        FieldModel::new(field, &name, vec![docs::titled(&entry.name, &facts)], options)
+    })
+    .collect()
+}
+
+/// A field's name: of several with one name, each is told by its place.
+pub(super) fn wish<'n>(name: &'n str, field: &Field<'_>) -> Wish<'n> {
+    let place = field.place;
+    let is_whole = place.bit == 0 && place.bits.is_multiple_of(8);
+    let suffix = if is_whole { place.byte.to_string() } else { format!("{}_{}", place.byte, place.bit) };
+    Wish { name, fallback: format!("field {}", suffix.replace('_', " ")), suffix }
+}
+
+impl FieldModel {
+    /// `name` as it was made; it is escaped here.
+    pub(super) fn new(field: &Field<'_>, name: &str, docs: Vec<String>, options: &RustOptions) -> Self {
+        let name = names_unique::escaped(name);
+        FieldModel {
+            heading: docs.first().cloned().unwrap_or_default(),
+            docs,
+            ty: field.rust_type(),
+            attribute: field.byte_string().and_then(|length| serde_attribute(length, options)),
+            get: field.read("self.0"),
+            read: field.read("data"),
+            pack: field.write("data", "&mut data", &format!("self.{name}")),
+            set: field.write("self.0", "self.0", "value"),
+            constant: if field.is_const() { "const " } else { "" },
+            name,
+        }
+    }
+
+    /// The name of its setter.
+    pub(super) fn setter(&self) -> String {
+        format!("set_{}", self.name.trim_start_matches("r#").trim_start_matches('_'))
+    }
+}
+
+/// What tells `serde` how to handle a long array.
+fn serde_attribute(length: u32, options: &RustOptions) -> Option<String> {
+    if length <= SERDE_ARRAY {
+        return None;
+    }
+    let path = super::literal::string(&format!("{}::profinet::octets", options.runtime));
+    match &options.serde {
+        Presence::Never => None,
+        Presence::Always => Some(format!("#[serde(with = {path})]")),
+        Presence::Feature(feature) => {
+            Some(format!("#[cfg_attr(feature = {}, serde(with = {path}))]", super::literal::string(feature)))
+        }
+    }
+}
+
+/// The attribute that getters of these names need: clippy reads a meaning into some prefixes.
+fn allow<'n>(mut names: impl Iterator<Item = &'n str>) -> Option<&'static str> {
+    let misread =
+        names.any(|name| ["from_", "into_", "to_", "is_", "as_"].iter().any(|prefix| name.starts_with(prefix)));
+    misread.then_some("#[allow(clippy::wrong_self_convention)]")
+}
+
+/// The lines of a struct literal with these fields, behind `start` (`Ok(`) and before `end`.
+pub(super) fn literal(start: &str, fields: &[(String, String)], end: &str) -> Vec<String> {
+    let plain = |value: &str| value.replace(['«', '»', '¬'], "").replace('¦', ",");
+    let flat: Vec<String> = fields.iter().map(|(name, value)| format!("{name}: {}", plain(value))).collect();
+    let flat = format!("Self {{ {} ", flat.join(", "));
+    if fields.is_empty() {
+        return vec![format!("{start}Self {{}}{end}")];
+    }
+    if flat.len() <= SHORT_STRUCT {
+        return vec![format!("{start}{flat}}}{end}")];
+    }
+    let mut lines = vec![format!("{start}Self {{")];
+    lines.extend(fields.iter().map(|(name, value)| format!("    {name}: {value},")));
+    lines.push(format!("}}{end}"));
+    lines
+}
+
+impl ImageModel {
+    /// The struct, from a view of the data.
+    pub(super) fn unpacked(&self) -> Vec<String> {
+        let value = |field: &FieldModel| (field.name.clone(), format!("view.{}()", field.name));
+        let lines = literal("Ok(", &self.fields.iter().map(value).collect::<Vec<_>>(), ")");
+        // A chain of calls that is too long for its line goes on in the next one; the last comma doesn't count.
+        let last = lines.len().saturating_sub(2);
+        let broken = |(at, line): (usize, String)| {
+            let width = LITERAL_INDENT + line.len() - usize::from(at == last);
+            match line.split_once(": view.") {
+                Some((name, call)) if width > MARGIN => vec![format!("{name}: view"), format!("        .{call}")],
+                _ => vec![line],
+            }
+        };
+        lines.into_iter().enumerate().flat_map(broken).collect()
+    }
+}

@@ -1,0 +1,213 @@
+//! Structs of parameter records.
+
+mod bytes;
+mod check;
+
+use super::docs;
+use super::field::{Field, Use};
+use super::image::{self, FieldModel};
+use super::literal;
+use super::values::Values;
+use super::RustOptions;
+use crate::ir::{Access, Binding, Group, GroupKind, Item, Record, Value};
+use crate::passes::names_unique::{self, Case, Wish};
+use bytes::{default_bytes, value_of};
+use check::{check, ranges};
+
+/// The longest record that becomes a struct; PROFINET's own limit for one transfer lies below.
+pub(super) const MAX_LENGTH: u32 = 0xFFFF;
+
+/// The longest name of a record: the lines that name its type have to stay below the margin.
+const MAX_NAME: usize = 32;
+
+/// The longest name of a field.
+const MAX_FIELD_NAME: usize = 30;
+
+/// Constants that every record has.
+const RESERVED_CONSTANTS: [&str; 8] =
+    ["self", "super", "crate", "index", "len", "transfer_sequence", "default", "default_bytes"];
+
+/// A record, ready to be written.
+pub(super) struct RecordModel {
+    pub name: String,
+    /// Its name in the source, as a literal.
+    pub title: String,
+    pub docs: Vec<String>,
+    pub derives: Vec<String>,
+    pub index: u16,
+    pub length: u32,
+    pub transfer_sequence: u16,
+    pub default_bytes: String,
+    /// Fields that can be changed.
+    pub fields: Vec<FieldModel>,
+    /// Their defaults.
+    pub defaults: Vec<String>,
+    /// Fields that can't be changed.
+    pub constants: Vec<ConstantModel>,
+    /// Statements that check the fields.
+    pub checks: Vec<String>,
+    /// Whether a literal may resemble a mathematical constant.
+    pub has_real: bool,
+}
+
+/// A field that can't be changed.
+pub(super) struct ConstantModel {
+    pub name: String,
+    pub docs: Vec<String>,
+    pub ty: String,
+    pub value: String,
+}
+
+/// An item with its field.
+struct Parameter<'i> {
+    item: &'i Item,
+    field: Field<'i>,
+}
+
+/// Records of a submodule, in their order.
+pub(super) fn models<'a>(groups: &'a [Group], values: &'a Values<'a>, options: &RustOptions) -> Vec<RecordModel> {
+    let records = groups.iter().filter_map(|group| match &group.kind {
+        GroupKind::Record(record) if (1..=MAX_LENGTH).contains(&record.length) => Some((group, &**record)),
+        _ => None,
+    });
+    let records: Vec<(&Group, &Record)> = records.collect();
+    let wishes: Vec<Wish<'_>> = records
+        .iter()
+        .map(|(group, record)| Wish {
+            name: &group.name,
+            fallback: format!("parameter {:04X}", record.index),
+            suffix: format!("{:04X}", record.index),
+        })
+        .collect();
+    let names = names_unique::unique_up_to(&wishes, &[], Case::Pascal, MAX_NAME);
+    let all = records.into_iter().zip(names);
+    all.map(|((group, record), name)| model(group, record, name, values, options)).collect()
+}
+
+fn model<'a>(
+    group: &'a Group,
+    record: &'a Record,
+    name: String,
+    values: &'a Values<'a>,
+    options: &RustOptions,
+) -> RecordModel {
+    let found = |item: &'a Item| {
+        let (_, offset, bits) = place(item)?;
+        let field = Field::new(values, item.ty, (offset, bits), record.length, Use::Record)?;
+        Some(Parameter { item, field })
+    };
+    let parameters: Vec<Parameter<'_>> = group.items.iter().filter_map(found).collect();
+    let left_out = group.items.len() - parameters.len();
+    let bytes = default_bytes(record, &parameters);
+    let (fixed, free): (Vec<_>, Vec<_>) =
+        parameters.into_iter().partition(|parameter| parameter.item.access == Access::Constant);
+    let constants = constants(&fixed, &bytes, values);
+    let fields = named(&free, &["self", "super", "crate"]);
+    let model = |(parameter, name): &(&Parameter<'_>, String)| {
+        let field = &parameter.field;
+        FieldModel::new(field, name, facts(parameter, values), options)
+    };
+    RecordModel {
+        name: format!("{name}Record"),
+        title: literal::string(&group.name),
+        docs: record_docs(group, record, left_out),
+        derives: options.derives(true),
+        index: record.index,
+        length: record.length,
+        transfer_sequence: record.transfer_sequence,
+        default_bytes: literal::bytes(&bytes),
+        defaults: free.iter().map(|parameter| value_of(&parameter.field, &bytes)).collect(),
+        checks: fields.iter().filter_map(|(parameter, name)| check(parameter, &names_unique::escaped(name))).collect(),
+        has_real: free.iter().chain(&fixed).any(|parameter| parameter.field.is_real()),
+        fields: fields.iter().map(model).collect(),
+        constants,
+    }
+}
+
+/// Record index, first bit and number of bits of an item.
+fn place(item: &Item) -> Option<(u16, u32, u32)> {
+    item.bindings.iter().find_map(|binding| match binding {
+        Binding::Record { index, bit_offset, bits } => Some((*index, *bit_offset, *bits)),
+        _ => None,
+    })
+}
+
+fn named<'p, 'i>(parameters: &'p [Parameter<'i>], reserved: &[&str]) -> Vec<(&'p Parameter<'i>, String)> {
+    let wishes: Vec<Wish<'_>> =
+        parameters.iter().map(|parameter| image::wish(&parameter.item.name, &parameter.field)).collect();
+    let names = names_unique::unique_up_to(&wishes, reserved, Case::Snake, MAX_FIELD_NAME);
+    parameters.iter().zip(names).collect()
+}
+
+fn constants(fixed: &[Parameter<'_>], bytes: &[u8], values: &Values<'_>) -> Vec<ConstantModel> {
+    let named = named(fixed, &RESERVED_CONSTANTS);
+    let constant = |(parameter, name): (&Parameter<'_>, String)| {
+        let mut docs = facts(parameter, values);
+        docs.extend([String::new(), "It can't be changed.".to_owned()]);
+        ConstantModel {
+            name: name.to_ascii_uppercase(),
+            docs,
+            ty: parameter.field.rust_type(),
+            value: value_of(&parameter.field, bytes),
+        }
+    };
+    named.into_iter().map(constant).collect()
+}
+
+fn record_docs(group: &Group, record: &Record, left_out: usize) -> Vec<String> {
+    let facts = format!("parameter record 0x{:04X} of {}", record.index, docs::bytes(record.length));
+    let mut lines = vec![docs::titled(&group.name, &facts)];
+    docs::paragraphs(&group.name, group.documentation.as_deref(), &mut lines);
+    if let Some(bump) = record.changeable_with_bump {
+        let not = if bump { "may disturb" } else { "doesn't disturb" };
+        lines.extend([String::new(), format!("Writing it {not} the running device.")]);
+    }
+    if left_out > 0 {
+        let text = format!("{left_out} parameters that don't lie within its bytes are left out.");
+        lines.extend([String::new(), text]);
+    }
+    lines
+}
+
+fn facts(parameter: &Parameter<'_>, values: &Values<'_>) -> Vec<String> {
+    let Parameter { item, field } = parameter;
+    let mut facts = field.facts(values.types, item.ty);
+    if let Some(default) = &item.default {
+        facts += &format!(", default {}", docs::value(default));
+    }
+    let ranges: Vec<String> = ranges(&item.limits)
+        .iter()
+        .map(|(first, last)| match (first, last) {
+            (Some(first), Some(last)) if first == last => docs::value(first),
+            (first, last) => format!("{} to {}", bound(first), bound(last)),
+        })
+        .collect();
+    if !ranges.is_empty() {
+        /// The greatest number of ranges that a comment lists.
+        const SHOWN: usize = 16;
+        let more = if ranges.len() > SHOWN { ", …" } else { "" };
+        facts += &format!(", allowed {}{more}", ranges[..ranges.len().min(SHOWN)].join(", "));
+    }
+    let mut lines = vec![docs::titled(&item.name, &facts)];
+    docs::paragraphs(&item.name, item.documentation.as_deref(), &mut lines);
+    lines
+}
+
+fn bound(value: &Option<Value>) -> String {
+    value.as_ref().map_or_else(|| "any".to_owned(), docs::value)
+}
+
+impl RecordModel {
+    /// The struct with its defaults.
+    pub(super) fn default(&self) -> Vec<String> {
+        let fields: Vec<_> =
+            self.fields.iter().zip(&self.defaults).map(|(field, value)| (field.name.clone(), value.clone())).collect();
+        image::literal("pub const DEFAULT: Self = ", &fields, ";")
+    }
+
+    /// The struct from the array `data`.
+    pub(super) fn decoded(&self) -> Vec<String> {
+        let fields: Vec<_> = self.fields.iter().map(|field| (field.name.clone(), field.read.clone())).collect();
+        image::literal("Ok(", &fields, ")")
+    }
+}

@@ -1,0 +1,122 @@
+//! The bytes of a record by default, and what its fields are then.
+
+use super::Parameter;
+use crate::backend::rust::literal;
+use crate::backend::rust::profinet::field::Field;
+use crate::backend::rust::profinet::values::Enumeration;
+use crate::ir::{Record, Value};
+
+/// The record's bytes by default: its constants, and over them the defaults of its parameters.
+pub(super) fn default_bytes(record: &Record, parameters: &[Parameter<'_>]) -> Vec<u8> {
+    let mut bytes = vec![0; record.length as usize];
+    for (offset, constant) in &record.constants {
+        put(&mut bytes, *offset, constant);
+    }
+    for Parameter { item, field } in parameters {
+        if let Some(default) = &item.default {
+            put_default(&mut bytes, field, default);
+        }
+    }
+    bytes
+}
+
+/// As many of `data` as fit.
+fn put(bytes: &mut [u8], offset: u32, data: &[u8]) {
+    for (to, from) in bytes.iter_mut().skip(offset as usize).zip(data) {
+        *to = *from;
+    }
+}
+
+fn put_default(bytes: &mut [u8], field: &Field<'_>, default: &Value) {
+    let place = field.place;
+    if let Some(length) = field.byte_string() {
+        let own = match default {
+            // One byte a character, as ISO 8859-1 has it.
+            Value::Text(text) => text.chars().map(|letter| u8::try_from(letter).unwrap_or(b'?')).collect(),
+            Value::Bytes(octets) => octets.clone(),
+            _ => return,
+        };
+        return put(bytes, place.byte, &own[..own.len().min(length as usize)]);
+    }
+    let bits = match (field.is_real(), default.as_real(), default.as_int()) {
+        (true, Some(value), _) if place.bits == 32 => u64::from((value as f32).to_bits()),
+        (true, Some(value), _) => value.to_bits(),
+        (false, _, Some(value)) => value as u64,
+        (false, Some(value), None) => value as i64 as u64,
+        _ => return,
+    };
+    for bit in 0..place.bits {
+        let at = place.bit + bit;
+        let (byte, mask) = bit_of(place.byte, place.bit + place.bits, at);
+        if let Some(byte) = bytes.get_mut(byte) {
+            *byte = if bits >> bit & 1 == 1 { *byte | mask } else { *byte & !mask };
+        }
+    }
+}
+
+/// Byte and mask of bit `at` of the big-endian number in the bytes from `first` on that `end` bits touch.
+fn bit_of(first: u32, end: u32, at: u32) -> (usize, u8) {
+    let last = first + (end - 1) / 8;
+    ((last - at / 8) as usize, 1 << (at % 8))
+}
+
+fn number_of(field: &Field<'_>, bytes: &[u8]) -> u64 {
+    let place = field.place;
+    (0..place.bits).fold(0, |number, bit| {
+        let (byte, mask) = bit_of(place.byte, place.bit + place.bits, place.bit + bit);
+        let is_set = bytes.get(byte).is_some_and(|byte| byte & mask != 0);
+        number | u64::from(is_set) << bit
+    })
+}
+
+/// The field's value in these bytes, as a literal.
+pub(super) fn value_of(field: &Field<'_>, bytes: &[u8]) -> String {
+    let place = field.place;
+    if let Some(length) = field.byte_string() {
+        let own = bytes.get(place.byte as usize..).and_then(|rest| rest.get(..length as usize)).unwrap_or(&[]);
+        let is_zero = own.iter().all(|byte| *byte == 0);
+        return if is_zero { format!("[0; {length}]") } else { format!("*{}", literal::bytes(own)) };
+    }
+    let bits = number_of(field, bytes);
+    if field.is_bool() {
+        return (bits != 0).to_string();
+    }
+    if field.is_real() {
+        return if place.bits == 32 { real32(f32::from_bits(bits as u32)) } else { real64(f64::from_bits(bits)) };
+    }
+    let Some((low, high)) = field.range() else {
+        let (milliseconds, days) = (bits >> 16 & 0x0FFF_FFFF, bits & 0xFFFF);
+        return format!("{}::new(«{milliseconds}¦ {days}»)", field.rust_type());
+    };
+    let bits = i128::from(bits);
+    let value = if bits > high { bits - (high - low + 1) } else { bits };
+    match field.enumeration {
+        Some(enumeration) => enumeration_value(enumeration, value),
+        None => value.to_string(),
+    }
+}
+
+fn enumeration_value(enumeration: &Enumeration, value: i128) -> String {
+    match enumeration.variants.iter().find(|variant| variant.value == value) {
+        Some(variant) => format!("{}::{}", enumeration.path, variant.name),
+        None => format!("{}::Unknown(«{value}»)", enumeration.path),
+    }
+}
+
+fn real32(value: f32) -> String {
+    match literal::real(f64::from(value), 32) {
+        Some(literal) => literal,
+        None if value.is_nan() => "f32::NAN".to_owned(),
+        None if value > 0.0 => "f32::INFINITY".to_owned(),
+        None => "f32::NEG_INFINITY".to_owned(),
+    }
+}
+
+fn real64(value: f64) -> String {
+    match literal::real(value, 64) {
+        Some(literal) => literal,
+        None if value.is_nan() => "f64::NAN".to_owned(),
+        None if value > 0.0 => "f64::INFINITY".to_owned(),
+        None => "f64::NEG_INFINITY".to_owned(),
+    }
+}

@@ -1,0 +1,81 @@
+//! The checks of a record's fields against the allowed values.
+
+use super::Parameter;
+use crate::backend::rust::literal;
+use crate::backend::rust::profinet::field::Field;
+use crate::ir::{Limits, Value};
+
+/// First and last of each allowed range.
+pub(super) fn ranges(limits: &Limits) -> Vec<(Option<Value>, Option<Value>)> {
+    if !limits.allowed.is_empty() {
+        return limits.allowed.iter().map(|(first, last)| (Some(first.clone()), Some(last.clone()))).collect();
+    }
+    match limits.is_empty() {
+        true => Vec::new(),
+        false => vec![(limits.low.clone(), limits.high.clone())],
+    }
+}
+
+/// The statement that checks a field; `None` where all values of its type are allowed, or none of them is.
+pub(super) fn check(parameter: &Parameter<'_>, name: &str) -> Option<String> {
+    let Parameter { item, field } = parameter;
+    let allowed = ranges(&item.limits);
+    let list = if field.is_bool() {
+        bools(&allowed)
+    } else if field.is_real() {
+        reals(&allowed, field.place.bits)
+    } else {
+        integers(&allowed, field)
+    }?;
+    let raw = if field.enumeration.is_some() { ".raw()" } else { "" };
+    let title = literal::string(if item.name.is_empty() { name } else { &item.name });
+    Some(format!("rt::profinet::check(«{title}¦ self.{name}{raw}¦ &[«{}»]»)?;", list.join("¦ ")))
+}
+
+fn bools(allowed: &[(Option<Value>, Option<Value>)]) -> Option<Vec<String>> {
+    let number = |value: &Option<Value>| value.as_ref().and_then(Value::as_int);
+    let has = |wanted| {
+        allowed.iter().any(|(first, last)| number(first).unwrap_or(0) <= wanted && wanted <= number(last).unwrap_or(1))
+    };
+    match (has(0), has(1)) {
+        (true, false) => Some(vec!["(false, false)".to_owned()]),
+        (false, true) => Some(vec!["(true, true)".to_owned()]),
+        _ => None,
+    }
+}
+
+fn reals(allowed: &[(Option<Value>, Option<Value>)], bits: u32) -> Option<Vec<String>> {
+    let name = if bits == 32 { "f32" } else { "f64" };
+    let bound = |value: &Option<Value>, missing: &str| {
+        let value = value.as_ref().and_then(Value::as_real).and_then(|value| literal::real(value, bits));
+        value.unwrap_or_else(|| format!("{name}::{missing}"))
+    };
+    let list = allowed.iter().filter(|(first, last)| {
+        let both = first.as_ref().and_then(Value::as_real).zip(last.as_ref().and_then(Value::as_real));
+        both.is_none_or(|(first, last)| first <= last)
+    });
+    let list: Vec<String> =
+        list.map(|(first, last)| format!("({}, {})", bound(first, "MIN"), bound(last, "MAX"))).collect();
+    (!list.is_empty()).then_some(list)
+}
+
+fn integers(allowed: &[(Option<Value>, Option<Value>)], field: &Field<'_>) -> Option<Vec<String>> {
+    let (low, high) = field.range()?;
+    let bound = |value: &Option<Value>| match value {
+        Some(Value::Real(value)) => Some(*value as i128),
+        other => other.as_ref().and_then(Value::as_int),
+    };
+    let mut list: Vec<(i128, i128)> = allowed
+        .iter()
+        .map(|(first, last)| (bound(first).unwrap_or(low).max(low), bound(last).unwrap_or(high).min(high)))
+        .filter(|(first, last)| first <= last)
+        .collect();
+    let is_full = list.is_empty() || list.contains(&(low, high));
+    if is_full {
+        if !field.is_narrow() {
+            return None;
+        }
+        list = vec![(low, high)];
+    }
+    Some(list.iter().map(|(first, last)| format!("({first}, {last})")).collect())
+}

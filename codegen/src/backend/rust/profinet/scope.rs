@@ -1,0 +1,137 @@
+//! What is emitted, and under which names: the device access points, and what can be plugged into them.
+
+use std::collections::BTreeMap;
+
+use super::values::Values;
+use super::RustOptions;
+use crate::ir::{Catalog, Device, GroupKind, Module, ProfinetSettings, Submodule, SubmoduleId, SubmoduleUse, Type};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// Names at the top of the output.
+const RESERVED: [&str; 10] =
+    ["self", "super", "crate", "rt", "modules", "submodules", "values", "diagnosis", "core", "std"];
+
+/// A device access point with its name.
+pub(super) struct AccessPoint<'a> {
+    pub device: &'a Device,
+    pub settings: &'a ProfinetSettings,
+    pub name: String,
+}
+
+/// Everything that is emitted.
+pub(super) struct Scope<'a> {
+    pub catalog: &'a Catalog,
+    pub options: &'a RustOptions,
+    pub access_points: Vec<AccessPoint<'a>>,
+    /// Modules by their position in the catalogue, with their names.
+    pub modules: BTreeMap<u32, (&'a Module, String)>,
+    /// Submodules by their position in the catalogue, with their names.
+    pub submodules: BTreeMap<u32, (&'a Submodule, String)>,
+    pub values: Values<'a>,
+}
+
+impl<'a> Scope<'a> {
+    /// The device access points of `catalog` with all that can be plugged into them.
+    pub(super) fn new(catalog: &'a Catalog, options: &'a RustOptions) -> Self {
+        let access_points = access_points(catalog);
+        let modules = modules(catalog, &access_points);
+        let submodules = submodules(catalog, &access_points, &modules);
+        let used = types(catalog, &submodules);
+        let values = Values::new(&catalog.types, used.into_iter(), options);
+        Scope { catalog, options, access_points, modules, submodules, values }
+    }
+
+    /// Whether the content of the only device access point stands at the top.
+    pub(super) fn is_single(&self) -> bool {
+        self.access_points.len() == 1
+    }
+}
+
+fn access_points(catalog: &Catalog) -> Vec<AccessPoint<'_>> {
+    let found: Vec<_> =
+        catalog.devices.iter().filter_map(|device| Some((device, device.profinet.as_deref()?))).collect();
+    let wishes: Vec<Wish<'_>> = found
+        .iter()
+        .enumerate()
+        .map(|(at, (device, settings))| Wish {
+            name: &device.name,
+            fallback: format!("dap {:08x}", settings.ident),
+            suffix: identifier(&device.id, settings.ident, at),
+        })
+        .collect();
+    let names = names_unique::unique(&wishes, &RESERVED, Case::Snake);
+    let all = found.into_iter().zip(names);
+    all.map(|((device, settings), name)| AccessPoint { device, settings, name: names_unique::escaped(&name) }).collect()
+}
+
+fn modules<'a>(catalog: &'a Catalog, access_points: &[AccessPoint<'a>]) -> BTreeMap<u32, (&'a Module, String)> {
+    let uses = access_points.iter().flat_map(|point| &point.device.modules);
+    let mut positions: Vec<u32> = uses.map(|usage| usage.module.0).collect();
+    positions.sort_unstable();
+    positions.dedup();
+    let found: Vec<(u32, &Module)> =
+        positions.into_iter().filter_map(|at| Some((at, catalog.modules.get(at as usize)?))).collect();
+    let wishes: Vec<Wish<'_>> = found
+        .iter()
+        .map(|(at, module)| Wish {
+            name: &module.name,
+            fallback: format!("module {:08x}", module.number),
+            suffix: identifier(&module.id, module.number, *at as usize),
+        })
+        .collect();
+    let names = names_unique::unique(&wishes, &["self", "super", "crate"], Case::Snake);
+    found.into_iter().zip(names).map(|((at, module), name)| (at, (module, names_unique::escaped(&name)))).collect()
+}
+
+fn submodules<'a>(
+    catalog: &'a Catalog,
+    access_points: &[AccessPoint<'a>],
+    modules: &BTreeMap<u32, (&'a Module, String)>,
+) -> BTreeMap<u32, (&'a Submodule, String)> {
+    let own = access_points.iter().flat_map(|point| &point.device.submodules);
+    let uses = own.chain(modules.values().flat_map(|(module, _)| &module.submodules));
+    let mut positions: Vec<u32> = uses.map(|SubmoduleUse { submodule: SubmoduleId(at), .. }| *at).collect();
+    positions.sort_unstable();
+    positions.dedup();
+    let found: Vec<(u32, &Submodule)> =
+        positions.into_iter().filter_map(|at| Some((at, catalog.submodules.get(at as usize)?))).collect();
+    let wishes: Vec<Wish<'_>> = found
+        .iter()
+        .map(|(at, submodule)| Wish {
+            name: &submodule.name,
+            fallback: format!("submodule {:08x}", submodule.ident),
+            suffix: identifier(&submodule.id, submodule.ident, *at as usize),
+        })
+        .collect();
+    let names = names_unique::unique(&wishes, &["self", "super", "crate"], Case::Snake);
+    found
+        .into_iter()
+        .zip(names)
+        .map(|((at, submodule), name)| (at, (submodule, names_unique::escaped(&name))))
+        .collect()
+}
+
+/// What tells elements of one name apart: the source's identifier in letters and digits, else the ident number.
+fn identifier(id: &str, ident: u32, position: usize) -> String {
+    let words = id.split(|letter: char| !letter.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    let words: Vec<&str> = words.collect();
+    match (words.is_empty(), ident) {
+        (false, _) => words.join("_"),
+        (true, 0) => position.to_string(),
+        (true, ident) => format!("{ident:08x}"),
+    }
+}
+
+/// The types of all fields.
+fn types(catalog: &Catalog, submodules: &BTreeMap<u32, (&Submodule, String)>) -> Vec<Type> {
+    let mut types = Vec::new();
+    for (submodule, _) in submodules.values() {
+        let images = [&submodule.input, &submodule.output].into_iter().flatten();
+        types.extend(images.flat_map(|data| &data.image.fields).map(|field| field.ty));
+        let records = submodule.records.iter().filter(|group| matches!(group.kind, GroupKind::Record(_)));
+        types.extend(records.flat_map(|group| &group.items).map(|item| item.ty));
+    }
+    let fields = catalog.unit_diagnoses.iter().flat_map(|unit| &unit.fields);
+    types.extend(fields.map(|field| field.values.map_or(field.ty, Type::Named)));
+    types
+}

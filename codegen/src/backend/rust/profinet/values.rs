@@ -1,0 +1,131 @@
+//! Enumerations: the named values of fields (`ValueItem`).
+
+use std::collections::BTreeMap;
+use std::collections::HashSet;
+
+use super::docs;
+use super::field::native;
+use super::types::resolve;
+use super::RustOptions;
+use crate::ir::{EnumValue, Shape, Type, TypeDef};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// What a variant must not be called: the type itself, and the variant for values that the description doesn't list.
+const RESERVED_VARIANTS: [&str; 2] = ["Self", "Unknown"];
+
+/// What an enumeration must not be called: generated code names these of the prelude.
+const RESERVED_TYPES: [&str; 7] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err"];
+
+/// The enumerations of a catalogue that something refers to.
+pub(super) struct Values<'a> {
+    pub types: &'a [TypeDef],
+    enumerations: BTreeMap<u32, Enumeration>,
+}
+
+/// An enumeration, ready to be written.
+pub(super) struct Enumeration {
+    pub name: String,
+    /// Its path from the module of a submodule.
+    pub path: String,
+    /// The integer of Rust's own that holds its numbers.
+    pub native: &'static str,
+    pub docs: Vec<String>,
+    pub derives: Vec<String>,
+    pub variants: Vec<Variant>,
+}
+
+/// One value.
+pub(super) struct Variant {
+    pub name: String,
+    pub docs: String,
+    pub value: i128,
+}
+
+impl<'a> Values<'a> {
+    /// The enumerations among the types `used`.
+    pub(super) fn new(types: &'a [TypeDef], used: impl Iterator<Item = Type>, options: &RustOptions) -> Self {
+        let mut positions: Vec<u32> = used.filter_map(|ty| resolve(types, ty).1).collect();
+        positions.sort_unstable();
+        positions.dedup();
+        let found: Vec<(u32, &TypeDef, Type, Vec<&EnumValue>)> = positions
+            .into_iter()
+            .filter_map(|at| {
+                let definition = types.get(at as usize)?;
+                let (base, values) = listed(types, definition)?;
+                Some((at, definition, base, values))
+            })
+            .collect();
+        // One list of values over several types is as many enumerations.
+        let wishes: Vec<Wish<'_>> = found
+            .iter()
+            .map(|(at, definition, base, _)| Wish {
+                name: &definition.name,
+                fallback: format!("values {at}"),
+                suffix: format!("{}{}", if base.is_signed() { "I" } else { "U" }, base.bits().unwrap_or(0)),
+            })
+            .collect();
+        let names = names_unique::unique(&wishes, &RESERVED_TYPES, Case::Pascal);
+        let all = found.iter().zip(names);
+        let enumerations =
+            all.map(|((at, definition, base, values), name)| (*at, model(definition, *base, values, name, options)));
+        Values { types, enumerations: enumerations.collect() }
+    }
+
+    /// Each of them.
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Enumeration> {
+        self.enumerations.values()
+    }
+
+    /// The basic type below `ty`, and its enumeration.
+    pub(super) fn resolve(&self, ty: Type) -> (Type, Option<&Enumeration>) {
+        let (base, position) = resolve(self.types, ty);
+        (base, position.and_then(|position| self.enumerations.get(&position)))
+    }
+}
+
+/// The type below an enumeration, and those of its values that it can have, each once. A range of values has no name
+/// for each of them: they stay numbers.
+fn listed<'a>(types: &[TypeDef], definition: &'a TypeDef) -> Option<(Type, Vec<&'a EnumValue>)> {
+    let Shape::Enumeration { base, values, .. } = &definition.shape else { return None };
+    let base = match resolve(types, *base).0 {
+        Type::Boolean => Type::Unsigned(1),
+        other => other,
+    };
+    let (low, high) = base.integer_range()?;
+    let mut seen = HashSet::new();
+    let fits =
+        |value: &&EnumValue| value.last.is_none() && (low..=high).contains(&value.value) && seen.insert(value.value);
+    let values: Vec<&EnumValue> = values.iter().filter(fits).collect();
+    (!values.is_empty()).then_some((base, values))
+}
+
+fn model(definition: &TypeDef, base: Type, values: &[&EnumValue], name: String, options: &RustOptions) -> Enumeration {
+    let native = native(base.is_signed(), base.bits().unwrap_or(64));
+    // With a name for every number there would be no other one.
+    let values = &values[..values.len().min(usize::from(u8::MAX))];
+    let wishes: Vec<Wish<'_>> = values
+        .iter()
+        .map(|value| {
+            let number = value.value.to_string().replace('-', "minus ");
+            Wish { name: &value.name, suffix: number.replace(' ', ""), fallback: format!("value {number}") }
+        })
+        .collect();
+    let names = names_unique::unique(&wishes, &RESERVED_VARIANTS, Case::Pascal);
+    let variant = |(value, name): (&&EnumValue, String)| {
+        let title = docs::escape(&value.name);
+        let separator = if title.is_empty() { "" } else { ": " };
+        Variant { name, docs: docs::sentence(&format!("{}{separator}{title}", value.value)), value: value.value }
+    };
+    let title = docs::escape(&definition.name);
+    let mut lines =
+        vec![format!("{} of {} bits.", if title.is_empty() { "Values" } else { &title }, base.bits().unwrap_or(0))];
+    docs::paragraphs(&definition.name, definition.documentation.as_deref(), &mut lines);
+    Enumeration {
+        path: format!("values::{name}"),
+        name,
+        native,
+        docs: lines,
+        derives: options.derives(true),
+        variants: values.iter().zip(names).map(variant).collect(),
+    }
+}

@@ -1,0 +1,181 @@
+//! Flags of objects and sub-items: access, mapping, backup.
+
+use super::reader::{Given, Read, Reader};
+use crate::diagnostics::codes;
+use crate::ir::{Access, Behaviour, Category, CompactString, Extension, Mappable};
+use crate::source::Span;
+use crate::syntax::xml::Tag;
+
+/// What the element Flags says.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Flags {
+    /// Whether there is such an element.
+    pub given: bool,
+    pub access: Option<Access>,
+    pub access_at: Span,
+    pub mappable: Option<Mappable>,
+    pub mappable_at: Span,
+    pub category: Option<Category>,
+    pub backup: Option<bool>,
+    pub setting: Option<bool>,
+    /// What few flags have.
+    pub more: Option<Box<MoreFlags>>,
+}
+
+#[derive(Clone, Debug, Default)]
+pub(super) struct MoreFlags {
+    pub safety: Option<CompactString>,
+    pub read_states: Vec<CompactString>,
+    pub write_states: Vec<CompactString>,
+}
+
+/// Reads the element Flags.
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<Flags> {
+    let mut flags = Flags { given: true, ..Flags::default() };
+    while let Some(tag) = reader.cursor.child(parent)? {
+        match tag.name {
+            "Access" => access(reader, &tag, &mut flags, extensions)?,
+            "Category" => {
+                let given = reader.leaf(&tag, extensions)?;
+                flags.category = category(reader, &given);
+            }
+            "PdoMapping" => {
+                let given = reader.leaf(&tag, extensions)?;
+                flags.mappable = mapping(reader, &given);
+                flags.mappable_at = given.span;
+            }
+            "SafetyMapping" => {
+                let given = reader.leaf(&tag, extensions)?;
+                let text = given.text.to_ascii_lowercase();
+                if !matches!(text.as_str(), "" | "si" | "so" | "sio" | "sp") {
+                    unknown(reader, &given, "safety mapping", "kept as it is; expected si, so, sio or sp");
+                }
+                flags.more().safety = (!text.is_empty()).then(|| text.into());
+            }
+            "Backup" => flags.backup = number_as_flag(reader, &tag, extensions)?,
+            "Setting" => flags.setting = number_as_flag(reader, &tag, extensions)?,
+            "SdoAccess" | "Transition" | "Attribute" => reader.note(&tag, extensions)?,
+            _ => reader.unknown(&tag, extensions)?,
+        }
+    }
+    Ok(flags)
+}
+
+fn access<'a>(
+    reader: &mut Reader<'a, '_>,
+    tag: &Tag<'a>,
+    flags: &mut Flags,
+    extensions: &mut Vec<Extension>,
+) -> Read<()> {
+    let [read, write] = reader.fields(tag, &["ReadRestrictions", "WriteRestrictions"], extensions)?;
+    if !read.is_empty() {
+        flags.more().read_states = states(&read);
+    }
+    if !write.is_empty() {
+        flags.more().write_states = states(&write);
+    }
+    let given = reader.content(extensions)?;
+    flags.access_at = given.span;
+    flags.access = match given.text.as_ref() {
+        "ro" => Some(Access::ReadOnly),
+        "rw" => Some(Access::ReadWrite),
+        "wo" => Some(Access::WriteOnly),
+        "" => None,
+        text => {
+            let access = match text.to_ascii_lowercase().as_str() {
+                "rw" | "rwr" | "rww" => Access::ReadWrite,
+                "wo" | "w" => Access::WriteOnly,
+                _ => Access::ReadOnly,
+            };
+            unknown(reader, &given, "access", &format!("read as {}; expected ro, rw or wo", access.name()));
+            Some(access)
+        }
+    };
+    Ok(())
+}
+
+/// The states that `PreOP_SafeOP` names.
+fn states(given: &Given<'_>) -> Vec<CompactString> {
+    given.text.split('_').filter(|state| !state.is_empty()).map(CompactString::from).collect()
+}
+
+fn category(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<Category> {
+    match given.text.as_ref() {
+        "m" | "M" => Some(Category::Mandatory),
+        "o" | "O" => Some(Category::Optional),
+        "c" | "C" => Some(Category::Conditional),
+        "" => None,
+        _ => {
+            unknown(reader, given, "category", "left out; expected m, o or c");
+            None
+        }
+    }
+}
+
+/// R: a master's outputs may be mapped there, that is, it goes into an RxPDO; T: into a TxPDO.
+fn mapping(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<Mappable> {
+    let mut mappable = Mappable::default();
+    for letter in given.text.bytes() {
+        match letter {
+            b'R' | b'r' => mappable.rpdo = true,
+            b'T' | b't' => mappable.tpdo = true,
+            _ => {
+                unknown(reader, given, "PDO mapping", "read as not mappable; expected R, T or RT");
+                return Some(Mappable::default());
+            }
+        }
+    }
+    Some(mappable).filter(|_| !given.is_empty())
+}
+
+fn number_as_flag<'a>(
+    reader: &mut Reader<'a, '_>,
+    tag: &Tag<'a>,
+    extensions: &mut Vec<Extension>,
+) -> Read<Option<bool>> {
+    let given = reader.leaf(tag, extensions)?;
+    Ok((!given.is_empty()).then(|| reader.flag(&given)))
+}
+
+fn unknown(reader: &mut Reader<'_, '_>, given: &Given<'_>, what: &str, label: &str) {
+    let message = format!("`{}` is no {what} of ETG.2000", super::reader::shortened(&given.text));
+    reader.report(&codes::UNKNOWN_FLAG, given.span, message, label);
+}
+
+impl Flags {
+    fn more(&mut self) -> &mut MoreFlags {
+        self.more.get_or_insert_default()
+    }
+
+    /// The flags of a sub-item, those of its object where it doesn't say.
+    pub fn access_or<'f>(&'f self, object: &'f Flags) -> (Option<Access>, Span) {
+        let flags = if self.access.is_some() { self } else { object };
+        (flags.access, flags.access_at)
+    }
+
+    /// Into which PDOs a sub-item may be mapped. Flags of its own that say nothing about it mean that it may not; the
+    /// number of sub-items (sub-index 0) is never mapped.
+    pub fn mappable_or(&self, object: &Flags, sub_index: u8) -> (Mappable, Span) {
+        let flags = if self.given || sub_index == 0 { self } else { object };
+        (flags.mappable.unwrap_or_default(), flags.mappable_at)
+    }
+
+    /// Storage, safety and conditions of a sub-item, as far as anything is said.
+    pub fn behaviour_or(&self, object: &Flags) -> Option<Box<Behaviour>> {
+        let backup = self.backup.or(object.backup).unwrap_or(false);
+        let setting = self.setting.or(object.setting).unwrap_or(false);
+        let more = if self.more.is_some() { self } else { object }.more.as_deref();
+        if more.is_none() && !backup && !setting {
+            return None;
+        }
+        let more = more.cloned().unwrap_or_default();
+        Some(Box::new(Behaviour {
+            backup,
+            setting,
+            safety: more.safety,
+            read_states: more.read_states,
+            write_states: more.write_states,
+            ..Behaviour::default()
+        }))
+    }
+}

@@ -1,0 +1,184 @@
+//! Modules, and which devices take them.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::device::lower;
+use super::pdo::{self, Pdos};
+use super::profile::Profiles;
+use super::reader::{note, Names, Read, Reader};
+use super::references::Reference;
+use super::{dictionary::missing_index, mailbox};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Catalog, CompactString, Device, Fit, Module, ModuleId, ModuleUse, Numbers, Places};
+use crate::limits;
+use crate::syntax::xml::Tag;
+
+/// Reads a Module, and the files that it refers to.
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>) -> Read<(Module, Vec<Reference>)> {
+    let mut module = Module { origin: reader.cursor.origin(parent), ..Module::default() };
+    reader.fields(parent, &[], &mut module.extensions)?;
+    let (mut names, mut pdos, mut profiles) = (Names::default(), Pdos::default(), Profiles::default());
+    let mut has_type = false;
+    while let Some(tag) = reader.cursor.child(parent)? {
+        let extensions = &mut module.extensions;
+        match tag.name {
+            "Type" => {
+                has_type = true;
+                module_type(reader, &tag, &mut module)?;
+            }
+            "Name" => reader.name(&tag, &mut names, extensions)?,
+            "RxPdo" | "TxPdo" => pdo::read(reader, &tag, &mut pdos)?,
+            "Mailbox" => settings(reader, &tag, &mut module)?,
+            "Profile" => profiles.read(reader, &tag, extensions)?,
+            "SafetyParaMapping" => reader.keep(&tag, extensions)?,
+            "DcOpModeName" => reader.note(&tag, extensions)?,
+            "Image16x14" | "ImageFile16x14" | "ImageData16x14" => reader.image(&tag, extensions)?,
+            "VendorSpecific" => reader.vendor_specific(&tag, extensions)?,
+            _ => reader.unknown(&tag, extensions)?,
+        }
+    }
+    if !has_type {
+        missing_index(reader, parent.span, "this module has no Type, and so no ident number");
+    }
+    (module.name, module.names) = (names.name(), names.others());
+    module.profiles = profiles.numbers;
+    module.extensions.append(&mut profiles.dictionary.take_extensions());
+    let lowered = lower(reader, profiles.dictionary, pdos, &mut module.process_data);
+    (module.types, module.groups) = lowered;
+    Ok((module, profiles.files))
+}
+
+fn module_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module) -> Read<()> {
+    const NAMES: [&str; 3] = ["ModuleIdent", "ModuleClass", "ModulePdoGroup"];
+    let fields = reader.fields(tag, &NAMES, &mut module.extensions)?;
+    let [ident, class, group] = &fields;
+    match reader.int(ident, "ident number of a module") {
+        Some(ident) => module.number = ident,
+        None if ident.is_empty() => missing_index(reader, tag.span, "this module has no ident number"),
+        None => {}
+    }
+    module.class = class.compact();
+    module.pdo_group = reader.int(group, "number of a group");
+    let given = reader.content(&mut module.extensions)?;
+    module.id = given.compact();
+    module.identity.order_code = given.compact();
+    Ok(())
+}
+
+/// What a master sends when such a module is there. What its protocol supports is kept beside it.
+fn settings<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, module: &mut Module) -> Read<()> {
+    let mailbox = mailbox::read(reader, tag, &mut module.extensions)?;
+    let Some(coe) = mailbox.coe else { return Ok(()) };
+    module.init_commands = coe.init_commands;
+    let flags = [
+        ("SdoInfo", coe.sdo_info),
+        ("PdoAssign", coe.pdo_assign),
+        ("PdoConfig", coe.pdo_config),
+        ("PdoUpload", coe.pdo_upload),
+        ("CompleteAccess", coe.complete_access),
+        ("SegmentedSdo", coe.segmented_sdo),
+    ];
+    for (name, set) in flags {
+        if set {
+            let given = super::reader::Given { text: "true".into(), span: tag.span };
+            note(&compact_str::format_compact!("CoE@{name}"), &given, &mut module.extensions);
+        }
+    }
+    for (name, value) in coe.attributes {
+        let given = super::reader::Given { text: value.as_str().into(), span: tag.span };
+        note(&compact_str::format_compact!("CoE@{name}"), &given, &mut module.extensions);
+    }
+    Ok(())
+}
+
+/// Notes for every device with slots which modules of the catalogue fit where.
+pub(super) fn plug(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
+    let Catalog { devices, modules, .. } = catalog;
+    let known = Known::new(modules, diagnostics);
+    let mut left = limits::MAX_MODULE_USES;
+    for device in devices {
+        if !known.plug(device, &mut left, diagnostics) {
+            let message = "the slots of all devices take too many modules";
+            let diagnostic = Diagnostic::new(&codes::INPUT_TOO_LARGE, device.origin.span, message);
+            diagnostics.push(diagnostic.label("not resolved from this device on"));
+            return;
+        }
+    }
+}
+
+/// The modules of a catalogue, by what slots name.
+struct Known<'m> {
+    by_ident: HashMap<u32, Vec<u32>>,
+    by_class: HashMap<&'m CompactString, Vec<u32>>,
+    count: usize,
+}
+
+impl<'m> Known<'m> {
+    fn new(modules: &'m [Module], diagnostics: &mut Diagnostics) -> Self {
+        let mut known = Known { by_ident: HashMap::new(), by_class: HashMap::new(), count: modules.len() };
+        for (at, module) in modules.iter().enumerate() {
+            let same = known.by_ident.entry(module.number).or_default();
+            let first = same.first().and_then(|&first| modules.get(first as usize));
+            if let Some(first) = first.filter(|_| module.number != 0) {
+                let message = format!("two modules have the ident number {:#x}", module.number);
+                diagnostics.push(
+                    Diagnostic::new(&codes::DUPLICATE_MODULE, module.origin.span, message)
+                        .label("both are kept")
+                        .note_at(first.origin.span, "the first one"),
+                );
+            }
+            same.push(at as u32);
+            if !module.class.is_empty() {
+                known.by_class.entry(&module.class).or_default().push(at as u32);
+            }
+        }
+        known
+    }
+
+    /// False where more modules fit than are left.
+    fn plug(&self, device: &mut Device, left: &mut usize, diagnostics: &mut Diagnostics) -> bool {
+        let mut places: BTreeMap<u32, Places> = BTreeMap::new();
+        for slot in &device.slots {
+            let last = slot.number.saturating_add(slot.instances.1.max(1) - 1);
+            let all: Vec<u32> = if slot.fits.is_empty() { (0..self.count as u32).collect() } else { Vec::new() };
+            let mut missing = 0;
+            let fitting = slot.fits.iter().map(|fit| match fit {
+                Fit::Ident(ident) => self.by_ident.get(ident).map_or(&[][..], Vec::as_slice),
+                Fit::Class(class) => self.by_class.get(class).map_or(&[][..], Vec::as_slice),
+                Fit::Name(_) => &[],
+            });
+            for modules in fitting.chain([all.as_slice()]) {
+                missing += usize::from(modules.is_empty());
+                let Some(rest) = left.checked_sub(modules.len()) else { return false };
+                *left = rest;
+                for &module in modules {
+                    push_range(&mut places.entry(module).or_default().allowed, (slot.number, last));
+                }
+            }
+            if missing > slot.fits.len() && !slot.fits.is_empty() {
+                nothing_fits(device, slot.number, diagnostics);
+            }
+        }
+        let uses = places.into_iter().map(|(module, places)| ModuleUse { module: ModuleId(module), places });
+        device.modules.extend(uses);
+        true
+    }
+}
+
+/// Adds slots to those where a module may be; adjacent ranges become one.
+fn push_range(numbers: &mut Numbers, (first, last): (u16, u16)) {
+    match numbers.0.last_mut() {
+        Some(range) if range.1 >= first => range.1 = range.1.max(last),
+        Some(range) if range.1.checked_add(1) == Some(first) => range.1 = last,
+        _ => numbers.0.push((first, last)),
+    }
+}
+
+fn nothing_fits(device: &Device, slot: u16, diagnostics: &mut Diagnostics) {
+    let message = format!("no module of this description fits into slot {slot}");
+    diagnostics.push(
+        Diagnostic::new(&codes::NO_MODULE_FITS, device.origin.span, message)
+            .label("the slot stays empty")
+            .help("modules may be in a file of their own, which InfoReference names"),
+    );
+}

@@ -1,0 +1,97 @@
+//! Numbers of ETG.2000 (HexDecValue), and the spellings that real files have for them.
+
+/// A number, and whether it was written as a bit pattern.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Number {
+    pub value: i128,
+    /// Hexadecimal and without a sign.
+    pub hex: bool,
+    /// Hexadecimal digits without `#x` in front.
+    pub bare: bool,
+}
+
+/// Reads decimal digits with or without a sign, or hexadecimal ones behind `#x` or `0x`. Digits of which one is a letter
+/// can only be hexadecimal.
+pub(super) fn parse(text: &str) -> Option<Number> {
+    let bytes = text.as_bytes();
+    if let Some(value) = decimal(bytes) {
+        return Some(Number { value: i128::from(value), hex: false, bare: false });
+    }
+    match bytes {
+        [b'-', rest @ ..] => signed(rest).map(|value| Number { value: -value, hex: false, bare: false }),
+        [b'+', rest @ ..] => signed(rest).map(|value| Number { value, hex: false, bare: false }),
+        _ => match prefixed(bytes) {
+            Some(digits) => hexadecimal(digits).map(|value| Number { value, hex: true, bare: false }),
+            None => hexadecimal(bytes).map(|value| Number { value, hex: true, bare: true }),
+        },
+    }
+}
+
+/// What follows a sign.
+fn signed(bytes: &[u8]) -> Option<i128> {
+    match prefixed(bytes) {
+        Some(digits) => hexadecimal(digits),
+        None => decimal(bytes).map(i128::from),
+    }
+}
+
+fn prefixed(bytes: &[u8]) -> Option<&[u8]> {
+    match bytes {
+        [b'#' | b'0', b'x' | b'X', digits @ ..] => Some(digits),
+        _ => None,
+    }
+}
+
+/// At most 20 digits; a greater number has no place in any field.
+fn decimal(digits: &[u8]) -> Option<u64> {
+    if digits.is_empty() {
+        return None;
+    }
+    digits.iter().try_fold(0u64, |value, &digit| {
+        let digit = digit.wrapping_sub(b'0');
+        if digit > 9 {
+            return None;
+        }
+        value.checked_mul(10)?.checked_add(u64::from(digit))
+    })
+}
+
+fn hexadecimal(digits: &[u8]) -> Option<i128> {
+    // Zeros in front say nothing.
+    let zeros = digits.iter().take_while(|&&digit| digit == b'0').count();
+    if digits.is_empty() || digits.len() - zeros > 16 {
+        return None;
+    }
+    let value = digits.iter().try_fold(0u64, |value, &digit| Some(value << 4 | u64::from(nibble(digit)?)))?;
+    Some(i128::from(value))
+}
+
+/// The value of a hexadecimal digit.
+pub(super) fn nibble(digit: u8) -> Option<u8> {
+    match digit {
+        b'0'..=b'9' => Some(digit - b'0'),
+        b'a'..=b'f' => Some(digit - b'a' + 10),
+        b'A'..=b'F' => Some(digit - b'A' + 10),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_spelling() {
+        let int = |text| parse(text).map(|number| number.value);
+        for (text, value) in [("#x1A", 26), ("0x1a", 26), ("26", 26), ("01", 1), ("-9999", -9999), ("+7", 7)] {
+            assert_eq!(int(text), Some(value), "{text}");
+        }
+        assert_eq!(int("18446744073709551615"), Some(u64::MAX.into()));
+        assert_eq!(int("#x0000000000FFFFFFFFFFFFFFFF"), Some(u64::MAX.into()));
+        for text in ["", "#x", "-", "2.5", "#x1G", "1 2", "18446744073709551616", "#x1FFFFFFFFFFFFFFFF", "--1", "µ"] {
+            assert_eq!(int(text), None, "{text}");
+        }
+        assert_eq!(parse("2E"), Some(Number { value: 0x2E, hex: true, bare: true }));
+        assert!(parse("#x2E").is_some_and(|number| number.hex && !number.bare));
+    }
+}

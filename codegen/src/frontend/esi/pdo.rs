@@ -1,0 +1,168 @@
+//! PDOs and their entries.
+
+use compact_str::format_compact;
+
+use super::dictionary::missing_index;
+use super::reader::{note, Given, Names, Read, Reader};
+use crate::diagnostics::codes;
+use crate::ir::{Direction, Extension, Oversampling, Pdo, PdoEntry, PdoEntryKind, ProcessData, Type};
+use crate::syntax::xml::Tag;
+
+/// The PDOs of a device or module. What the types of their entries are is known only once the dictionary was read.
+#[derive(Default)]
+pub(super) struct Pdos<'a> {
+    pub list: Vec<Pdo>,
+    /// The type that each entry names, entry by entry and PDO by PDO.
+    pub types: Vec<Given<'a>>,
+}
+
+/// Reads a RxPdo or TxPdo.
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, pdos: &mut Pdos<'a>) -> Read<()> {
+    let direction = if parent.name == "RxPdo" { Direction::Receive } else { Direction::Transmit };
+    let mut pdo = Pdo { origin: reader.cursor.origin(parent), ..Pdo::new(direction, 0) };
+    attributes(reader, parent, &mut pdo)?;
+    let (mut names, mut index) = (Names::default(), None);
+    while let Some(tag) = reader.cursor.child(parent)? {
+        match tag.name {
+            "Index" => index = pdo_index(reader, &tag, &mut pdo)?,
+            "Name" => reader.name(&tag, &mut names, &mut pdo.extensions)?,
+            "Exclude" => {
+                let excluded = plain_index(reader, &tag, &mut pdo.extensions)?;
+                pdo.excludes.extend(excluded);
+            }
+            "ExcludedSm" => {
+                let excluded: Option<u8> = reader.number(&tag, "number of a sync manager", &mut pdo.extensions)?;
+                pdo.excluded_sync_managers.extend(excluded);
+            }
+            "Entry" => {
+                let (entry, ty) = entry(reader, &tag, &mut pdo.extensions)?;
+                pdo.entries.push(entry);
+                pdos.types.push(ty);
+            }
+            _ => reader.unknown(&tag, &mut pdo.extensions)?,
+        }
+    }
+    let (name, others) = (names.name(), names.others());
+    let own = Pdo::new(direction, index.unwrap_or(0));
+    pdo = Pdo { mapping_index: own.mapping_index, number: own.number, name, names: others, ..pdo };
+    check(reader, parent, &pdo, index.is_some());
+    pdos.list.push(pdo);
+    Ok(())
+}
+
+fn attributes<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, pdo: &mut Pdo) -> Read<()> {
+    const NAMES: [&str; 10] =
+        ["Fixed", "Mandatory", "Virtual", "Sm", "Su", "OSFac", "OSMin", "OSMax", "OSIndexInc", "OverwrittenByModule"];
+    let fields = reader.fields(tag, &NAMES, &mut pdo.extensions)?;
+    let [fixed, mandatory, is_virtual, sm, su, factor, min, max, increment, overwritten] = &fields;
+    pdo.fixed = reader.flag(fixed);
+    pdo.mandatory = reader.flag(mandatory);
+    pdo.is_virtual = reader.flag(is_virtual);
+    pdo.sync_manager = reader.int(sm, "number of a sync manager");
+    pdo.sync_unit = reader.int(su, "number of a sync unit");
+    pdo.overwritten_by_module = reader.flag(overwritten);
+    let oversampling = Oversampling {
+        factor: reader.int(factor, "oversampling factor"),
+        min: reader.int(min, "oversampling factor"),
+        max: reader.int(max, "oversampling factor"),
+        index_increment: reader.int(increment, "increment of an index"),
+    };
+    if oversampling != Oversampling::default() {
+        pdo.oversampling = Some(Box::new(oversampling));
+    }
+    Ok(())
+}
+
+fn pdo_index<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, pdo: &mut Pdo) -> Read<Option<u16>> {
+    let (given, slot, group) = slot_index(reader, tag, &mut pdo.extensions)?;
+    (pdo.depends_on_slot, pdo.depends_on_slot_group) = (slot, group);
+    Ok(reader.int(&given, "index"))
+}
+
+/// An index, and whether it grows with the slot and the slot group.
+pub(super) fn slot_index<'a>(
+    reader: &mut Reader<'a, '_>,
+    tag: &Tag<'a>,
+    extensions: &mut Vec<Extension>,
+) -> Read<(Given<'a>, bool, bool)> {
+    let [slot, group] = reader.fields(tag, &["DependOnSlot", "DependOnSlotGroup"], extensions)?;
+    let (slot, group) = (reader.flag(&slot), reader.flag(&group));
+    Ok((reader.content(extensions)?, slot, group))
+}
+
+/// An index of which nothing matters but the number.
+fn plain_index<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<Option<u16>> {
+    reader.number(tag, "index", extensions)
+}
+
+fn entry<'a>(
+    reader: &mut Reader<'a, '_>,
+    parent: &Tag<'a>,
+    extensions: &mut Vec<Extension>,
+) -> Read<(PdoEntry, Given<'a>)> {
+    let mut entry = PdoEntry { origin: reader.cursor.origin(parent), ..PdoEntry::new(0, 0, 0) };
+    let [fixed] = reader.fields(parent, &["Fixed"], extensions)?;
+    entry.fixed = reader.flag(&fixed);
+    let (mut names, mut ty) = (Names::default(), Given::default());
+    let (mut index, mut sub_index) = (Given::default(), Given::default());
+    while let Some(tag) = reader.cursor.child(parent)? {
+        match tag.name {
+            "Index" => {
+                (index, entry.depends_on_slot, entry.depends_on_slot_group) = slot_index(reader, &tag, extensions)?;
+            }
+            "SubIndex" => sub_index = reader.leaf(&tag, extensions)?,
+            "BitLen" => entry.bits = reader.number(&tag, "length in bits", extensions)?.unwrap_or(0),
+            "Name" => reader.name(&tag, &mut names, extensions)?,
+            "DataType" => ty = data_type(reader, &tag, extensions)?,
+            "Comment" => {
+                let given = reader.leaf(&tag, extensions)?;
+                note("Entry/Comment", &given, extensions);
+            }
+            _ => reader.unknown(&tag, extensions)?,
+        }
+    }
+    (entry.name, entry.names) = (names.name(), names.others());
+    entry.index = reader.int(&index, "index").unwrap_or(0);
+    entry.sub_index = reader.int(&sub_index, "sub-index").unwrap_or(0);
+    if index.is_empty() {
+        missing_index(reader, parent.span, "this entry has no index");
+    }
+    if entry.index == 0 {
+        entry.kind = PdoEntryKind::Padding;
+    }
+    Ok((entry, ty))
+}
+
+/// The name of a type, with its scale and the order of its bytes, which have no place in the IR.
+fn data_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<Given<'a>> {
+    let [scale, swap] = reader.fields(tag, &["DScale", "SwapData"], extensions)?;
+    note("DataType@DScale", &scale, extensions);
+    note("DataType@SwapData", &swap, extensions);
+    reader.content(extensions)
+}
+
+fn check(reader: &mut Reader<'_, '_>, tag: &Tag<'_>, pdo: &Pdo, has_index: bool) {
+    if !has_index {
+        let message = format!("this {} has no index", tag.name);
+        reader.report(&codes::PDO_WITHOUT_INDEX, tag.span, message, "it can't be assigned to a sync manager");
+    }
+    if pdo.name.is_empty() {
+        let message = format_compact!("this {} has no name", tag.name);
+        reader.report(&codes::UNNAMED_PDO, tag.span, message.as_str(), "it goes by its index");
+    }
+}
+
+impl<'a> Pdos<'a> {
+    /// Puts the PDOs into `data`, RxPdos first, each with the types that `resolve` gives.
+    pub fn finish(self, data: &mut ProcessData, mut resolve: impl FnMut(&Given<'a>, &PdoEntry) -> Type) {
+        let mut list = self.list;
+        let entries = list.iter_mut().flat_map(|pdo| &mut pdo.entries);
+        for (entry, ty) in entries.zip(&self.types) {
+            entry.ty = resolve(ty, entry);
+        }
+        let (receive, transmit): (Vec<Pdo>, Vec<Pdo>) =
+            list.into_iter().partition(|pdo| pdo.direction == Direction::Receive);
+        data.pdos = receive;
+        data.pdos.extend(transmit);
+    }
+}

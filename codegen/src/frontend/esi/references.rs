@@ -1,0 +1,245 @@
+//! Files that a description refers to: further descriptions, dictionaries, diagnosis messages.
+
+use std::collections::HashMap;
+use std::collections::VecDeque;
+use std::path::Path;
+
+use super::reader::{Budget, Given};
+use super::{document, Description};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Catalog, Device, Group, Shape, Type, TypeDef, TypeId};
+use crate::source::{References, Source, Span};
+
+/// What a file is expected to contain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Target {
+    /// Devices or modules (InfoReference).
+    Info,
+    /// Data types and objects (DictionaryFile).
+    Dictionary,
+    /// Messages (DiagFile).
+    Diagnosis,
+}
+
+/// To what the content of a file belongs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Owner {
+    Catalog,
+    Device(usize),
+    Module(usize),
+}
+
+/// A file that the description refers to.
+#[derive(Clone, Debug)]
+pub(super) struct Reference {
+    name: String,
+    span: Span,
+    target: Target,
+}
+
+impl Reference {
+    pub fn new(given: &Given<'_>, target: Target) -> Self {
+        Reference { name: given.text.to_string(), span: given.span, target }
+    }
+}
+
+/// Reads the files that `description` refers to, and those that these refer to, each once.
+pub(super) fn follow(
+    main: &Source,
+    description: &mut Description,
+    references: &mut References<'_>,
+    diagnostics: &mut Diagnostics,
+    budget: &mut Budget,
+) {
+    let own = Path::new(main.name()).file_name().map(|name| name.to_string_lossy().into_owned());
+    // The content of each file, as far as others need it; `None` for one that can't be used.
+    let mut files: HashMap<String, Option<Box<Catalog>>> = HashMap::new();
+    let mut queue: VecDeque<(Owner, Reference)> = std::mem::take(&mut description.references).into();
+    while let Some((owner, reference)) = queue.pop_front() {
+        let name = normal(&reference.name);
+        // A file that refers to itself says nothing new.
+        if Some(&name) == own.as_ref() {
+            continue;
+        }
+        if let Some(content) = files.get(&name) {
+            if let (Some(content), true) = (content, reference.target != Target::Info) {
+                attach(description, owner, &reference, content, diagnostics, budget);
+            }
+            continue;
+        }
+        let Some(mut read) = open(&reference, references, diagnostics, budget) else {
+            files.insert(name, None);
+            continue;
+        };
+        match reference.target {
+            Target::Info => {
+                queue.extend(join(description, read));
+                files.insert(name, None);
+            }
+            _ => {
+                queue.extend(read.references.drain(..).filter(|(owner, _)| *owner == Owner::Catalog));
+                attach(description, owner, &reference, &read.catalog, diagnostics, budget);
+                files.insert(name, Some(Box::new(read.catalog)));
+            }
+        }
+    }
+}
+
+/// The name of a file by which it is recognised.
+fn normal(name: &str) -> String {
+    let name = name.trim().replace('\\', "/");
+    name.trim_start_matches("./").to_owned()
+}
+
+fn open(
+    reference: &Reference,
+    references: &mut References<'_>,
+    diagnostics: &mut Diagnostics,
+    budget: &mut Budget,
+) -> Option<Description> {
+    let source = match references.open(&reference.name) {
+        Ok(source) => source,
+        Err(refusal) => {
+            let message = format!("the file `{}` wasn't read: {refusal}", reference.name);
+            diagnostics.push(
+                Diagnostic::new(&codes::REFERENCED_FILE, reference.span, message)
+                    .label("what it would add is missing")
+                    .help("put the file in the folder of the description, under this name"),
+            );
+            return None;
+        }
+    };
+    let mut read = Description::default();
+    let outcome = document(&source, references.next_file(), &mut read, diagnostics, budget);
+    references.add(source);
+    if let Err(stop) = outcome {
+        let message = format!("the file `{}` wasn't read: {}", reference.name, stop.message);
+        diagnostics.push(
+            Diagnostic::new(&codes::REFERENCED_FILE, reference.span, message)
+                .label("what it would add is missing")
+                .note_at(stop.span, "reading ends here"),
+        );
+        return None;
+    }
+    Some(read)
+}
+
+/// Adds a further description; what it refers to itself.
+fn join(description: &mut Description, read: Description) -> Vec<(Owner, Reference)> {
+    let Description { catalog: mut other, references } = read;
+    let catalog = &mut description.catalog;
+    let (devices, modules) = (catalog.devices.len(), catalog.modules.len());
+    catalog.devices.append(&mut other.devices);
+    catalog.modules.append(&mut other.modules);
+    catalog.families.append(&mut other.families);
+    catalog.code_tables.append(&mut other.code_tables);
+    catalog.extensions.append(&mut other.extensions);
+    let moved = |owner| match owner {
+        Owner::Device(at) => Owner::Device(at + devices),
+        Owner::Module(at) => Owner::Module(at + modules),
+        Owner::Catalog => Owner::Catalog,
+    };
+    references.into_iter().map(|(owner, reference)| (moved(owner), reference)).collect()
+}
+
+/// Adds the dictionary or the messages of a file to what refers to it.
+fn attach(
+    description: &mut Description,
+    owner: Owner,
+    reference: &Reference,
+    content: &Catalog,
+    diagnostics: &mut Diagnostics,
+    budget: &mut Budget,
+) {
+    let dictionary = content.devices.iter().find(|device| device.dictionary_only);
+    let found = match reference.target {
+        Target::Dictionary => dictionary.is_some(),
+        _ => !content.code_tables.is_empty(),
+    };
+    if !found {
+        let what = if reference.target == Target::Dictionary { "dictionary" } else { "diagnosis messages" };
+        let message = format!("the file `{}` has no {what}", reference.name);
+        diagnostics.push(Diagnostic::new(&codes::REFERENCED_FILE, reference.span, message).label("it adds nothing"));
+        return;
+    }
+    let catalog = &mut description.catalog;
+    if reference.target == Target::Diagnosis {
+        let tables = match owner {
+            Owner::Device(at) => catalog.devices.get_mut(at).map(|device| &mut device.code_tables),
+            _ => Some(&mut catalog.code_tables),
+        };
+        let rows = content.code_tables.iter().map(|table| table.rows.len()).sum();
+        if let (Some(tables), true) = (tables, affordable(budget, rows, reference, diagnostics)) {
+            tables.extend(content.code_tables.iter().cloned());
+        }
+        return;
+    }
+    let target = match owner {
+        Owner::Device(at) => catalog.devices.get_mut(at).map(|device| (&mut device.types, &mut device.groups)),
+        Owner::Module(at) => catalog.modules.get_mut(at).map(|module| (&mut module.types, &mut module.groups)),
+        Owner::Catalog => None,
+    };
+    let (Some((types, groups)), Some(dictionary)) = (target, dictionary) else { return };
+    let items = dictionary.groups.iter().map(|group| group.items.len()).sum();
+    if affordable(budget, items, reference, diagnostics) {
+        merge(types, groups, dictionary, diagnostics);
+    }
+}
+
+/// Whether so much may be copied: many devices may refer to one large file.
+fn affordable(budget: &mut Budget, items: usize, reference: &Reference, diagnostics: &mut Diagnostics) -> bool {
+    let affordable = budget.take((items, 0));
+    if !affordable {
+        let message = "files that are referred to would make the description many times longer";
+        diagnostics.push(
+            Diagnostic::new(&codes::INPUT_TOO_LARGE, reference.span, message).label("this file isn't copied here"),
+        );
+    }
+    affordable
+}
+
+/// Adds the types and objects of a dictionary to those of a device or module; its own objects come first.
+fn merge(types: &mut Vec<TypeDef>, groups: &mut Vec<Group>, dictionary: &Device, diagnostics: &mut Diagnostics) {
+    let offset = types.len() as u32;
+    types.extend(dictionary.types.iter().cloned().map(|mut def| {
+        shift_shape(&mut def.shape, offset);
+        def
+    }));
+    let own = groups.len();
+    groups.extend(dictionary.groups.iter().cloned());
+    for item in groups.iter_mut().skip(own).flat_map(|group| &mut group.items) {
+        shift(&mut item.ty, offset);
+    }
+    groups.sort_by_key(Group::index);
+    groups.dedup_by(|later, earlier| {
+        let twice = later.index() == earlier.index();
+        if let (true, Some(index)) = (twice, later.index()) {
+            diagnostics.push(
+                Diagnostic::new(
+                    &codes::ESI_DUPLICATE_OBJECT,
+                    later.origin.span,
+                    format!("object 0x{index:04X} occurs twice"),
+                )
+                .label("left out")
+                .note_at(earlier.origin.span, "this one is used"),
+            );
+        }
+        twice
+    });
+}
+
+fn shift(ty: &mut Type, offset: u32) {
+    if let Type::Named(TypeId(at)) = ty {
+        *at += offset;
+    }
+}
+
+fn shift_shape(shape: &mut Shape, offset: u32) {
+    match shape {
+        Shape::Alias(ty) | Shape::Array { element: ty, .. } => shift(ty, offset),
+        Shape::Record(fields) => fields.iter_mut().for_each(|field| shift(&mut field.ty, offset)),
+        Shape::BitField { base, .. } | Shape::Enumeration { base, .. } | Shape::Scaled { base, .. } => {
+            shift(base, offset);
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! Slots of a modular device.
+
+use super::reader::{note, Given, Names, Read, Reader};
+use crate::ir::{CompactString, Extension, Fit, ModulePdoGroup, Slot, SlotRules};
+use crate::syntax::xml::Tag;
+
+/// Reads Slots. Slots are numbered from 0; one that takes several modules stands for as many.
+pub(super) fn read<'a>(
+    reader: &mut Reader<'a, '_>,
+    parent: &Tag<'a>,
+    slots: &mut Vec<Slot>,
+    extensions: &mut Vec<Extension>,
+) -> Read<SlotRules> {
+    let mut rules = rules(reader, parent, extensions)?;
+    let first = slots.len();
+    // Increments that a slot gives itself are noted, so that 0 isn't taken for none.
+    let mut own = Vec::new();
+    while let Some(tag) = reader.cursor.child(parent)? {
+        match tag.name {
+            "Slot" => {
+                let (slot, increments) = slot(reader, &tag, extensions)?;
+                slots.push(slot);
+                own.push(increments);
+            }
+            "SlotGroupData" => group(reader, &tag, &mut rules, extensions)?,
+            "ModulePdoGroup" => rules.pdo_groups.push(pdo_group(reader, &tag, extensions)?),
+            "SlotSelections" => rules.selections.push(selection(reader, &tag, extensions)?),
+            _ => reader.unknown(&tag, extensions)?,
+        }
+    }
+    let mut number = slots.get(..first).and_then(<[Slot]>::last).map_or(0, after);
+    for (slot, (index, pdo)) in slots.iter_mut().skip(first).zip(own) {
+        slot.number = number;
+        slot.index_increment = index.unwrap_or(rules.index_increment);
+        slot.pdo_increment = pdo.unwrap_or(rules.pdo_increment);
+        number = after(slot);
+    }
+    Ok(rules)
+}
+
+/// The number of the slot behind this one.
+fn after(slot: &Slot) -> u16 {
+    slot.number.saturating_add(slot.instances.1.max(1))
+}
+
+fn rules<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<SlotRules> {
+    const NAMES: [&str; 10] = [
+        "MaxSlotCount",
+        "MaxSlotGroupCount",
+        "SlotIndexIncrement",
+        "SlotPdoIncrement",
+        "SlotGroupIndexIncrement",
+        "SlotGroupPdoIncrement",
+        "DownloadModuleIdentList",
+        "DownloadModuleAddressList",
+        "DownloadModuleListTransition",
+        "IdentifyModuleBy",
+    ];
+    let fields = reader.fields(tag, &NAMES, extensions)?;
+    let [slots, groups, index, pdo, group_index, group_pdo, idents, addresses, transition, identify] = &fields;
+    note("IdentifyModuleBy", identify, extensions);
+    let transition = if transition.is_empty() { CompactString::const_new("PS") } else { transition.compact() };
+    Ok(SlotRules {
+        max_slots: reader.int(slots, "number of slots"),
+        max_groups: reader.int(groups, "number of slot groups"),
+        index_increment: increment(reader, index).unwrap_or(0),
+        pdo_increment: increment(reader, pdo).unwrap_or(0),
+        group_index_increment: increment(reader, group_index).unwrap_or(0),
+        group_pdo_increment: increment(reader, group_pdo).unwrap_or(0),
+        download_idents: reader.flag(idents),
+        download_addresses: reader.flag(addresses),
+        download_transition: transition,
+        ..SlotRules::default()
+    })
+}
+
+fn increment(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<u16> {
+    reader.int(given, "increment of an index")
+}
+
+/// A slot, and the increments for indices of objects and of PDOs that it gives itself.
+type Increments = (Option<u16>, Option<u16>);
+
+fn slot<'a>(
+    reader: &mut Reader<'a, '_>,
+    parent: &Tag<'a>,
+    extensions: &mut Vec<Extension>,
+) -> Read<(Slot, Increments)> {
+    const NAMES: [&str; 10] = [
+        "MinInstances",
+        "MaxInstances",
+        "SlotGroup",
+        "SlotIndexIncrement",
+        "SlotPdoIncrement",
+        "SlotGroupIndexIncrement",
+        "SlotGroupPdoIncrement",
+        "Default",
+        "Fallback",
+        "TreeView",
+    ];
+    let fields = reader.fields(parent, &NAMES, extensions)?;
+    let [min, max, group, index, pdo, group_index, group_pdo, default, fallback, view] = &fields;
+    for (key, given) in [
+        ("Slot@SlotGroupIndexIncrement", group_index),
+        ("Slot@SlotGroupPdoIncrement", group_pdo),
+        ("Slot@Fallback", fallback),
+        ("Slot@TreeView", view),
+    ] {
+        note(key, given, extensions);
+    }
+    let least = reader.int(min, "number of modules").unwrap_or(0);
+    let mut slot = Slot {
+        instances: (least, reader.int(max, "number of modules").unwrap_or(least.max(1))),
+        group: reader.int(group, "number of a slot group"),
+        default: reader.int(default, "ident number of a module").map(Fit::Ident),
+        ..Slot::default()
+    };
+    let increments = (increment(reader, index), increment(reader, pdo));
+    let mut names = Names::default();
+    while let Some(tag) = reader.cursor.child(parent)? {
+        match tag.name {
+            "Name" => reader.name(&tag, &mut names, extensions)?,
+            "ModuleIdent" => module_ident(reader, &tag, &mut slot, extensions)?,
+            "ModuleClass" => module_class(reader, &tag, &mut slot, extensions)?,
+            "Image16x14" | "ImageFile16x14" | "ImageData16x14" => reader.image(&tag, extensions)?,
+            _ => reader.unknown(&tag, extensions)?,
+        }
+    }
+    (slot.name, slot.names) = (names.name(), names.others());
+    Ok((slot, increments))
+}
+
+fn module_ident<'a>(
+    reader: &mut Reader<'a, '_>,
+    tag: &Tag<'a>,
+    slot: &mut Slot,
+    extensions: &mut Vec<Extension>,
+) -> Read<()> {
+    let [default] = reader.fields(tag, &["Default"], extensions)?;
+    let is_default = reader.int::<u32>(&default, "number").is_some_and(|value| value != 0);
+    let given = reader.content(extensions)?;
+    if let Some(ident) = reader.int(&given, "ident number of a module") {
+        slot.fits.push(Fit::Ident(ident));
+        if is_default {
+            slot.default = Some(Fit::Ident(ident));
+        }
+    }
+    Ok(())
+}
+
+fn module_class<'a>(
+    reader: &mut Reader<'a, '_>,
+    parent: &Tag<'a>,
+    slot: &mut Slot,
+    extensions: &mut Vec<Extension>,
+) -> Read<()> {
+    while let Some(tag) = reader.cursor.child(parent)? {
+        match tag.name {
+            "Class" => {
+                let given = reader.leaf(&tag, extensions)?;
+                slot.fits.push(Fit::Class(given.compact()));
+            }
+            "VendorId" | "Name" => reader.keep(&tag, extensions)?,
+            "Image16x14" | "ImageFile16x14" | "ImageData16x14" => reader.image(&tag, extensions)?,
+            _ => reader.unknown(&tag, extensions)?,
+        }
+    }
+    Ok(())
+}
+
+fn group<'a>(
+    reader: &mut Reader<'a, '_>,
+    parent: &Tag<'a>,
+    rules: &mut SlotRules,
+    extensions: &mut Vec<Extension>,
+) -> Read<()> {
+    let [number] = reader.fields(parent, &["SlotGroup"], extensions)?;
+    let number = reader.int(&number, "number of a slot group").unwrap_or(0);
+    let mut names = Names::default();
+    while let Some(tag) = reader.cursor.child(parent)? {
+        match tag.name {
+            "Name" => reader.name(&tag, &mut names, extensions)?,
+            "ImageFile16x14" | "ImageData16x14" => reader.image(&tag, extensions)?,
+            _ => reader.unknown(&tag, extensions)?,
+        }
+    }
+    let others = names.others();
+    extensions.extend(others.iter().map(|text| {
+        let key = compact_str::format_compact!("SlotGroupData {number}/Name@{}", text.language);
+        Extension { key, value: text.text.clone(), span: parent.span }
+    }));
+    rules.groups.push((number, names.name()));
+    Ok(())
+}
+
+fn pdo_group<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<ModulePdoGroup> {
+    let fields = reader.fields(tag, &["Alignment", "RxPdo", "TxPdo"], extensions)?;
+    let [alignment, receive, transmit] = &fields;
+    let group = ModulePdoGroup {
+        alignment: reader.int(alignment, "alignment in bits").unwrap_or(0),
+        rx_pdo: reader.int(receive, "index"),
+        tx_pdo: reader.int(transmit, "index"),
+    };
+    let given = reader.content(extensions)?;
+    note("ModulePdoGroup", &given, extensions);
+    Ok(group)
+}
+
+fn selection<'a>(
+    reader: &mut Reader<'a, '_>,
+    parent: &Tag<'a>,
+    extensions: &mut Vec<Extension>,
+) -> Read<(CompactString, Vec<u32>)> {
+    let (mut names, mut idents) = (Names::default(), Vec::new());
+    while let Some(tag) = reader.cursor.child(parent)? {
+        match tag.name {
+            "Name" => reader.name(&tag, &mut names, extensions)?,
+            "ModuleIdent" => {
+                let ident: Option<u32> = reader.number(&tag, "ident number of a module", extensions)?;
+                idents.extend(ident);
+            }
+            _ => reader.unknown(&tag, extensions)?,
+        }
+    }
+    Ok((names.name(), idents))
+}

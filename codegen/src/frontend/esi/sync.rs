@@ -1,0 +1,132 @@
+//! FMMUs, sync managers and sync units.
+
+use super::reader::{shortened, Given, Read, Reader};
+use crate::diagnostics::codes;
+use crate::ir::{EtherCatSettings, Extension, Fmmu, SyncManager, SyncManagerPurpose, SyncUnit};
+use crate::syntax::xml::Tag;
+
+/// Reads a Fmmu.
+pub(super) fn fmmu<'a>(
+    reader: &mut Reader<'a, '_>,
+    tag: &Tag<'a>,
+    settings: &mut EtherCatSettings,
+    extensions: &mut Vec<Extension>,
+) -> Read<()> {
+    let [op_only, sm, su] = reader.fields(tag, &["OpOnly", "Sm", "Su"], extensions)?;
+    let fmmu = Fmmu {
+        op_only: reader.flag(&op_only),
+        sync_manager: reader.int(&sm, "number of a sync manager"),
+        sync_unit: reader.int(&su, "number of a sync unit"),
+        purpose: reader.content(extensions)?.compact(),
+    };
+    settings.fmmus.push(fmmu);
+    Ok(())
+}
+
+/// Reads a Su.
+pub(super) fn sync_unit<'a>(
+    reader: &mut Reader<'a, '_>,
+    tag: &Tag<'a>,
+    settings: &mut EtherCatSettings,
+    extensions: &mut Vec<Extension>,
+) -> Read<()> {
+    const NAMES: [&str; 4] = ["SeparateSu", "SeparateFrame", "DependOnInputState", "FrameRepeatSupport"];
+    let [separate, frame, state, repeat] = reader.fields(tag, &NAMES, extensions)?;
+    let unit = SyncUnit {
+        separate: reader.flag(&separate),
+        separate_frame: reader.flag(&frame),
+        depends_on_input_state: reader.flag(&state),
+        frame_repeat: reader.flag(&repeat),
+        name: reader.content(extensions)?.compact(),
+    };
+    settings.sync_units.push(unit);
+    Ok(())
+}
+
+/// Reads a Sm. What it is for is known only once all sync managers were read: see [`settle`].
+pub(super) fn sync_manager<'a>(
+    reader: &mut Reader<'a, '_>,
+    tag: &Tag<'a>,
+    list: &mut Vec<(SyncManager, Given<'a>)>,
+    extensions: &mut Vec<Extension>,
+) -> Read<()> {
+    const NAMES: [&str; 8] =
+        ["MinSize", "MaxSize", "DefaultSize", "StartAddress", "ControlByte", "Enable", "OpOnly", "Virtual"];
+    let origin = reader.cursor.origin(tag);
+    let fields = reader.fields(tag, &NAMES, extensions)?;
+    let [min, max, size, start, control, enable, op_only, is_virtual] = &fields;
+    let given = reader.content(extensions)?;
+    let number = u8::try_from(list.len()).unwrap_or(u8::MAX);
+    if list.len() > usize::from(number) {
+        reader.report(&codes::ESI_VALUE, tag.span, "no controller has so many sync managers", "left out");
+        return Ok(());
+    }
+    let manager = SyncManager {
+        number,
+        purpose: SyncManagerPurpose::Inputs,
+        label: given.compact(),
+        start_address: reader.int(start, "address").unwrap_or(0),
+        default_size: reader.int(size, "size in bytes"),
+        size_range: (reader.int(min, "size in bytes"), reader.int(max, "size in bytes")),
+        control: reader.int(control, "control byte").unwrap_or(0),
+        // The lowest bit of the register's byte; the others mean something else.
+        enable: reader.int::<u32>(enable, "value of the enable register").is_some_and(|value| value & 1 == 1),
+        op_only: reader.flag(op_only),
+        is_virtual: reader.flag(is_virtual),
+        origin,
+    };
+    list.push((manager, given));
+    Ok(())
+}
+
+/// Settles what each sync manager is for: by its text, or else by its control byte or place.
+pub(super) fn settle(reader: &mut Reader<'_, '_>, list: Vec<(SyncManager, Given<'_>)>) -> Vec<SyncManager> {
+    use SyncManagerPurpose::{Inputs, MailboxIn, MailboxOut, Outputs};
+    // With a mailbox there are four, and its two come first.
+    let has_mailbox = list.len() >= 4;
+    let mut managers = Vec::with_capacity(list.len());
+    for (position, (mut manager, given)) in list.into_iter().enumerate() {
+        // Bits 0 and 1 of the control register are the mode (2 = mailbox), bits 2 and 3 the direction (1 = written).
+        let (is_mailbox, is_written) = match manager.control {
+            0 => (has_mailbox && position < 2, position == 0 || (has_mailbox && position == 2)),
+            control => (control & 0b11 == 2, control & 0b1100 == 0b0100),
+        };
+        let by_place = match (is_mailbox, is_written) {
+            (true, true) => MailboxOut,
+            (true, false) => MailboxIn,
+            (false, true) => Outputs,
+            (false, false) => Inputs,
+        };
+        manager.purpose = by_text(&given.text).unwrap_or(by_place);
+        if by_text(&given.text).is_none() {
+            let message = match given.text.as_ref() {
+                "" => "nothing says what this sync manager is for".to_owned(),
+                text => format!("`{}` doesn't say what this sync manager is for", shortened(text)),
+            };
+            let label = format!("taken as {}, by its control byte or place", name(by_place));
+            let span = given.span.or(manager.origin.span);
+            reader.report(&codes::SYNC_MANAGER_PURPOSE, span, message, label);
+        }
+        managers.push(manager);
+    }
+    managers
+}
+
+fn by_text(text: &str) -> Option<SyncManagerPurpose> {
+    const NAMES: [SyncManagerPurpose; 4] = [
+        SyncManagerPurpose::MailboxOut,
+        SyncManagerPurpose::MailboxIn,
+        SyncManagerPurpose::Outputs,
+        SyncManagerPurpose::Inputs,
+    ];
+    NAMES.into_iter().find(|purpose| name(*purpose).eq_ignore_ascii_case(text))
+}
+
+fn name(purpose: SyncManagerPurpose) -> &'static str {
+    match purpose {
+        SyncManagerPurpose::MailboxOut => "MBoxOut",
+        SyncManagerPurpose::MailboxIn => "MBoxIn",
+        SyncManagerPurpose::Outputs => "Outputs",
+        SyncManagerPurpose::Inputs => "Inputs",
+    }
+}

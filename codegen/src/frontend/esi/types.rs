@@ -1,0 +1,542 @@
+//! From the data types of a dictionary to types of the IR.
+
+use std::collections::hash_map::Entry;
+use std::collections::HashMap;
+
+use compact_str::format_compact;
+use smallvec::SmallVec;
+
+use super::data_type::{Dimension, RawField, RawType};
+use super::reader::{shortened, Given, Reader};
+use super::type_name::{self, Basic, Spelling};
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{BitFieldEntry, BitMeaning, CompactString, Field, Shape, Type, TypeDef, TypeId};
+use crate::limits;
+use crate::source::{Origin, Span};
+
+/// The types of one device, module or dictionary.
+#[derive(Default)]
+pub(super) struct Types<'t, 'a> {
+    raw: &'t [RawType<'a>],
+    by_name: HashMap<&'t str, u32>,
+    links: Links,
+    /// What a reference to each data type means: an alias of a basic type is that type.
+    meaning: Vec<Type>,
+    /// The types in the order of the file, and behind them those that only a name stands for.
+    defs: Vec<TypeDef>,
+    made: HashMap<CompactString, Type>,
+}
+
+/// The positions of the data types that others name.
+#[derive(Default)]
+struct Links {
+    bases: Vec<Option<u32>>,
+    /// Those of all fields, type by type.
+    fields: Vec<Option<u32>>,
+    /// Where the fields of each type begin.
+    first: Vec<usize>,
+    /// Whether a type is made of itself, or of too many layers.
+    endless: Vec<bool>,
+}
+
+impl Links {
+    fn new<'r>(raw: &'r [RawType<'_>], by_name: &HashMap<&str, u32>) -> Self {
+        let mut links = Links::default();
+        // Neighbours often name the same type.
+        let mut last = ("", None);
+        let mut find = |name: &'r str| {
+            if last.0 != name {
+                last = (name, by_name.get(name).copied());
+            }
+            last.1
+        };
+        for (at, ty) in raw.iter().enumerate() {
+            let base = find(&ty.base.text);
+            // A type that names itself as its base says that it is the basic type of that name.
+            let own = base == Some(at as u32) && type_name::basic(&ty.name.text).is_some();
+            links.bases.push(base.filter(|_| !own));
+            links.first.push(links.fields.len());
+            links.fields.extend(ty.fields.iter().map(|field| find(&field.ty.text)));
+        }
+        links
+    }
+
+    /// The types of which a type is made.
+    fn parts(&self, at: usize) -> impl Iterator<Item = usize> + '_ {
+        let start = self.first.get(at).copied().unwrap_or(0);
+        let end = self.first.get(at + 1).copied().unwrap_or(self.fields.len());
+        let fields = self.fields.get(start..end).unwrap_or(&[]).iter();
+        fields.chain(self.bases.get(at)).filter_map(|part| part.map(|part| part as usize))
+    }
+
+    fn field(&self, at: usize, field: usize) -> Option<u32> {
+        self.first.get(at).and_then(|first| self.fields.get(first + field).copied()).flatten()
+    }
+
+    /// The types in an order in which each stands behind those that it is made of. Notes which are endless.
+    fn order(&mut self) -> Vec<usize> {
+        let count = self.bases.len();
+        let (mut waiting, mut depth) = (vec![0usize; count], vec![0usize; count]);
+        let mut users: Vec<Vec<u32>> = vec![Vec::new(); count];
+        for (at, own) in waiting.iter_mut().enumerate() {
+            for part in self.parts(at) {
+                *own += 1;
+                if let Some(users) = users.get_mut(part) {
+                    users.push(at as u32);
+                }
+            }
+        }
+        let mut sequence: Vec<usize> = (0..count).filter(|&at| waiting.get(at) == Some(&0)).collect();
+        let mut next = 0;
+        while let Some(&at) = sequence.get(next) {
+            next += 1;
+            let layers = depth.get(at).map_or(1, |depth| depth + 1);
+            for &user in users.get(at).into_iter().flatten() {
+                let user = user as usize;
+                if let (Some(depth), Some(waiting)) = (depth.get_mut(user), waiting.get_mut(user)) {
+                    *depth = layers.max(*depth);
+                    *waiting -= 1;
+                    if *waiting == 0 {
+                        sequence.push(user);
+                    }
+                }
+            }
+        }
+        let over = |(&waiting, &depth): (&usize, &usize)| waiting > 0 || depth > limits::MAX_XML_DEPTH;
+        self.endless = waiting.iter().zip(&depth).map(over).collect();
+        sequence.extend((0..count).filter(|&at| waiting.get(at).is_some_and(|&waiting| waiting > 0)));
+        sequence
+    }
+
+    fn is_endless(&self, at: usize) -> bool {
+        self.endless.get(at).copied().unwrap_or(false)
+    }
+}
+
+impl<'t, 'a> Types<'t, 'a> {
+    /// Lowers all of `raw`.
+    pub fn new(reader: &mut Reader<'_, '_>, raw: &'t [RawType<'a>]) -> Self {
+        let mut types = Types { raw, by_name: HashMap::with_capacity(raw.len()), ..Types::default() };
+        for (at, ty) in raw.iter().enumerate() {
+            types.note_name(reader, at, ty);
+        }
+        types.links = Links::new(raw, &types.by_name);
+        let opaque = Type::Opaque(None);
+        types.meaning = vec![opaque; raw.len()];
+        let empty = |ty: &RawType<'_>| TypeDef {
+            name: ty.name.compact(),
+            code: ty.code,
+            shape: Shape::Alias(opaque),
+            bits: ty.bits,
+            documentation: ty.comment.documentation(),
+            origin: ty.origin,
+        };
+        types.defs = raw.iter().map(empty).collect();
+        for at in types.links.order() {
+            let Some(ty) = raw.get(at) else { continue };
+            let (shape, bits) = types.shape(reader, at, ty);
+            if let Some(meaning) = types.meaning.get_mut(at) {
+                *meaning = match shape {
+                    Shape::Alias(ty) => ty,
+                    _ => Type::Named(TypeId(at as u32)),
+                };
+            }
+            if let Some(def) = types.defs.get_mut(at) {
+                (def.shape, def.bits) = (shape, bits);
+            }
+        }
+        types
+    }
+
+    fn note_name(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &'t RawType<'a>) {
+        if ty.name.is_empty() {
+            reader.report(&codes::ESI_VALUE, ty.origin.span, "this data type has no name", "nothing can refer to it");
+            return;
+        }
+        let first = *self.by_name.entry(ty.name.text.as_ref()).or_insert(at as u32) as usize;
+        if let Some(first) = self.raw.get(first).filter(|_| first != at) {
+            let message = format!("the data type `{}` is defined twice", shortened(&ty.name.text));
+            reader.diagnostics.push(
+                Diagnostic::new(&codes::DUPLICATE_TYPE, ty.name.span, message)
+                    .label("references mean the first one")
+                    .note_at(first.name.span, "the first one"),
+            );
+        }
+    }
+
+    fn shape(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &'t RawType<'a>) -> (Shape, Option<u32>) {
+        if !ty.fields.is_empty() {
+            return self.record(reader, at, ty);
+        }
+        if !ty.values.is_empty() {
+            let base = self.integer_base(reader, at, ty);
+            let shape = Shape::Enumeration { base, values: ty.values.clone(), closed: false };
+            return (shape, ty.bits.or(base.bits()));
+        }
+        if !ty.dimensions.is_empty() {
+            return self.array(reader, at, ty);
+        }
+        if !ty.base.is_empty() && (self.links.bases.get(at).copied().flatten().is_some() || !self.is_own(ty)) {
+            let base = self.base(reader, at, ty);
+            if let Some(array) = self.array_without_info(reader, base, ty) {
+                return (array, ty.bits);
+            }
+            let base = self.sized(reader, base, ty);
+            return (Shape::Alias(base), ty.bits.or_else(|| self.bits(base)));
+        }
+        self.by_name_of_its_own(reader, ty)
+    }
+
+    /// Whether the base of a type is the type itself.
+    fn is_own(&self, ty: &RawType<'_>) -> bool {
+        ty.base.text == ty.name.text
+    }
+
+    /// A type with nothing but a name: a basic one.
+    fn by_name_of_its_own(&mut self, reader: &mut Reader<'_, '_>, ty: &RawType<'_>) -> (Shape, Option<u32>) {
+        let known = type_name::basic(&ty.name.text);
+        let known = known.or_else(|| Some((type_name::by_code(ty.code?)?, Spelling::Standard)));
+        let bits = |ty: Type| ty.bits();
+        match known {
+            Some((Basic::Type(basic), Spelling::Prefix)) if ty.bits.is_some() && bits(basic) != ty.bits => {}
+            Some((Basic::Type(basic), spelling)) => {
+                spelled(reader, spelling, &ty.name, basic);
+                let basic = self.sized(reader, basic, ty);
+                return (Shape::Alias(basic), ty.bits.or(basic.bits()));
+            }
+            Some((Basic::Bits(width), _)) => return (bit_array(width), Some(u32::from(width))),
+            Some((Basic::Array(lower, count, element), _)) => {
+                let bits = element.bits().and_then(|bits| bits.checked_mul(count));
+                return (Shape::Array { element, dimensions: vec![(lower, count)] }, ty.bits.or(bits));
+            }
+            None => {}
+        }
+        let message = format!("nothing says what the data type `{}` is", shortened(&ty.name.text));
+        reader.diagnostics.push(
+            Diagnostic::new(&codes::UNRESOLVED_TYPE, ty.name.span.or(ty.origin.span), message)
+                .label("kept as raw bytes")
+                .help("give it a BaseType, an ArrayInfo, SubItems or EnumInfos, or the name of a basic type"),
+        );
+        (Shape::Alias(Type::Opaque(ty.code)), ty.bits)
+    }
+
+    fn record(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &'t RawType<'a>) -> (Shape, Option<u32>) {
+        let (mut fields, mut end) = (Vec::with_capacity(ty.fields.len()), 0u32);
+        field_names(reader, &ty.fields);
+        for (position, field) in ty.fields.iter().enumerate() {
+            let resolved = self.field_type(reader, at, position, field);
+            let bits = field.bits.or_else(|| self.bits(resolved)).unwrap_or(0);
+            let offset = field.offset.unwrap_or(end);
+            end = offset.saturating_add(bits).max(end);
+            let name = field.name.compact();
+            let sub_index = field.sub_index;
+            fields.push(Field { name, sub_index, ty: resolved, bits, bit_offset: offset });
+        }
+        (Shape::Record(fields), ty.bits.or(Some(end)))
+    }
+
+    fn field_type(&mut self, reader: &mut Reader<'_, '_>, at: usize, position: usize, field: &RawField<'_>) -> Type {
+        if field.ty.is_empty() {
+            let message = "this sub-item has no type";
+            reader.report(&codes::UNRESOLVED_TYPE, field.origin.span, message, "kept as raw bytes");
+            return Type::Opaque(None);
+        }
+        match self.links.field(at, position) {
+            Some(part) => self.part(reader, at, part, &field.ty),
+            None => self.basic(reader, &field.ty),
+        }
+    }
+
+    fn array(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &RawType<'_>) -> (Shape, Option<u32>) {
+        let element = if ty.base.is_empty() {
+            let message = format!("the array `{}` has no BaseType", shortened(&ty.name.text));
+            reader.report(&codes::MISSING_BASE_TYPE, ty.name.span.or(ty.origin.span), message, "kept as raw bytes");
+            Type::Opaque(None)
+        } else {
+            self.base(reader, at, ty)
+        };
+        let of_element = self.bits(element);
+        let dimensions = dimensions(reader, ty, of_element);
+        let count = dimensions.iter().try_fold(1u32, |count, &(_, elements)| count.checked_mul(elements));
+        let bits = of_element.zip(count).and_then(|(bits, count)| bits.checked_mul(count));
+        if let (Some(size), Some(bits)) = (ty.bits, bits) {
+            if size != bits {
+                let message = format!("the elements have {bits} bits together, but BitSize is {size}");
+                let span = ty.dimensions.first().map_or(ty.origin.span, |first| first.origin.span);
+                reader.report(&codes::ARRAY_BOUNDS, span, message, "the number of elements is used");
+            }
+        }
+        (Shape::Array { element, dimensions }, bits.or(ty.bits))
+    }
+
+    /// An alias that is several times as long as its base, and is called an array.
+    fn array_without_info(&self, reader: &mut Reader<'_, '_>, base: Type, ty: &RawType<'_>) -> Option<Shape> {
+        let (size, element) = (ty.bits?, self.bits(base).filter(|&bits| bits > 0)?);
+        let count = size / element;
+        if count < 2 || size % element != 0 || !ty.name.text.ends_with("ARR") {
+            return None;
+        }
+        let message = format!("`{}` is as long as {count} elements and has no ArrayInfo", shortened(&ty.name.text));
+        let label = format!("read as an array of {count} elements");
+        reader.report(&codes::ARRAY_BOUNDS, ty.name.span.or(ty.origin.span), message, label);
+        Some(Shape::Array { element: base, dimensions: vec![(1, count)] })
+    }
+
+    fn base(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &RawType<'_>) -> Type {
+        match self.links.bases.get(at).copied().flatten() {
+            Some(part) => self.part(reader, at, part, &ty.base),
+            None => self.basic(reader, &ty.base),
+        }
+    }
+
+    /// The integer below an enumeration.
+    fn integer_base(&mut self, reader: &mut Reader<'_, '_>, at: usize, ty: &RawType<'_>) -> Type {
+        let by_size = |bits: Option<u32>| Type::Unsigned(bits.and_then(|bits| u8::try_from(bits).ok()).unwrap_or(32));
+        let sensible = ty.bits.filter(|bits| (1..=64).contains(bits));
+        if ty.base.is_empty() {
+            let unsigned = by_size(sensible);
+            let message = format!("the enumeration `{}` has no BaseType", shortened(&ty.name.text));
+            let label = format!("read as {unsigned}, by its BitSize");
+            reader.report(&codes::MISSING_BASE_TYPE, ty.name.span.or(ty.origin.span), message, label);
+            return unsigned;
+        }
+        let base = self.base(reader, at, ty);
+        let base = self.underlying(self.sized(reader, base, ty));
+        if base.integer_range().is_some() {
+            return base;
+        }
+        let unsigned = by_size(sensible);
+        let message = format!("the values of an enumeration are numbers, and `{}` is none", shortened(&ty.base.text));
+        reader.report(&codes::MISSING_BASE_TYPE, ty.base.span, message, format!("read as {unsigned}"));
+        unsigned
+    }
+
+    /// A part of a type; what would make it endless is cut off.
+    fn part(&mut self, reader: &mut Reader<'_, '_>, at: usize, part: u32, given: &Given<'_>) -> Type {
+        if self.links.is_endless(at) && self.links.is_endless(part as usize) {
+            let message = format!("`{}` is made of itself, or of too many layers", shortened(&given.text));
+            reader.report(&codes::ENDLESS_TYPE, given.span, message, "kept as raw bytes");
+            return Type::Opaque(None);
+        }
+        self.meaning.get(part as usize).copied().unwrap_or(Type::Opaque(None))
+    }
+
+    /// The type that a name means.
+    pub fn resolve(&mut self, reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Type {
+        match self.by_name.get(given.text.as_ref()) {
+            Some(&at) => self.meaning.get(at as usize).copied().unwrap_or(Type::Opaque(None)),
+            None => self.basic(reader, given),
+        }
+    }
+
+    /// The record that a reference to a type means.
+    pub fn record_of(&self, ty: Type) -> Option<&'t RawType<'a>> {
+        let Type::Named(TypeId(at)) = ty else { return None };
+        self.raw.get(at as usize).filter(|raw| !raw.fields.is_empty())
+    }
+
+    /// The type of the field at `position` of a record.
+    pub fn field(&self, record: Type, position: usize) -> Type {
+        let Type::Named(TypeId(at)) = record else { return Type::Opaque(None) };
+        match self.defs.get(at as usize).map(|def| &def.shape) {
+            Some(Shape::Record(fields)) => fields.get(position).map_or(Type::Opaque(None), |field| field.ty),
+            _ => Type::Opaque(None),
+        }
+    }
+
+    /// The element type, lower bound and number of elements of an array.
+    pub fn elements(&self, ty: Type) -> Option<(Type, i32, u32)> {
+        let Type::Named(TypeId(at)) = ty else { return None };
+        match &self.defs.get(at as usize)?.shape {
+            Shape::Array { element, dimensions } => {
+                let count = dimensions.iter().fold(1u32, |count, &(_, elements)| count.saturating_mul(elements));
+                Some((*element, dimensions.first().map_or(1, |&(lower, _)| lower), count))
+            }
+            _ => None,
+        }
+    }
+
+    fn basic(&mut self, reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Type {
+        match type_name::basic(&given.text) {
+            Some((Basic::Type(ty), spelling)) => {
+                spelled(reader, spelling, given, ty);
+                ty
+            }
+            Some((known, _)) => self.make(&given.text, known),
+            None => {
+                let message = format!("no data type is called `{}`", shortened(&given.text));
+                reader.diagnostics.push(
+                    Diagnostic::new(&codes::UNRESOLVED_TYPE, given.span, message)
+                        .label("kept as raw bytes")
+                        .help("define it in DataTypes, or use the name of a basic type such as UINT"),
+                );
+                Type::Opaque(None)
+            }
+        }
+    }
+
+    /// A type that its name defines, such as BITARR8.
+    fn make(&mut self, name: &str, known: Basic) -> Type {
+        if let Some(&ty) = self.made.get(name) {
+            return ty;
+        }
+        let (shape, bits) = match known {
+            Basic::Type(ty) => return ty,
+            Basic::Bits(width) => (bit_array(width), Some(u32::from(width))),
+            Basic::Array(lower, count, element) => {
+                let bits = element.bits().and_then(|bits| bits.checked_mul(count));
+                (Shape::Array { element, dimensions: vec![(lower, count)] }, bits)
+            }
+        };
+        let ty = Type::Named(TypeId(self.defs.len() as u32));
+        let origin = Origin::default();
+        self.defs.push(TypeDef { name: name.into(), code: None, shape, bits, documentation: None, origin });
+        self.made.insert(name.into(), ty);
+        ty
+    }
+
+    /// A basic type with the size that the data type has.
+    fn sized(&self, reader: &mut Reader<'_, '_>, base: Type, ty: &RawType<'_>) -> Type {
+        let Some(bits) = ty.bits.filter(|&bits| bits > 0) else { return base };
+        let bytes = Some(bits / 8).filter(|_| bits % 8 == 0);
+        match base {
+            Type::VisibleString(None) => Type::VisibleString(bytes),
+            Type::OctetString(None) => Type::OctetString(bytes),
+            Type::UnicodeString(None) => Type::UnicodeString(bytes.map(|bytes| bytes / 2)),
+            Type::Integer(own) | Type::Unsigned(own) if u32::from(own) != bits => {
+                let message = format!("BitSize is {bits}, but {base} has {own} bits");
+                let narrow = u8::try_from(bits).ok().filter(|bits| *bits <= 64);
+                let sized = match (base, narrow) {
+                    (Type::Integer(_), Some(bits)) => Type::Integer(bits),
+                    (_, Some(bits)) => Type::Unsigned(bits),
+                    (_, None) => base,
+                };
+                let span = ty.name.span.or(ty.origin.span);
+                reader.report(&codes::BIT_SIZE, span, message, format!("read as {sized}"));
+                sized
+            }
+            _ => base,
+        }
+    }
+
+    /// Length in bits.
+    pub fn bits(&self, ty: Type) -> Option<u32> {
+        match ty {
+            Type::Named(TypeId(at)) => self.defs.get(at as usize)?.bits,
+            Type::VisibleString(length) | Type::OctetString(length) => length?.checked_mul(8),
+            Type::UnicodeString(length) => length?.checked_mul(16),
+            basic => basic.bits(),
+        }
+    }
+
+    /// The basic type that the values of a type have.
+    pub fn underlying(&self, ty: Type) -> Type {
+        let Type::Named(TypeId(at)) = ty else { return ty };
+        match self.defs.get(at as usize).map(|def| &def.shape) {
+            Some(Shape::Enumeration { base, .. } | Shape::BitField { base, .. }) => *base,
+            _ => ty,
+        }
+    }
+
+    /// The types in the order of the file, and behind them those that only a name stands for.
+    pub fn into_defs(self) -> Vec<TypeDef> {
+        self.defs
+    }
+}
+
+/// Reports a name that isn't in the tables.
+fn spelled(reader: &mut Reader<'_, '_>, spelling: Spelling, given: &Given<'_>, ty: Type) {
+    let code = match spelling {
+        Spelling::Standard => return,
+        Spelling::Alias => &codes::TYPE_ALIAS,
+        Spelling::Prefix => &codes::GUESSED_TYPE,
+    };
+    if reader.diagnostics.wants(code) {
+        let message = format!("`{}` is no type of ETG.1000.6", shortened(&given.text));
+        reader.report(code, given.span, message, format!("read as {ty}"));
+    }
+}
+
+/// Reports fields without a name, or with that of another one.
+fn field_names(reader: &mut Reader<'_, '_>, fields: &[RawField<'_>]) {
+    let mut seen = Seen::default();
+    for field in fields {
+        if field.name.is_empty() {
+            let label = "it goes by its sub-index";
+            reader.report(&codes::SUB_ITEM_NAME, field.origin.span, "this sub-item has no name", label);
+        } else if let Some(earlier) = seen.insert(&field.name) {
+            let message = format!("two sub-items are called `{}`", shortened(&field.name.text));
+            reader.diagnostics.push(
+                Diagnostic::new(&codes::SUB_ITEM_NAME, field.name.span, message)
+                    .label("told apart by their sub-indices")
+                    .note_at(earlier, "the first one"),
+            );
+        }
+    }
+}
+
+/// Names so far. Few are compared one by one, which is faster; many are looked up.
+#[derive(Default)]
+struct Seen<'n> {
+    few: SmallVec<[&'n Given<'n>; 16]>,
+    many: HashMap<&'n str, Span>,
+}
+
+impl<'n> Seen<'n> {
+    /// Where the name stands that is the same, if there is one.
+    fn insert(&mut self, name: &'n Given<'_>) -> Option<Span> {
+        if let Some(same) = self.few.iter().find(|other| other.text == name.text) {
+            return Some(same.span);
+        }
+        if self.few.len() < self.few.inline_size() {
+            self.few.push(name);
+            return None;
+        }
+        match self.many.entry(name.text.as_ref()) {
+            Entry::Occupied(same) => Some(*same.get()),
+            Entry::Vacant(free) => {
+                free.insert(name.span);
+                None
+            }
+        }
+    }
+}
+
+/// Lower bounds and numbers of elements; a number that is missing follows from BitSize.
+fn dimensions(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, element: Option<u32>) -> Vec<(i32, u32)> {
+    const MAX_DIMENSIONS: usize = 3;
+    if let Some(more) = ty.dimensions.get(MAX_DIMENSIONS) {
+        reader.report(&codes::ARRAY_BOUNDS, more.origin.span, "an array has at most three dimensions", "left out");
+    }
+    let single = ty.dimensions.len() == 1;
+    let by_size = ty.bits.zip(element).filter(|&(_, element)| single && element > 0);
+    let by_size = by_size.map(|(bits, element)| bits / element);
+    let mut count = |dimension: &Dimension| match dimension.elements {
+        Some(elements) if elements > 0 => elements,
+        given => {
+            let elements = by_size.unwrap_or(0);
+            let message = match given {
+                Some(_) => "the array has no elements",
+                None => "the number of elements is missing",
+            };
+            let label = format!("{elements} elements, by BitSize");
+            reader.report(&codes::ARRAY_BOUNDS, dimension.origin.span, message, label);
+            elements
+        }
+    };
+    ty.dimensions.iter().take(MAX_DIMENSIONS).map(|dimension| (dimension.lower, count(dimension))).collect()
+}
+
+/// Single bits that nobody named.
+fn bit_array(width: u8) -> Shape {
+    let bit = |offset| BitFieldEntry {
+        name: format_compact!("Bit {offset}"),
+        offset,
+        bits: 1,
+        meaning: BitMeaning::Flag { inverted: false },
+        when: None,
+        trigger: None,
+        documentation: None,
+    };
+    Shape::BitField { base: Type::Unsigned(width), fields: (0..width).map(bit).collect() }
+}

@@ -1,0 +1,101 @@
+//! Units: a number that has a power of ten, a unit, and the unit that it is divided by (ETG.1004, CiA 303-2).
+
+use compact_str::{format_compact, CompactString};
+
+/// The unit with this number, as far as its parts are known; `own` has those that the dictionary defines.
+pub(super) fn text(number: u32, own: &[(u32, CompactString)]) -> Option<CompactString> {
+    let [exponent, numerator, denominator, rest] = number.to_be_bytes();
+    if rest != 0 {
+        return None;
+    }
+    let symbol = |notation: u8| {
+        let defined = own.iter().find(|(number, _)| *number == u32::from(notation));
+        symbol(notation).or(defined.map(|(_, symbol)| symbol.as_str()))
+    };
+    let numerator = match numerator {
+        0 if denominator != 0 => "1",
+        0 => return None,
+        known => symbol(known)?,
+    };
+    let mut text = prefixed(exponent as i8, numerator);
+    if denominator != 0 {
+        text.push('/');
+        text.push_str(symbol(denominator)?);
+    }
+    Some(text)
+}
+
+/// Units whose number is certain.
+fn symbol(notation: u8) -> Option<&'static str> {
+    Some(match notation {
+        0x01 => "m",
+        0x02 => "kg",
+        0x03 => "s",
+        0x04 => "A",
+        0x05 => "K",
+        0x06 => "mol",
+        0x07 => "cd",
+        0x10 => "rad",
+        0x20 => "Hz",
+        0x21 => "N",
+        0x22 => "Pa",
+        0x23 => "J",
+        0x24 => "W",
+        0x25 => "C",
+        0x26 => "V",
+        0x27 => "F",
+        0x28 => "Ω",
+        0x2D => "°C",
+        0x41 => "°",
+        0x47 => "min",
+        0x48 => "h",
+        0xB4 => "rev",
+        _ => return None,
+    })
+}
+
+fn prefixed(exponent: i8, symbol: &str) -> CompactString {
+    let prefix = match exponent {
+        0 => "",
+        -12 => "p",
+        -9 => "n",
+        -6 => "µ",
+        -3 => "m",
+        -2 => "c",
+        -1 => "d",
+        3 => "k",
+        6 => "M",
+        9 => "G",
+        _ => "·",
+    };
+    // Kilograms have a prefix already, and few write millidegrees.
+    let plain = symbol.starts_with(|letter: char| letter.is_ascii_alphabetic() || letter == 'Ω');
+    match prefix {
+        "" => symbol.into(),
+        "·" => format_compact!("10^{exponent} {symbol}"),
+        _ if symbol == "kg" || symbol == "rev" || symbol == "min" || symbol == "h" || !plain => {
+            format_compact!("10^{exponent} {symbol}")
+        }
+        _ => format_compact!("{prefix}{symbol}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_are_put_together() {
+        let unit = |number| text(number, &[(0xA1, "mG".into())]);
+        assert_eq!(unit(0xF703_0000).as_deref(), Some("ns"));
+        assert_eq!(unit(0x0026_0000).as_deref(), Some("V"));
+        assert_eq!(unit(0xFD01_0300).as_deref(), Some("mm/s"));
+        assert_eq!(unit(0x00B4_4700).as_deref(), Some("rev/min"));
+        assert_eq!(unit(0xFD2D_0000).as_deref(), Some("10^-3 °C"));
+        assert_eq!(unit(0x00A1_0000).as_deref(), Some("mG"));
+        assert_eq!(unit(0x0000_4700).as_deref(), Some("1/min"));
+        for unknown in [0, 0x00F1_0000, 0x0026_F100, 0x0026_0001] {
+            assert_eq!(unit(unknown), None, "{unknown:#x}");
+        }
+    }
+}

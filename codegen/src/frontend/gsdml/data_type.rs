@@ -1,0 +1,169 @@
+//! The data types of GSDML, with their lengths.
+
+use crate::ir::{TimeFormat, Type};
+
+/// What the name of a data type stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum DataType {
+    /// A type of the IR.
+    Basic(Type),
+    /// A string whose length in bytes stands beside it.
+    String(StringType),
+    /// A number with a meaning of its own (profiles of drives and process control).
+    Number(&'static NumberType),
+    /// A value and what tells its quality, or two values.
+    Pair(&'static PairType),
+    /// Octets of the length beside it, the last of which is a status.
+    OctetsWithStatus,
+    /// The trailer of a PROFIsafe message, of so many bytes: no data of the user.
+    Trailer(u32),
+    /// One bit.
+    Bit,
+    /// Some bits.
+    BitArea,
+}
+
+/// Types of strings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StringType {
+    Visible,
+    Octet,
+    /// A string in an encoding or with a header of its own: octets under this name.
+    Named(&'static str),
+}
+
+/// A number with a name of its own.
+#[derive(Debug, PartialEq)]
+pub(super) struct NumberType {
+    pub name: &'static str,
+    pub base: Type,
+    /// Physical units per count, where the type fixes them.
+    pub factor: Option<f64>,
+}
+
+impl Eq for NumberType {}
+
+/// Two values under one name.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct PairType {
+    pub name: &'static str,
+    pub first: Type,
+    pub second: Type,
+    /// What the name of the second value ends in.
+    pub suffix: &'static str,
+}
+
+const fn number(name: &'static str, base: Type, factor: Option<f64>) -> NumberType {
+    NumberType { name, base, factor }
+}
+
+/// Normalised values of PROFIdrive and fixed-point numbers of IEC 61158-6-10. 100 % of an N2 are 2^14, of an N4 2^30.
+static NUMBERS: [NumberType; 13] = [
+    number("N2", Type::Integer(16), Some(100.0 / 16_384.0)),
+    number("N4", Type::Integer(32), Some(100.0 / 1_073_741_824.0)),
+    number("E2", Type::Integer(16), Some(1.0 / 128.0)),
+    number("C4", Type::Integer(32), Some(1e-4)),
+    number("X2", Type::Integer(16), None),
+    number("X4", Type::Integer(32), None),
+    number("T2", Type::Unsigned(16), None),
+    number("T4", Type::Unsigned(32), None),
+    number("D2", Type::Unsigned(16), None),
+    number("R2", Type::Unsigned(16), None),
+    number("Unipolar2.16", Type::Unsigned(16), None),
+    // Sequences of bits: plain numbers.
+    number("V2", Type::Unsigned(16), None),
+    number("L2", Type::Unsigned(16), None),
+];
+
+const fn pair(name: &'static str, first: Type, suffix: &'static str) -> PairType {
+    PairType { name, first, second: Type::Unsigned(8), suffix }
+}
+
+static PAIRS: [PairType; 7] = [
+    pair("Float32+Unsigned8", Type::Real32, "status"),
+    pair("Float32+Status8", Type::Real32, "status"),
+    pair("Unsigned8+Unsigned8", Type::Unsigned(8), "2"),
+    pair("OctetString2+Unsigned8", Type::OctetString(Some(2)), "status"),
+    pair("Unsigned16_S", Type::Unsigned(16), "status"),
+    pair("Integer16_S", Type::Integer(16), "status"),
+    pair("Unsigned8_S", Type::Unsigned(8), "status"),
+];
+
+impl DataType {
+    /// The data type with this name.
+    pub fn find(name: &str) -> Option<Self> {
+        Some(match name {
+            "Unsigned8" => DataType::Basic(Type::Unsigned(8)),
+            "Unsigned16" => DataType::Basic(Type::Unsigned(16)),
+            "Unsigned32" => DataType::Basic(Type::Unsigned(32)),
+            "Unsigned64" => DataType::Basic(Type::Unsigned(64)),
+            "Integer8" => DataType::Basic(Type::Integer(8)),
+            "Integer16" => DataType::Basic(Type::Integer(16)),
+            "Integer32" => DataType::Basic(Type::Integer(32)),
+            "Integer64" => DataType::Basic(Type::Integer(64)),
+            "Float32" => DataType::Basic(Type::Real32),
+            "Float64" => DataType::Basic(Type::Real64),
+            // One byte, of which bit 0 is the value.
+            "Boolean" => DataType::Basic(Type::Boolean),
+            "Bit" => DataType::Bit,
+            "BitArea" => DataType::BitArea,
+            "VisibleString" => DataType::String(StringType::Visible),
+            "OctetString" => DataType::String(StringType::Octet),
+            "UnicodeString8" => DataType::String(StringType::Named("UnicodeString8")),
+            "61131_STRING" => DataType::String(StringType::Named("61131_STRING")),
+            "61131_WSTRING" => DataType::String(StringType::Named("61131_WSTRING")),
+            "OctetString_S" => DataType::OctetsWithStatus,
+            "F_MessageTrailer4Byte" => DataType::Trailer(4),
+            "F_MessageTrailer5Byte" => DataType::Trailer(5),
+            _ => return time(name).map(DataType::Basic).or_else(|| profile(name)),
+        })
+    }
+
+    /// Length in bytes, where the name tells it.
+    pub fn bytes(self) -> Option<u32> {
+        match self {
+            DataType::Basic(Type::Boolean) => Some(1),
+            DataType::Basic(ty) => ty.bits().map(|bits| bits / 8),
+            DataType::Number(number) => number.base.bits().map(|bits| bits / 8),
+            DataType::Pair(pair) => Some(pair.first_bits() / 8 + 1),
+            DataType::Trailer(bytes) => Some(bytes),
+            DataType::String(_) | DataType::OctetsWithStatus | DataType::Bit | DataType::BitArea => None,
+        }
+    }
+}
+
+impl PairType {
+    /// Length of the first value in bits.
+    pub fn first_bits(&self) -> u32 {
+        match self.first {
+            Type::OctetString(Some(bytes)) => 8 * bytes,
+            ty => ty.bits().unwrap_or(0),
+        }
+    }
+}
+
+fn time(name: &str) -> Option<Type> {
+    Some(match name {
+        "Date" => Type::Time(TimeFormat::Date),
+        "TimeOfDay with date indication" => Type::TimeOfDay,
+        "TimeDifference with date indication" => Type::TimeDifference,
+        "TimeOfDay without date indication" => Type::Time(TimeFormat::TimeOfDay),
+        "TimeDifference without date indication" => Type::Time(TimeFormat::TimeDifference),
+        "NetworkTime" => Type::Time(TimeFormat::NetworkTime),
+        "NetworkTimeDifference" => Type::Time(TimeFormat::NetworkTimeDifference),
+        "TimeStamp" => Type::Time(TimeFormat::TimeStamp),
+        "TimeStampDifference" => Type::Time(TimeFormat::TimeStampDifference),
+        "TimeStampDifferenceShort" => Type::Time(TimeFormat::TimeStampDifferenceShort),
+        _ => return None,
+    })
+}
+
+fn profile(name: &str) -> Option<DataType> {
+    if let Some(number) = NUMBERS.iter().find(|number| number.name == name) {
+        return Some(match number.name {
+            "V2" | "L2" => DataType::Basic(number.base),
+            _ => DataType::Number(number),
+        });
+    }
+    PAIRS.iter().find(|pair| pair.name == name).map(DataType::Pair)
+}

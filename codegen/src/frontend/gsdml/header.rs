@@ -1,0 +1,167 @@
+//! What a file says about itself and its family of devices: its name, the version of the schema, the vendor.
+
+use super::reader::{Given, Read, Reader};
+use super::resolve::Resolver;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Catalog, CompactString, Documentation, Extension};
+use crate::source::{FileId, Span};
+use crate::syntax::xml::Tag;
+
+/// What all devices of a file share.
+#[derive(Default)]
+pub(super) struct Header {
+    vendor_id: Option<u32>,
+    vendor_name: CompactString,
+    device_id: Option<u32>,
+    /// What stands for the description of the family.
+    description: Option<Box<Documentation>>,
+    family: (CompactString, CompactString),
+    /// Version of the schema, and where it stands.
+    version: Option<(CompactString, Span)>,
+}
+
+impl Header {
+    /// Reads the version of the schema from where the root says that it is found.
+    pub fn root(&mut self, reader: &mut Reader<'_, '_>, root: &Tag<'_>) -> Read<()> {
+        let Some(location) = root.attribute("schemaLocation")? else { return Ok(()) };
+        let text = location.value(reader.diagnostics);
+        if let Some(version) = text.rsplit(['/', '\\']).next().and_then(version_in) {
+            self.version = Some((version.into(), location.span));
+        }
+        Ok(())
+    }
+
+    /// Reads DeviceIdentity.
+    pub fn identity<'a>(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<()> {
+        let [vendor, device] = reader.fields(tag, &["VendorID", "DeviceID"], rest)?;
+        for (given, name) in [(&vendor, "VendorID"), (&device, "DeviceID")] {
+            if given.is_none() {
+                reader.missing(tag, name, "devices are left without it");
+            }
+        }
+        self.vendor_id = reader.ident(vendor.as_ref(), u16::MAX.into(), "number of a vendor");
+        self.device_id = reader.ident(device.as_ref(), u16::MAX.into(), "number of a device");
+        while let Some(child) = reader.cursor.child(tag)? {
+            match child.name {
+                "InfoText" => self.description = reader.documentation(&child)?,
+                "VendorName" => self.vendor_name = reader.single(&child, "Value")?,
+                _ => reader.unknown(&child, rest)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads the child `Family` of DeviceFunction.
+    pub fn family<'a>(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<()> {
+        let [main, product] = reader.fields(tag, &["MainFamily", "ProductFamily"], rest)?;
+        let text = |given: Option<Given<'a>>| given.map_or_else(CompactString::default, |given| given.text.into());
+        self.family = (text(main), text(product));
+        reader.no_children(tag, rest)
+    }
+
+    /// Gives every device its share.
+    pub fn apply(mut self, catalog: &mut Catalog, resolver: &mut Resolver<'_, '_>) {
+        resolver.documentation(&mut self.description);
+        let description = self.description.as_ref().map_or("", |documentation| documentation.text.as_str());
+        for device in &mut catalog.devices {
+            let identity = &mut device.identity;
+            (identity.vendor_id, identity.product_code) = (self.vendor_id, self.device_id);
+            let own = std::mem::replace(&mut identity.vendor_name, self.vendor_name.clone());
+            identity.product_name = device.name.clone();
+            device.header.description = description.into();
+            device.header.format_version =
+                self.version.as_ref().map_or_else(Default::default, |(text, _)| text.clone());
+            let Some(settings) = &mut device.profinet else { continue };
+            settings.device_id = self.device_id.and_then(|id| u16::try_from(id).ok()).unwrap_or(0);
+            settings.family = self.family.clone();
+            if !own.is_empty() && own != device.identity.vendor_name {
+                settings.attributes.push(("ModuleInfo/VendorName".into(), own));
+            }
+        }
+        if let Some(documentation) = self.description {
+            let translations = documentation.translations.iter();
+            let kept = translations.map(|local| Extension {
+                key: compact_str::format_compact!("DeviceIdentity/InfoText/{}", local.language),
+                value: local.text.clone(),
+                span: Span::default(),
+            });
+            catalog.extensions.extend(kept);
+        }
+    }
+
+    /// Holds the name of the file against the rule for it.
+    pub fn check_file_name(&self, name: &str, file: FileId, diagnostics: &mut Diagnostics) {
+        if !diagnostics.wants(&codes::GSDML_FILE_NAME) {
+            return;
+        }
+        let name = name.rsplit(['/', '\\']).next().unwrap_or(name);
+        let Some(named) = version_of_name(name) else {
+            let message = format!("`{name}` isn't how a GSDML file is called");
+            diagnostics.push(
+                Diagnostic::new(&codes::GSDML_FILE_NAME, Span::new(file, 0, 0), message).help(
+                    "the form is `GSDML-V2.35-Vendor-Device-20200131.xml`, perhaps with `-hhmmss` behind the date",
+                ),
+            );
+            return;
+        };
+        if let Some((version, span)) = &self.version {
+            if version != named {
+                let message = format!("the name of the file says version {named}, its schema is that of {version}");
+                diagnostics.push(Diagnostic::new(&codes::GSDML_FILE_NAME, *span, message).label("this one counts"));
+            }
+        }
+    }
+}
+
+/// The version in `GSDML-DeviceProfile-v2.35.xsd`.
+fn version_in(name: &str) -> Option<&str> {
+    let (_, rest) = name.rsplit_once(['-', '_'])?;
+    let version = rest.strip_prefix(['v', 'V'])?.strip_suffix(".xsd").or(rest.strip_prefix(['v', 'V']))?;
+    is_version(version).then_some(version)
+}
+
+fn is_version(text: &str) -> bool {
+    let digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
+    text.split_once('.').is_some_and(|(major, minor)| digits(major) && digits(minor))
+}
+
+/// The version in the name of a file, where the name follows the rule.
+fn version_of_name(name: &str) -> Option<&str> {
+    let rest = name.strip_prefix("GSDML-V")?;
+    let rest = rest.strip_suffix(".xml").or_else(|| rest.strip_suffix(".XML"))?;
+    let (version, rest) = rest.split_once('-')?;
+    let digits = |text: &str, count| text.len() == count && text.bytes().all(|byte| byte.is_ascii_digit());
+    // The date is last, or has the time behind it.
+    let (front, last) = rest.rsplit_once('-')?;
+    let front = match (digits(last, 8), front.rsplit_once('-')) {
+        (true, _) => front,
+        (false, Some((front, date))) if digits(last, 6) && digits(date, 8) => front,
+        _ => return None,
+    };
+    // Vendor and device.
+    let named = front.split_once('-').is_some_and(|(vendor, device)| !vendor.is_empty() && !device.is_empty());
+    (is_version(version) && named).then_some(version)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_files() {
+        for (name, version) in [
+            ("GSDML-V2.35-Maker-Drive-20200131.xml", Some("2.35")),
+            ("GSDML-V2.25-#Maker-Drive one-20200131-235959.xml", Some("2.25")),
+            ("GSDML-V2.3-A-B-C-20200131.xml", Some("2.3")),
+            ("gsdml-v2.35-maker-drive-20200131.xml", None),
+            ("GSDML-V2.35-Maker-20200131.xml", None),
+            ("GSDML-V2.35-Maker-Drive-2020013.xml", None),
+            ("GSDML-V2-Maker-Drive-20200131.xml", None),
+            ("gsdml.xml", None),
+        ] {
+            assert_eq!(version_of_name(name), version, "{name}");
+        }
+        assert_eq!(version_in("GSDML-DeviceProfile-v2.35.xsd"), Some("2.35"));
+        assert_eq!(version_in("GSDML-DeviceProfile.xsd"), None);
+    }
+}

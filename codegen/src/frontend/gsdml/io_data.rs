@@ -1,0 +1,288 @@
+//! Cyclic data of a submodule: data items, bits and channels.
+
+use compact_str::CompactString;
+
+use super::data_type::DataType;
+use super::reader::{attribute, Given, Read, Reader};
+use super::texts::with_suffix;
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{
+    Direction, Extension, IoChannel, IoData, IoItem, PdoEntry, PdoEntryKind, ProcessImage, Submodule, Type,
+};
+use crate::source::Origin;
+use crate::syntax::xml::Tag;
+
+impl<'a> Reader<'a, '_> {
+    /// Reads IOData.
+    pub fn io_data(&mut self, parent: &Tag<'a>, submodule: &mut Submodule) -> Read<()> {
+        let names = ["IOPS_Length", "IOCS_Length", "F_IO_StructureDescVersion", "F_IO_StructureDescCRC"];
+        let [provider, consumer, version, crc] = self.fields(parent, &names, &mut submodule.extensions)?;
+        let mut length = |given: Option<&Given<'a>>| {
+            self.unsigned(given, u8::MAX.into(), "length in bytes").and_then(|length| u8::try_from(length).ok())
+        };
+        submodule.status_lengths = (length(provider.as_ref()).unwrap_or(1), length(consumer.as_ref()).unwrap_or(1));
+        attribute("IOData@F_IO_StructureDescVersion", version.as_ref(), &mut submodule.attributes);
+        attribute("IOData@F_IO_StructureDescCRC", crc.as_ref(), &mut submodule.attributes);
+        while let Some(tag) = self.cursor.child(parent)? {
+            let direction = match tag.name {
+                "Input" => Direction::Transmit,
+                "Output" => Direction::Receive,
+                _ => {
+                    self.unknown(&tag, &mut submodule.extensions)?;
+                    continue;
+                }
+            };
+            let data = self.direction(&tag, direction, &mut submodule.extensions)?;
+            let place = if direction == Direction::Transmit { &mut submodule.input } else { &mut submodule.output };
+            if place.replace(Box::new(data)).is_some() {
+                let message = format!("<{}> occurs twice", tag.name);
+                let diagnostic = Diagnostic::new(&codes::DUPLICATE_ID, tag.span, message);
+                self.diagnostics.push(diagnostic.label("takes the place of the one before"));
+            }
+        }
+        Ok(())
+    }
+
+    fn direction(&mut self, parent: &Tag<'a>, direction: Direction, rest: &mut Vec<Extension>) -> Read<IoData> {
+        let [consistency] = self.fields(parent, &["Consistency"], rest)?;
+        let consistent = match consistency.as_ref().map(|given| given.text.as_ref()) {
+            Some("All items consistency") => true,
+            Some("Item consistency") | None => false,
+            Some(_) => {
+                if let Some(given) = &consistency {
+                    self.bad(given, "kind of consistency", "read as `Item consistency`");
+                }
+                false
+            }
+        };
+        let mut layout = Layout::default();
+        let mut channels = Vec::new();
+        while let Some(tag) = self.cursor.child(parent)? {
+            match tag.name {
+                "DataItem" => self.data_item(&tag, &mut layout, rest)?,
+                "Channel" => channels.push(self.channel(&tag, rest)?),
+                _ => self.unknown(&tag, rest)?,
+            }
+        }
+        let Layout { fields, items, at, overhead } = layout;
+        let length = (at / 8).saturating_sub(overhead);
+        let image = ProcessImage { name: parent.name.into(), direction, length, overhead, big_endian: true, fields };
+        Ok(IoData { image, consistent, items, channels })
+    }
+
+    fn data_item(&mut self, tag: &Tag<'a>, layout: &mut Layout, rest: &mut Vec<Extension>) -> Read<()> {
+        let origin = self.cursor.origin(tag);
+        let names = ["DataType", "TextId", "Length", "UseAsBits", "Subordinate"];
+        let [given, text, length, use_as_bits, subordinate] = self.fields(tag, &names, rest)?;
+        let mut item = DataItem {
+            name: self.name(tag, text),
+            subordinate: self.flag(subordinate.as_ref(), false),
+            found: self.data_type(tag, given.as_ref()),
+            data_type: given.map_or_else(CompactString::default, |given| given.text.into()),
+            length: None,
+            bits: Vec::new(),
+            origin,
+        };
+        item.length = self.item_length(tag, &item, length.as_ref());
+        let use_as_bits = self.flag(use_as_bits.as_ref(), false);
+        if !tag.empty {
+            self.bit_data_items(tag, &mut item, rest)?;
+        }
+        if !item.bits.is_empty() && !use_as_bits {
+            let message = "the bits of this item have names, but UseAsBits isn't true";
+            let diagnostic = Diagnostic::new(&codes::BIT_DATA_ITEM, tag.name_span(), message);
+            self.diagnostics.push(diagnostic.label("read as bits"));
+        }
+        layout.add(item, self);
+        Ok(())
+    }
+
+    /// The length beside the data type, where there is one.
+    fn item_length(&mut self, tag: &Tag<'a>, item: &DataItem, given: Option<&Given<'a>>) -> Option<u32> {
+        let length = self.unsigned(given, u16::MAX.into(), "length in bytes");
+        let fixed = item.found.and_then(DataType::bytes);
+        match (fixed, length, given) {
+            (Some(fixed), Some(length), Some(given)) if fixed != length => {
+                let message = format!("a {} has {fixed} bytes, not {length}", item.data_type);
+                let diagnostic = Diagnostic::new(&codes::GSDML_VALUE, given.span, message);
+                self.diagnostics.push(diagnostic.label(format!("read as {fixed}")));
+            }
+            (None, None, None) => self.missing(tag, "Length", "taken for 0 bytes: what follows may stand elsewhere"),
+            _ => {}
+        }
+        length
+    }
+
+    fn bit_data_items(&mut self, parent: &Tag<'a>, item: &mut DataItem, rest: &mut Vec<Extension>) -> Read<()> {
+        while let Some(tag) = self.cursor.child(parent)? {
+            if tag.name != "BitDataItem" {
+                self.unknown(&tag, rest)?;
+                continue;
+            }
+            let origin = self.cursor.origin(&tag);
+            let [offset, text] = self.fields(&tag, &["BitOffset", "TextId"], rest)?;
+            let name = self.name(&tag, text);
+            if offset.is_none() {
+                self.missing(&tag, "BitOffset", "left out");
+            }
+            if let Some(offset) = self.unsigned(offset.as_ref(), u16::MAX.into(), "number of a bit") {
+                item.bits.push(Bit { offset, name, origin });
+            }
+            self.no_children(&tag, rest)?;
+        }
+        Ok(())
+    }
+
+    fn channel(&mut self, parent: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<IoChannel> {
+        let mut channel = IoChannel::default();
+        let [number] = self.fields_of(parent, &["Number"], &mut channel.attributes)?;
+        channel.number = self.unsigned16(number.as_ref(), "number of a channel").unwrap_or(0);
+        while let Some(tag) = self.cursor.child(parent)? {
+            if !matches!(tag.name, "Data" | "Quality") {
+                self.unknown(&tag, rest)?;
+                continue;
+            }
+            let names = ["BitOffset", "BitLength", "Format"];
+            let [offset, bits, format] = self.fields_of(&tag, &names, &mut channel.attributes)?;
+            let offset = self.unsigned(offset.as_ref(), u16::MAX.into(), "number of a bit");
+            let bits = self.unsigned(bits.as_ref(), u16::MAX.into(), "number of bits");
+            if tag.name == "Data" {
+                channel.data = offset.map(|offset| (offset, bits.unwrap_or(1)));
+            } else {
+                channel.quality_format = format.map_or_else(CompactString::default, |given| given.text.into());
+                let bits = bits.unwrap_or_else(|| quality_bits(&channel.quality_format));
+                channel.quality = offset.map(|offset| (offset, bits));
+            }
+            self.no_children(&tag, rest)?;
+        }
+        Ok(channel)
+    }
+}
+
+/// Number of bits that tell a quality: a qualifier is one bit, a status one byte; 0 where the format doesn't tell.
+fn quality_bits(format: &str) -> u32 {
+    match format {
+        "Qualifier" => 1,
+        "Status" => 8,
+        _ => 0,
+    }
+}
+
+/// A data item as it is written.
+struct DataItem {
+    name: CompactString,
+    data_type: CompactString,
+    found: Option<DataType>,
+    length: Option<u32>,
+    subordinate: bool,
+    bits: Vec<Bit>,
+    origin: Origin,
+}
+
+/// A bit with a name.
+struct Bit {
+    offset: u32,
+    name: CompactString,
+    origin: Origin,
+}
+
+/// Data items one behind the other.
+#[derive(Default)]
+struct Layout {
+    fields: Vec<PdoEntry>,
+    items: Vec<IoItem>,
+    /// Number of bits so far.
+    at: u32,
+    /// Number of bytes among them that aren't data of the user.
+    overhead: u32,
+}
+
+impl Layout {
+    fn add(&mut self, item: DataItem, reader: &mut Reader<'_, '_>) {
+        let (first, start) = (self.fields.len(), self.at);
+        let bytes = item.found.and_then(DataType::bytes).or(item.length).unwrap_or(0);
+        let bits = bytes.saturating_mul(8);
+        match item.found {
+            Some(DataType::Trailer(bytes)) => self.overhead = self.overhead.saturating_add(bytes),
+            _ if !item.bits.is_empty() => self.bits(&item, bits, reader),
+            Some(DataType::Pair(pair)) => {
+                self.field(&item, item.name.clone(), pair.first, 0, pair.first_bits());
+                self.field(&item, with_suffix(&item.name, pair.suffix), pair.second, pair.first_bits(), 8);
+            }
+            Some(DataType::OctetsWithStatus) if bytes > 1 => {
+                self.field(&item, item.name.clone(), Type::OctetString(Some(bytes - 1)), 0, bits - 8);
+                self.field(&item, with_suffix(&item.name, "status"), Type::Unsigned(8), bits - 8, 8);
+            }
+            Some(found) => {
+                let (ty, _) = found.lower(item.length, &mut reader.types);
+                self.field(&item, item.name.clone(), ty, 0, bits);
+            }
+            None => self.field(&item, item.name.clone(), Type::Opaque(None), 0, bits),
+        }
+        self.at = start.saturating_add(bits);
+        let count = self.fields.len() - first;
+        if count != 1 || item.subordinate || !item.bits.is_empty() {
+            let DataItem { name, data_type, subordinate, .. } = item;
+            self.items.push(IoItem {
+                name,
+                data_type,
+                bit_offset: start,
+                bits,
+                first_field: u32::try_from(first).unwrap_or(u32::MAX),
+                fields: u32::try_from(count).unwrap_or(u32::MAX),
+                subordinate,
+                ..IoItem::default()
+            });
+        }
+    }
+
+    /// A field of an item, `offset` bits behind the item's start.
+    fn field(&mut self, item: &DataItem, name: CompactString, ty: Type, offset: u32, bits: u32) {
+        let kind = if ty == Type::Opaque(None) { PdoEntryKind::Unknown } else { PdoEntryKind::Item };
+        self.push(name, ty, kind, offset, bits, item.origin);
+    }
+
+    fn push(&mut self, name: CompactString, ty: Type, kind: PdoEntryKind, offset: u32, bits: u32, origin: Origin) {
+        let bit_offset = self.at.saturating_add(offset);
+        self.fields.push(PdoEntry { bit_offset, kind, name, ty, origin, ..PdoEntry::new(0, 0, bits) });
+    }
+
+    /// The bits of an item in the order in which they stand, with padding between them.
+    fn bits(&mut self, item: &DataItem, length: u32, reader: &mut Reader<'_, '_>) {
+        let is_number = matches!(item.found, Some(DataType::Basic(Type::Unsigned(_) | Type::Integer(_))));
+        let mut bits: Vec<(u32, &Bit)> =
+            item.bits.iter().map(|bit| (position(bit.offset, length, is_number), bit)).collect();
+        bits.sort_by_key(|&(at, _)| at);
+        let mut next = 0;
+        for (at, bit) in bits {
+            if bit.offset >= length || at < next {
+                let message = match at < next {
+                    true => format!("bit {} of this item has a name already", bit.offset),
+                    false => format!("the item has {length} bits; there is no bit {}", bit.offset),
+                };
+                let diagnostic = Diagnostic::new(&codes::BIT_DATA_ITEM, bit.origin.span, message);
+                reader.diagnostics.push(diagnostic.label("left out"));
+                continue;
+            }
+            self.padding(item, next, at);
+            self.push(bit.name.clone(), Type::Boolean, PdoEntryKind::Item, at, 1, bit.origin);
+            next = at + 1;
+        }
+        self.padding(item, next, length);
+    }
+
+    fn padding(&mut self, item: &DataItem, from: u32, to: u32) {
+        if from < to {
+            let name = CompactString::default();
+            self.push(name, Type::Opaque(None), PdoEntryKind::Padding, from, to - from, item.origin);
+        }
+    }
+}
+
+/// Where a bit of an item stands: numbers are big-endian, so that bit 0 is in their last byte.
+fn position(bit: u32, length: u32, is_number: bool) -> u32 {
+    if !is_number || bit >= length {
+        return bit;
+    }
+    (length / 8 - 1 - bit / 8) * 8 + bit % 8
+}

@@ -1,0 +1,147 @@
+//! Numbers, truth values and lists, as GSDML writes them.
+
+use smallvec::SmallVec;
+
+use super::reader::{Given, Read, Reader};
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{CompactString, Numbers};
+use crate::syntax::xml::Tag;
+
+impl<'a> Reader<'a, '_> {
+    /// A decimal number up to `max`; anything else is reported.
+    pub fn unsigned(&mut self, given: Option<&Given<'_>>, max: u32, what: &str) -> Option<u32> {
+        let given = given?;
+        let fits = |value: u64| u32::try_from(value).ok().filter(|&value| value <= max);
+        if let Ok(value) = given.text.parse::<u64>() {
+            let value = fits(value);
+            if value.is_none() {
+                self.bad(given, what, format!("left out; expected a number from 0 to {max}"));
+            }
+            return value;
+        }
+        let value = hex(&given.text).and_then(fits);
+        match value {
+            Some(value) => {
+                let message = format!("`{}` is hexadecimal; GSDML has decimal digits here", given.text);
+                self.diagnostics.push(
+                    Diagnostic::new(&codes::GSDML_VALUE, given.span, message)
+                        .label(format!("read as {value}"))
+                        .fix(value.to_string()),
+                );
+            }
+            None => self.bad(given, what, format!("left out; expected a number from 0 to {max}")),
+        }
+        value
+    }
+
+    /// A decimal number of 16 bits.
+    pub fn unsigned16(&mut self, given: Option<&Given<'_>>, what: &str) -> Option<u16> {
+        self.unsigned(given, u16::MAX.into(), what).and_then(|value| u16::try_from(value).ok())
+    }
+
+    /// An ident number (`0x0000430A`, of any number of digits); without its prefix it is reported, and read all the same.
+    pub fn ident(&mut self, given: Option<&Given<'_>>, max: u32, what: &str) -> Option<u32> {
+        let given = given?;
+        let fits = |value: u64| u32::try_from(value).ok().filter(|&value| value <= max);
+        if let Some(value) = hex(&given.text).and_then(fits) {
+            return Some(value);
+        }
+        let value = if given.text.starts_with('+') { None } else { u64::from_str_radix(&given.text, 16).ok() };
+        let value = value.and_then(fits);
+        match value {
+            Some(value) => {
+                let message = format!("`{}` has no prefix `0x`", given.text);
+                self.diagnostics.push(
+                    Diagnostic::new(&codes::GSDML_VALUE, given.span, message)
+                        .label(format!("read as {value:#x}"))
+                        .fix(format!("{value:#010x}")),
+                );
+            }
+            None => self.bad(given, what, format!("left out; expected `0x` and a number up to {max:#x}")),
+        }
+        value
+    }
+
+    /// The ident number that `tag` has to have; 0 where it has none.
+    pub fn required_ident(&mut self, tag: &Tag<'_>, given: Option<&Given<'_>>, name: &str) -> u32 {
+        if given.is_none() {
+            self.missing(tag, name, "taken for 0");
+        }
+        self.ident(given, u32::MAX, "ident number").unwrap_or(0)
+    }
+
+    /// `true` or `false`, also as 1 or 0; `default` where it isn't given.
+    pub fn flag(&mut self, given: Option<&Given<'_>>, default: bool) -> bool {
+        let Some(given) = given else { return default };
+        match given.text.as_ref() {
+            "true" | "1" => return true,
+            "false" | "0" => return false,
+            _ => {}
+        }
+        let value = ["true", "yes"].iter().any(|word| word.eq_ignore_ascii_case(&given.text));
+        self.bad(given, "`true` or `false`", format!("read as {value}"));
+        value
+    }
+
+    /// A list of numbers and ranges (`1..3 7`); what of it is no number is reported and left out.
+    pub fn numbers(&mut self, given: Option<&Given<'_>>) -> Numbers {
+        let Some(given) = given else { return Numbers::default() };
+        let mut list = SmallVec::new();
+        let mut broken = None;
+        for part in given.text.split_ascii_whitespace() {
+            match range(part) {
+                Some((first, last)) if first <= last => list.push((first, last)),
+                Some((last, first)) => {
+                    list.push((first, last));
+                    broken = broken.or(Some(part));
+                }
+                None => broken = broken.or(Some(part)),
+            }
+        }
+        if let Some(part) = broken {
+            let message = format!("`{part}` is no number and no range `first..last` of numbers up to 65535");
+            let label = if range(part).is_some() { "read the other way round" } else { "left out" };
+            self.diagnostics.push(Diagnostic::new(&codes::GSDML_VALUE, given.span, message).label(label));
+        }
+        Numbers(list)
+    }
+
+    /// Reads the attribute `name` of an element that has nothing else to say.
+    pub fn single(&mut self, tag: &Tag<'a>, name: &str) -> Read<CompactString> {
+        let given = self.field(tag, name)?;
+        if given.is_none() {
+            self.missing(tag, name, "left empty");
+        }
+        Ok(given.map_or_else(CompactString::default, |given| given.text.into()))
+    }
+}
+
+fn range(text: &str) -> Option<(u16, u16)> {
+    match text.split_once("..") {
+        Some((first, last)) => Some((first.parse().ok()?, last.parse().ok()?)),
+        None => text.parse().ok().map(|number| (number, number)),
+    }
+}
+
+fn hex(text: &str) -> Option<u64> {
+    let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))?;
+    if digits.starts_with('+') {
+        return None;
+    }
+    u64::from_str_radix(digits, 16).ok()
+}
+
+/// The tokens of a list `a;b;c`.
+pub(super) fn tokens(text: &str) -> impl Iterator<Item = &str> {
+    text.split(';').map(str::trim).filter(|token| !token.is_empty())
+}
+
+/// A list of numbers of up to 32 bits and ranges of them; `None` where it has anything else.
+pub(super) fn wide_ranges(text: &str) -> Option<Vec<(i128, i128)>> {
+    let number = |text: &str| text.parse::<u32>().ok().map(i128::from);
+    let range = |part: &str| match part.split_once("..") {
+        Some((first, last)) => Some((number(first)?, number(last)?)),
+        None => number(part).map(|value| (value, value)),
+    };
+    text.split_ascii_whitespace().map(range).collect()
+}

@@ -1,0 +1,203 @@
+//! Texts in the place of the references to them, in everything that has a name.
+
+use std::borrow::Cow;
+use std::collections::{HashMap, HashSet};
+
+use compact_str::{format_compact, CompactString};
+
+use super::reader::{shortened, Given};
+use super::texts::{Names, TextList};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{
+    Catalog, Device, Documentation, Group, IoData, LocalText, Menu, Module, Shape, Submodule, SubslotName, Texts,
+    TypeDef, UnitDiagnosis,
+};
+use crate::limits;
+
+/// Resolves every name and description of a catalogue.
+pub(super) fn catalog(catalog: &mut Catalog, resolver: &mut Resolver<'_, '_>) {
+    catalog.devices.iter_mut().for_each(|found| device(found, resolver));
+    catalog.modules.iter_mut().for_each(|found| module(found, resolver));
+    catalog.submodules.iter_mut().for_each(|found| submodule(found, resolver));
+    catalog.types.iter_mut().for_each(|def| type_def(def, resolver));
+    for row in catalog.code_tables.iter_mut().flat_map(|table| &mut table.rows) {
+        resolver.name(&mut row.name, &mut row.names);
+        resolver.documentation(&mut row.documentation);
+    }
+    catalog.unit_diagnoses.iter_mut().for_each(|found| unit_diagnosis(found, resolver));
+    for family in &mut catalog.families {
+        resolver.name(&mut family.name, &mut family.names);
+        resolver.descriptions(&mut family.descriptions);
+    }
+}
+
+fn device(device: &mut Device, resolver: &mut Resolver<'_, '_>) {
+    resolver.name(&mut device.name, &mut device.names);
+    resolver.documentation(&mut device.documentation);
+    for slot in &mut device.slots {
+        resolver.name(&mut slot.name, &mut slot.names);
+    }
+    let Some(settings) = &mut device.profinet else { return };
+    subslots(&mut settings.subslot_names, resolver);
+    for block in &mut settings.vendor_blocks {
+        record(&mut block.record, resolver);
+        menus(&mut block.menus, resolver);
+    }
+}
+
+fn module(module: &mut Module, resolver: &mut Resolver<'_, '_>) {
+    resolver.name(&mut module.name, &mut module.names);
+    resolver.documentation(&mut module.documentation);
+    subslots(&mut module.subslot_names, resolver);
+}
+
+fn subslots(names: &mut [SubslotName], resolver: &mut Resolver<'_, '_>) {
+    for subslot in names {
+        resolver.name(&mut subslot.name, &mut subslot.names);
+    }
+}
+
+fn submodule(submodule: &mut Submodule, resolver: &mut Resolver<'_, '_>) {
+    resolver.name(&mut submodule.name, &mut submodule.names);
+    resolver.documentation(&mut submodule.documentation);
+    for data in [&mut submodule.input, &mut submodule.output].into_iter().flatten() {
+        io_data(data, resolver);
+    }
+    submodule.records.iter_mut().for_each(|group| record(group, resolver));
+    menus(&mut submodule.menus, resolver);
+}
+
+fn io_data(data: &mut IoData, resolver: &mut Resolver<'_, '_>) {
+    for field in &mut data.image.fields {
+        resolver.name(&mut field.name, &mut field.names);
+    }
+    for item in &mut data.items {
+        resolver.name(&mut item.name, &mut item.names);
+    }
+}
+
+fn record(group: &mut Group, resolver: &mut Resolver<'_, '_>) {
+    resolver.name(&mut group.name, &mut group.names);
+    for item in &mut group.items {
+        resolver.name(&mut item.name, &mut item.names);
+    }
+}
+
+fn menus(menus: &mut [Menu], resolver: &mut Resolver<'_, '_>) {
+    for menu in menus {
+        resolver.name(&mut menu.name, &mut menu.names);
+    }
+}
+
+fn type_def(def: &mut TypeDef, resolver: &mut Resolver<'_, '_>) {
+    resolver.documentation(&mut def.documentation);
+    if let Shape::Enumeration { values, .. } = &mut def.shape {
+        for value in values {
+            resolver.name(&mut value.name, &mut value.names);
+        }
+    }
+}
+
+fn unit_diagnosis(diagnosis: &mut UnitDiagnosis, resolver: &mut Resolver<'_, '_>) {
+    resolver.name(&mut diagnosis.name, &mut diagnosis.names);
+    resolver.documentation(&mut diagnosis.documentation);
+    for field in &mut diagnosis.fields {
+        resolver.name(&mut field.name, &mut field.names);
+    }
+}
+
+/// Puts texts in the place of the numbers that stand for them.
+pub(super) struct Resolver<'a, 'd> {
+    pub list: TextList<'a>,
+    names: Names<'a>,
+    pub diagnostics: &'d mut Diagnostics,
+    /// Texts with a suffix, by identifier and suffix.
+    suffixed: HashMap<(Cow<'a, str>, CompactString), (CompactString, Texts)>,
+    /// References that were reported: one element may have become several of the IR.
+    missing: HashSet<usize>,
+    /// How many bytes of text may still be copied.
+    budget: usize,
+}
+
+impl<'a, 'd> Resolver<'a, 'd> {
+    /// A resolver for a file of `length` bytes.
+    pub fn new(list: TextList<'a>, names: Names<'a>, length: usize, diagnostics: &'d mut Diagnostics) -> Self {
+        let budget = limits::MAX_TEXT_COPIES_PER_BYTE.saturating_mul(length).max(limits::MIN_TEXT_COPIES);
+        Resolver { list, names, diagnostics, suffixed: HashMap::new(), missing: HashSet::new(), budget }
+    }
+
+    /// Resolves a name.
+    pub fn name(&mut self, name: &mut CompactString, names: &mut Texts) {
+        let (mark, suffix) = name.split_once(' ').unwrap_or((name.as_str(), ""));
+        let Some(at) = mark.parse::<usize>().ok() else { return };
+        let Some(given) = self.names.get(at).cloned() else { return };
+        let found = match suffix {
+            "" => self.list.find(&given.text),
+            _ => self.with_suffix(&given, suffix.into()),
+        };
+        if let Some((text, texts)) = found {
+            if self.spend(text.len(), &given) {
+                (*name, *names) = (text, texts);
+                return;
+            }
+        } else if self.missing.insert(at) {
+            let message = format!("the text list has no `{}`", shortened(&given.text));
+            let diagnostic = Diagnostic::new(&codes::MISSING_TEXT, given.span, message);
+            self.diagnostics.push(diagnostic.label("its identifier is used as the name"));
+        }
+        *name = match suffix {
+            "" => given.text.as_ref().into(),
+            _ => format_compact!("{} {suffix}", given.text),
+        };
+    }
+
+    fn with_suffix(&mut self, given: &Given<'a>, suffix: CompactString) -> Option<(CompactString, Texts)> {
+        let key = (given.text.clone(), suffix);
+        if let Some(found) = self.suffixed.get(&key) {
+            return Some(found.clone());
+        }
+        let (text, texts) = self.list.find(&given.text)?;
+        let with = |text: &str| format_compact!("{text} {}", key.1);
+        let names = texts.iter().map(|local| LocalText { language: local.language.clone(), text: with(&local.text) });
+        let found = (with(&text), names.collect());
+        self.suffixed.insert(key, found.clone());
+        Some(found)
+    }
+
+    /// Whether one more text of this length may be copied: a long one to which everything refers must not multiply.
+    fn spend(&mut self, length: usize, given: &Given<'_>) -> bool {
+        if let Some(rest) = self.budget.checked_sub(length) {
+            self.budget = rest;
+            return true;
+        }
+        if std::mem::take(&mut self.budget) > 0 {
+            let message = "the texts that the file refers to are many times longer than the file";
+            let diagnostic = Diagnostic::new(&codes::INPUT_TOO_LARGE, given.span, message);
+            self.diagnostics.push(diagnostic.label("from here on, identifiers are used as names"));
+        }
+        false
+    }
+
+    /// Resolves a description.
+    pub fn documentation(&mut self, documentation: &mut Option<Box<Documentation>>) {
+        let Some(documentation) = documentation else { return };
+        let mut text = CompactString::from(documentation.text.as_str());
+        self.name(&mut text, &mut documentation.translations);
+        documentation.text = text.into();
+    }
+
+    /// Resolves descriptions in all languages, of which there is one so far.
+    pub fn descriptions(&mut self, descriptions: &mut Vec<LocalText>) {
+        for LocalText { text: mark, .. } in std::mem::take(descriptions) {
+            let (mut text, mut texts) = (mark.clone(), Texts::default());
+            self.name(&mut text, &mut texts);
+            descriptions.push(LocalText { language: "en".into(), text });
+            // Here every translation is a copy of its own.
+            let given = mark.parse().ok().and_then(|at: usize| self.names.get(at)).cloned();
+            let length = texts.iter().map(|local| local.text.len() + std::mem::size_of::<LocalText>()).sum();
+            if given.is_some_and(|given| self.spend(length, &given)) {
+                descriptions.extend(texts.iter().cloned());
+            }
+        }
+    }
+}

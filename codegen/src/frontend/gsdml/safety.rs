@@ -1,0 +1,180 @@
+//! Parameters of functional safety (PROFIsafe).
+
+use super::number;
+use super::reader::{attribute, Given, Read, Reader};
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{FParameter, FParameters, Submodule};
+use crate::syntax::xml::Tag;
+
+/// A parameter as the schema has it.
+struct Known {
+    name: &'static str,
+    /// Whether a record has to have it.
+    required: bool,
+    default: &'static str,
+    allowed: &'static str,
+    changeable: bool,
+    visible: bool,
+    /// Values with names, by their number in the record; none = numbers.
+    labels: &'static [(&'static str, i128)],
+}
+
+const fn known(name: &'static str, default: &'static str, allowed: &'static str, changeable: bool) -> Known {
+    Known { name, required: true, default, allowed, changeable, visible: true, labels: &[] }
+}
+
+impl Known {
+    const fn optional(self) -> Self {
+        Known { required: false, ..self }
+    }
+
+    const fn hidden(self) -> Self {
+        Known { visible: false, ..self }
+    }
+
+    const fn labels(self, labels: &'static [(&'static str, i128)]) -> Self {
+        Known { labels, ..self }
+    }
+}
+
+/// The parameters in the order of the schema, with what it takes for granted.
+static KNOWN: [Known; 12] = [
+    known("F_Check_iPar", "NoCheck", "Check NoCheck", false).hidden().labels(&[("NoCheck", 0), ("Check", 1)]),
+    known("F_SIL", "SIL3", "SIL1 SIL2 SIL3 NoSIL", true).labels(&[("SIL1", 0), ("SIL2", 1), ("SIL3", 2), ("NoSIL", 3)]),
+    known("F_CRC_Length", "3-Byte-CRC", "3-Byte-CRC", false).hidden().labels(&[
+        ("3-Byte-CRC", 0),
+        ("2-Byte-CRC", 1),
+        ("4-Byte-CRC", 2),
+    ]),
+    // The one seed that GSDML knows is a clear bit: the checksums that vendors give for their defaults say so.
+    known("F_CRC_Seed", "CRC-Seed24/32", "CRC-Seed24/32", false).optional().labels(&[("CRC-Seed24/32", 0)]),
+    known("F_Passivation", "Device/Module", "Device/Module", false)
+        .optional()
+        .labels(&[("Device/Module", 0), ("Channel", 1)]),
+    known("F_Block_ID", "0", "0..7", false),
+    known("F_Par_Version", "1", "1", false),
+    known("F_Source_Add", "1", "1..65534", true),
+    known("F_Dest_Add", "1", "1..65534", true),
+    known("F_WD_Time", "150", "1..65535", true),
+    known("F_Par_CRC", "53356", "0..65535", true),
+    known("F_iPar_CRC", "0", "0..4294967295", true).optional(),
+];
+
+impl<'a> Reader<'a, '_> {
+    /// Reads F_ParameterRecordDataItem.
+    pub fn f_record(&mut self, parent: &Tag<'a>, submodule: &mut Submodule) -> Read<()> {
+        let origin = self.cursor.origin(parent);
+        let names = ["Index", "TransferSequence", "F_ParamDescCRC", "F_SupportedParameters", "ChangeableWithBump"];
+        let fields = self.fields(parent, &names, &mut submodule.extensions)?;
+        let [index, sequence, crc, supported, bump] = fields;
+        attribute("F_ParameterRecordDataItem@F_SupportedParameters", supported.as_ref(), &mut submodule.attributes);
+        attribute("F_ParameterRecordDataItem@ChangeableWithBump", bump.as_ref(), &mut submodule.attributes);
+        if index.is_none() {
+            self.missing(parent, "Index", "taken for 0");
+        }
+        let mut found = FParameters {
+            index: self.unsigned16(index.as_ref(), "record index").unwrap_or(0),
+            transfer_sequence: self.unsigned16(sequence.as_ref(), "order of transfer").unwrap_or(0),
+            description_crc: self.unsigned16(crc.as_ref(), "checksum of 16 bits"),
+            parameters: Vec::new(),
+            origin,
+        };
+        while let Some(tag) = self.cursor.child(parent)? {
+            match KNOWN.iter().find(|known| known.name == tag.name) {
+                Some(known) => {
+                    let parameter = self.f_parameter(&tag, known, submodule)?;
+                    found.parameters.push(parameter);
+                }
+                None => self.unknown(&tag, &mut submodule.extensions)?,
+            }
+        }
+        self.add_missing(parent, &mut found.parameters);
+        if submodule.f_parameters.is_some() {
+            let message = "a submodule has one F-parameter record";
+            let diagnostic = Diagnostic::new(&codes::DUPLICATE_ID, parent.span, message);
+            self.diagnostics.push(diagnostic.label("takes the place of the one before"));
+        }
+        submodule.f_parameters = Some(Box::new(found));
+        Ok(())
+    }
+
+    /// Parameters that every record has are there even where the source leaves them out.
+    fn add_missing(&mut self, tag: &Tag<'a>, parameters: &mut Vec<FParameter>) {
+        for known in KNOWN.iter().filter(|known| known.required) {
+            if !parameters.iter().any(|parameter| parameter.name == known.name) {
+                self.missing(tag, known.name, "added with the default of the schema");
+                parameters.push(by_schema(known));
+            }
+        }
+        let place = |parameter: &FParameter| KNOWN.iter().position(|known| known.name == parameter.name);
+        parameters.sort_by_key(place);
+    }
+
+    fn f_parameter(&mut self, tag: &Tag<'a>, known: &Known, submodule: &mut Submodule) -> Read<FParameter> {
+        let names = ["DefaultValue", "AllowedValues", "Changeable", "Visible"];
+        let [default, allowed, changeable, visible] = self.fields(tag, &names, &mut submodule.extensions)?;
+        let mut parameter = by_schema(known);
+        if let Some(given) = default {
+            self.f_default(&given, known, &mut parameter);
+        }
+        if let Some(given) = allowed {
+            self.f_allowed(&given, known, &mut parameter);
+        }
+        parameter.changeable = self.flag(changeable.as_ref(), known.changeable);
+        parameter.visible = self.flag(visible.as_ref(), known.visible);
+        self.no_children(tag, &mut submodule.extensions)?;
+        Ok(parameter)
+    }
+
+    fn f_default(&mut self, given: &Given<'a>, known: &Known, parameter: &mut FParameter) {
+        if known.labels.is_empty() {
+            match self.unsigned(Some(given), u32::MAX, "value of an F-parameter") {
+                Some(value) => parameter.default = value.into(),
+                None => parameter.label = given.text.as_ref().into(),
+            }
+            return;
+        }
+        parameter.label = given.text.as_ref().into();
+        match known.labels.iter().find(|(label, _)| *label == given.text) {
+            Some(&(_, number)) => parameter.default = number,
+            None => self.bad(given, "value of this F-parameter", "kept as text; its number is that of the default"),
+        }
+    }
+
+    fn f_allowed(&mut self, given: &Given<'a>, known: &Known, parameter: &mut FParameter) {
+        if known.labels.is_empty() {
+            let ranges = number::wide_ranges(&given.text);
+            match ranges {
+                Some(ranges) => parameter.allowed = ranges,
+                None => self.bad(given, "list of numbers and ranges", "the values of the schema are used"),
+            }
+            return;
+        }
+        parameter.allowed_labels = given.text.split_ascii_whitespace().map(Into::into).collect();
+        let is_known = |label: &str| known.labels.iter().any(|(known, _)| *known == label);
+        if !given.text.split_ascii_whitespace().all(is_known) {
+            self.bad(given, "list of values of this F-parameter", "kept as it is");
+        }
+    }
+}
+
+/// A parameter of which the source says nothing.
+fn by_schema(known: &Known) -> FParameter {
+    let mut parameter = FParameter {
+        name: known.name.into(),
+        changeable: known.changeable,
+        visible: known.visible,
+        ..FParameter::default()
+    };
+    match known.labels.iter().find(|(label, _)| *label == known.default) {
+        Some(&(label, number)) => {
+            (parameter.label, parameter.default) = (label.into(), number);
+            parameter.allowed_labels = known.allowed.split(' ').map(Into::into).collect();
+        }
+        None => {
+            parameter.default = known.default.parse().unwrap_or(0);
+            parameter.allowed = number::wide_ranges(known.allowed).unwrap_or_default();
+        }
+    }
+    parameter
+}

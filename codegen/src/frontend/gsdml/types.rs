@@ -1,0 +1,239 @@
+//! Types of the catalogue: numbers and strings that have a name in GSDML, and the enumerations of its value list.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+use super::data_type::{DataType, NumberType, PairType, StringType};
+use super::links::{unresolved, Kind};
+use super::reader::{Given, Read, Reader};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Documentation, EnumValue, Extension, Field, Scale, Shape, Texts, Type, TypeDef, TypeId};
+use crate::limits;
+use crate::source::Origin;
+use crate::syntax::xml::Tag;
+
+#[derive(Default)]
+pub(super) struct Types<'a> {
+    defs: Vec<TypeDef>,
+    /// Types with a name in GSDML, by name and length in bytes.
+    named: HashMap<(&'static str, u32), TypeId>,
+    /// Enumerations, by the identifier of the ValueItem and the type of what has its values.
+    enumerations: HashMap<(Cow<'a, str>, Type), TypeId>,
+    /// The first reference to each of them.
+    wanted: Vec<(Given<'a>, Type, TypeId)>,
+    items: Vec<ValueItem>,
+    places: HashMap<Cow<'a, str>, usize>,
+}
+
+/// An element of the value list.
+struct ValueItem {
+    id: compact_str::CompactString,
+    documentation: Option<Box<Documentation>>,
+    values: Vec<EnumValue>,
+    used: bool,
+    origin: Origin,
+}
+
+impl<'a> Types<'a> {
+    fn push(&mut self, name: &str, shape: Shape, bits: Option<u32>) -> TypeId {
+        let id = TypeId(u32::try_from(self.defs.len()).unwrap_or(u32::MAX));
+        let origin = Origin::default();
+        self.defs.push(TypeDef { name: name.into(), code: None, shape, bits, documentation: None, origin });
+        id
+    }
+
+    fn named(&mut self, name: &'static str, bytes: u32, shape: impl FnOnce() -> Shape) -> Type {
+        if let Some(&id) = self.named.get(&(name, bytes)) {
+            return Type::Named(id);
+        }
+        let id = self.push(name, shape(), Some(bytes.saturating_mul(8)));
+        self.named.insert((name, bytes), id);
+        Type::Named(id)
+    }
+
+    /// The type of a string of so many bytes.
+    pub fn string(&mut self, string: StringType, bytes: u32) -> Type {
+        match string {
+            StringType::Visible => Type::VisibleString(Some(bytes)),
+            StringType::Octet => Type::OctetString(Some(bytes)),
+            StringType::Named(name) => self.named(name, bytes, || Shape::Alias(Type::OctetString(Some(bytes)))),
+        }
+    }
+
+    /// The type of a number that has a name of its own.
+    pub fn number(&mut self, number: &NumberType) -> Type {
+        let base = number.base;
+        let bytes = base.bits().unwrap_or(0) / 8;
+        self.named(number.name, bytes, || match number.factor {
+            Some(factor) => Shape::Scaled { base, scale: Scale::Linear { factor, offset: 0.0 } },
+            None => Shape::Alias(base),
+        })
+    }
+
+    /// Two values as one record.
+    pub fn pair(&mut self, pair: &PairType) -> Type {
+        let bits = pair.first_bits();
+        self.named(pair.name, bits / 8 + 1, || {
+            let field =
+                |name: &str, ty, bits, bit_offset| Field { name: name.into(), sub_index: None, ty, bits, bit_offset };
+            Shape::Record(vec![field("value", pair.first, bits, 0), field(pair.suffix, pair.second, 8, bits)])
+        })
+    }
+
+    /// The enumeration of the ValueItem that `target` names, over `base`.
+    pub fn enumeration(&mut self, target: Given<'a>, base: Type) -> Type {
+        let key = (target.text.clone(), base);
+        if let Some(&id) = self.enumerations.get(&key) {
+            return Type::Named(id);
+        }
+        let id = self.push(&target.text, Shape::Alias(base), base.bits());
+        self.enumerations.insert(key, id);
+        self.wanted.push((target, base, id));
+        Type::Named(id)
+    }
+
+    /// The types, now that the value list is known.
+    pub fn finish(mut self, diagnostics: &mut Diagnostics) -> Vec<TypeDef> {
+        let mut budget = limits::MAX_DERIVED_ITEMS;
+        for (target, base, TypeId(id)) in std::mem::take(&mut self.wanted) {
+            let item = self.places.get(&target.text).and_then(|&at| self.items.get_mut(at));
+            let Some(item) = item else {
+                unresolved("ValueItem", &target, diagnostics);
+                continue;
+            };
+            // Further types with the same values need copies of them.
+            let copies = if std::mem::replace(&mut item.used, true) { item.values.len() } else { 0 };
+            let Some(rest) = budget.checked_sub(copies) else {
+                too_many(&target, diagnostics);
+                continue;
+            };
+            budget = rest;
+            if let Some(def) = self.defs.get_mut(id as usize) {
+                def.shape = Shape::Enumeration { base, values: item.values.clone(), closed: false };
+                (def.documentation, def.origin) = (item.documentation.clone(), item.origin);
+            }
+        }
+        for item in std::mem::take(&mut self.items).into_iter().filter(|item| !item.used) {
+            let ValueItem { id: name, documentation, values, origin, .. } = item;
+            let base = narrowest(&values);
+            let shape = Shape::Enumeration { base, values, closed: false };
+            self.defs.push(TypeDef { name, code: None, shape, bits: base.bits(), documentation, origin });
+        }
+        self.defs
+    }
+}
+
+fn too_many(target: &Given<'_>, diagnostics: &mut Diagnostics) {
+    let message = "the values of the file's lists are used with too many types";
+    let diagnostic = Diagnostic::new(&codes::INPUT_TOO_LARGE, target.span, message);
+    diagnostics.push(diagnostic.label("without names of its values"));
+}
+
+/// The type for an enumeration that nothing refers to.
+fn narrowest(values: &[EnumValue]) -> Type {
+    let least = values.iter().map(|value| value.value).min().unwrap_or(0);
+    let greatest = values.iter().map(|value| value.last.unwrap_or(value.value)).max().unwrap_or(0);
+    let all = [8, 16, 32].into_iter().map(|bits| if least < 0 { Type::Integer(bits) } else { Type::Unsigned(bits) });
+    let fits = |ty: &Type| ty.integer_range().is_some_and(|(low, high)| low <= least && greatest <= high);
+    all.into_iter().find(fits).unwrap_or(if least < 0 { Type::Integer(64) } else { Type::Unsigned(64) })
+}
+
+impl<'a> Reader<'a, '_> {
+    /// Reads ValueList.
+    pub fn value_list(&mut self, list: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<()> {
+        while let Some(tag) = self.cursor.child(list)? {
+            match tag.name {
+                "ValueItem" => self.value_item(&tag, rest)?,
+                _ => self.unknown(&tag, rest)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn value_item(&mut self, parent: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<()> {
+        let origin = self.cursor.origin(parent);
+        let [id] = self.fields(parent, &["ID"], rest)?;
+        let position = self.types.items.len();
+        self.register(parent, Kind::Value, id.as_ref(), position);
+        let (mut values, mut documentation) = (Vec::new(), None);
+        while let Some(tag) = self.cursor.child(parent)? {
+            match tag.name {
+                "Help" => documentation = self.documentation(&tag)?,
+                "Assignments" => {
+                    while let Some(tag) = self.cursor.child(&tag)? {
+                        match tag.name {
+                            "Assign" => self.assign(&tag, &mut values, rest)?,
+                            _ => self.unknown(&tag, rest)?,
+                        }
+                    }
+                }
+                _ => self.unknown(&tag, rest)?,
+            }
+        }
+        let name = id.as_ref().map_or_else(Default::default, |id| id.text.as_ref().into());
+        if let Some(id) = id {
+            self.types.places.entry(id.text).or_insert(position);
+        }
+        self.types.items.push(ValueItem { id: name, documentation, values, used: false, origin });
+        Ok(())
+    }
+
+    fn assign(&mut self, tag: &Tag<'a>, values: &mut Vec<EnumValue>, rest: &mut Vec<Extension>) -> Read<()> {
+        let [text, content] = self.fields(tag, &["TextId", "Content"], rest)?;
+        let name = self.name(tag, text);
+        let Some(content) = content else {
+            self.missing(tag, "Content", "left out");
+            return Ok(());
+        };
+        let Some((value, last)) = span_of_values(&content.text) else {
+            self.bad(&content, "whole number or range of whole numbers", "left out of the enumeration");
+            super::reader::note("Assign@Content", Some(&content), rest);
+            return Ok(());
+        };
+        values.push(EnumValue { name, value, last, zone: None, names: Texts::default(), documentation: None });
+        Ok(())
+    }
+}
+
+/// `7` or `0..3`.
+fn span_of_values(text: &str) -> Option<(i128, Option<i128>)> {
+    match text.split_once("..") {
+        Some((first, last)) => {
+            let (first, last) = (whole(first)?, whole(last)?);
+            (first <= last).then_some((first, (first != last).then_some(last)))
+        }
+        None => whole(text).map(|value| (value, None)),
+    }
+}
+
+/// A whole number, perhaps with a fraction of zero or in hexadecimal.
+fn whole(text: &str) -> Option<i128> {
+    let text = text.trim();
+    if let Ok(value) = text.parse::<i64>() {
+        return Some(value.into());
+    }
+    if let Some(digits) = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
+        return u64::from_str_radix(digits, 16).ok().map(i128::from);
+    }
+    if let Ok(value) = text.parse::<u64>() {
+        return Some(value.into());
+    }
+    let value = text.parse::<f64>().ok()?;
+    (value.fract() == 0.0 && value.abs() < 9e15).then_some(value as i128)
+}
+
+impl DataType {
+    /// The type of one value, where there is one, and its length in bytes; `length` is what stands beside the name.
+    pub fn lower(self, length: Option<u32>, types: &mut Types<'_>) -> (Type, u32) {
+        let bytes = self.bytes().or(length).unwrap_or(0);
+        let ty = match self {
+            DataType::Basic(ty) => ty,
+            DataType::String(string) => types.string(string, bytes),
+            DataType::Number(number) => types.number(number),
+            DataType::Pair(pair) => types.pair(pair),
+            DataType::OctetsWithStatus | DataType::Trailer(_) => Type::OctetString(Some(bytes)),
+            DataType::Bit | DataType::BitArea => Type::Boolean,
+        };
+        (ty, bytes)
+    }
+}

@@ -1,0 +1,188 @@
+//! Defaults and allowed values of parameters.
+
+use super::reader::{shortened, Given, Reader};
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{Extension, Limits, Type, Value};
+
+impl<'a> Reader<'a, '_> {
+    /// The default of a parameter of type `ty`; what is no value of it is reported and kept as text.
+    pub fn default_value(&mut self, given: &Given<'_>, ty: Type, bits: u32) -> Option<Value> {
+        let text = given.text.as_ref();
+        let value = match ty {
+            Type::VisibleString(_) => {
+                self.check_length(given, bits);
+                return Some(Value::Text(text.into()));
+            }
+            Type::Boolean => boolean(text),
+            Type::Integer(_) | Type::Unsigned(_) => self.integer(given, ty),
+            Type::Real32 | Type::Real64 => real(text).map(Value::Real),
+            Type::OctetString(_) => octets(text).map(Value::Bytes),
+            _ => None,
+        };
+        if value.is_none() {
+            let what = match ty {
+                Type::Boolean => "0 or 1",
+                Type::Integer(_) | Type::Unsigned(_) => "a whole number",
+                Type::Real32 | Type::Real64 => "a number",
+                Type::OctetString(_) => "octets such as `0x00,0x1F`",
+                _ => "a value of a form that Lexibus knows",
+            };
+            let message = format!("the default `{}` isn't {what}", shortened(text));
+            self.diagnostics.push(Diagnostic::new(&codes::GSDML_DEFAULT, given.span, message).label("kept as text"));
+        }
+        Some(value.unwrap_or_else(|| Value::Raw(text.into())))
+    }
+
+    fn integer(&mut self, given: &Given<'_>, ty: Type) -> Option<Value> {
+        let (value, is_plain) = whole(&given.text)?;
+        if !is_plain {
+            let message = format!("`{}` isn't written with decimal digits", given.text);
+            self.diagnostics.push(
+                Diagnostic::new(&codes::GSDML_DEFAULT, given.span, message)
+                    .label(format!("read as {value}"))
+                    .fix(value.to_string()),
+            );
+        }
+        self.check_range(given, value, ty);
+        Some(Value::Int(value))
+    }
+
+    /// Reports a number that no value of the type can have.
+    fn check_range(&mut self, given: &Given<'_>, value: i128, ty: Type) {
+        let Some((low, high)) = ty.integer_range() else { return };
+        if value < low || value > high {
+            let message = format!("{value} is no value of {ty}, which has {low} to {high}");
+            self.diagnostics.push(Diagnostic::new(&codes::OUT_OF_TYPE, given.span, message).label("kept as it is"));
+        }
+    }
+
+    fn check_length(&mut self, given: &Given<'_>, bits: u32) {
+        let length = given.text.chars().count();
+        if length > bits as usize / 8 {
+            let message = format!("the default has {length} characters, and the parameter room for {}", bits / 8);
+            self.diagnostics.push(Diagnostic::new(&codes::OUT_OF_TYPE, given.span, message).label("kept as it is"));
+        }
+    }
+
+    /// The values that a parameter of type `ty` may have.
+    pub fn allowed_values(&mut self, given: Option<&Given<'_>>, ty: Type, rest: &mut Vec<Extension>) -> Limits {
+        let Some(given) = given else { return Limits::default() };
+        let mut limits = Limits::default();
+        let parse = match ty {
+            Type::Boolean | Type::Integer(_) | Type::Unsigned(_) => integer_range,
+            Type::Real32 | Type::Real64 => real_range,
+            // A string has no numbers to compare with.
+            _ => {
+                super::reader::note("AllowedValues", Some(given), rest);
+                return limits;
+            }
+        };
+        for part in given.text.split_ascii_whitespace() {
+            match parse(part) {
+                Some((first, last)) if less(&last, &first) => {
+                    self.bad_part(given, part, "the last value is less than the first", "read the other way round");
+                    add(&mut limits, last, first);
+                }
+                Some((first, last)) => add(&mut limits, first, last),
+                None => self.bad_part(given, part, "it is no number and no range `first..last`", "left out"),
+            }
+        }
+        for value in [&limits.low, &limits.high].into_iter().flatten() {
+            if let Value::Int(value) = *value {
+                self.check_range(given, value, ty);
+            }
+        }
+        limits
+    }
+
+    fn bad_part(&mut self, given: &Given<'_>, part: &str, why: &str, label: &str) {
+        let message = format!("`{}` among the allowed values: {why}", shortened(part));
+        self.diagnostics.push(Diagnostic::new(&codes::ALLOWED_VALUES, given.span, message).label(label));
+    }
+}
+
+fn less(a: &Value, b: &Value) -> bool {
+    match (a, b) {
+        (Value::Int(a), Value::Int(b)) => a < b,
+        _ => a.as_real() < b.as_real(),
+    }
+}
+
+/// Adds a range to the allowed values. The first needs no list: it is the least and the greatest value.
+fn add(limits: &mut Limits, first: Value, last: Value) {
+    let (Some(low), Some(high)) = (&mut limits.low, &mut limits.high) else {
+        (limits.low, limits.high) = (Some(first), Some(last));
+        return;
+    };
+    if limits.allowed.is_empty() {
+        limits.allowed.push((low.clone(), high.clone()));
+    }
+    if less(&first, low) {
+        *low = first.clone();
+    }
+    if less(high, &last) {
+        *high = last.clone();
+    }
+    limits.allowed.push((first, last));
+}
+
+fn boolean(text: &str) -> Option<Value> {
+    match text {
+        "0" | "false" => Some(Value::Bool(false)),
+        "1" | "true" => Some(Value::Bool(true)),
+        _ => None,
+    }
+}
+
+/// A whole number, and whether it is written as GSDML wants.
+fn whole(text: &str) -> Option<(i128, bool)> {
+    if let Ok(value) = text.parse::<i64>() {
+        return Some((value.into(), true));
+    }
+    if let Ok(value) = text.parse::<u64>() {
+        return Some((value.into(), true));
+    }
+    let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))?;
+    let value = if digits.starts_with('+') { None } else { u64::from_str_radix(digits, 16).ok() };
+    value.map(|value| (value.into(), false))
+}
+
+fn real(text: &str) -> Option<f64> {
+    let is_number = text.bytes().all(|byte| matches!(byte, b'0'..=b'9' | b'+' | b'-' | b'.' | b'e' | b'E'));
+    if is_number {
+        text.parse().ok().filter(|value: &f64| value.is_finite())
+    } else {
+        None
+    }
+}
+
+/// `0x01,0x02`.
+pub(super) fn octets(text: &str) -> Option<Vec<u8>> {
+    text.split(',').map(|octet| octet_of(octet.trim())).collect()
+}
+
+fn octet_of(text: &str) -> Option<u8> {
+    let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))?;
+    let only_digits = digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+    if only_digits {
+        u8::from_str_radix(digits, 16).ok()
+    } else {
+        None
+    }
+}
+
+fn integer_range(part: &str) -> Option<(Value, Value)> {
+    let number = |text: &str| whole(text).map(|(value, _)| Value::Int(value));
+    range(part, number)
+}
+
+fn real_range(part: &str) -> Option<(Value, Value)> {
+    range(part, |text| real(text).map(Value::Real))
+}
+
+fn range(part: &str, number: impl Fn(&str) -> Option<Value>) -> Option<(Value, Value)> {
+    match part.split_once("..") {
+        Some((first, last)) => Some((number(first)?, number(last)?)),
+        None => number(part).map(|value| (value.clone(), value)),
+    }
+}

@@ -1,0 +1,82 @@
+//! After this pass the PDOs that an EtherCAT slave assigns by default were held against its sync managers and against each
+//! other, and the PDOs that others exclude against those that there are.
+
+use std::collections::HashSet;
+
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Device, Module, Pdo, ProcessData};
+
+pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
+    if device.ethercat.is_none() {
+        return;
+    }
+    let data = &device.process_data;
+    excluded_exist(data, diagnostics);
+    for pdo in &data.pdos {
+        sync_manager_exists(pdo, data, diagnostics);
+    }
+    conflicts(data, diagnostics);
+    lengths(data, diagnostics);
+}
+
+/// Of a module: its sync managers are those of the device that it is plugged into.
+pub(super) fn module(module: &Module, diagnostics: &mut Diagnostics) {
+    excluded_exist(&module.process_data, diagnostics);
+}
+
+fn excluded_exist(data: &ProcessData, diagnostics: &mut Diagnostics) {
+    let known: HashSet<u16> = data.pdos.iter().map(|pdo| pdo.mapping_index).collect();
+    for pdo in &data.pdos {
+        let missing = pdo.excludes.iter().find(|index| !known.contains(index));
+        if let Some(index) = missing {
+            let message = format!("0x{:04X} excludes 0x{index:04X}, which isn't described", pdo.mapping_index);
+            diagnostics.push(Diagnostic::new(&codes::EXCLUDED_PDO_MISSING, pdo.origin.span, message));
+        }
+    }
+}
+
+fn sync_manager_exists(pdo: &Pdo, data: &ProcessData, diagnostics: &mut Diagnostics) {
+    let Some(number) = pdo.sync_manager.filter(|&number| !data.has_sync_manager(number)) else { return };
+    let message = format!("0x{:04X} is assigned to sync manager {number}, which isn't described", pdo.mapping_index);
+    diagnostics.push(
+        Diagnostic::new(&codes::NO_SUCH_SYNC_MANAGER, pdo.origin.span, message).label("not part of the process image"),
+    );
+}
+
+fn conflicts(data: &ProcessData, diagnostics: &mut Diagnostics) {
+    let assigned = data.assigned_by_default();
+    for pdo in data.pdos.iter().filter(|pdo| pdo.sync_manager.is_some() && !pdo.is_virtual) {
+        // One described twice has a finding of its own.
+        let conflict = |(other, _): &&(&Pdo, u8)| !std::ptr::eq(*other, pdo) && other.conflicts_with(pdo);
+        let other = assigned.iter().find(conflict).filter(|(other, _)| other.mapping_index != pdo.mapping_index);
+        let is_assigned = assigned.iter().any(|(other, _)| std::ptr::eq(*other, pdo));
+        if let Some((other, _)) = other.filter(|_| !is_assigned) {
+            let message = format!(
+                "0x{:04X} and 0x{:04X} are both assigned by default, and exclude each other",
+                other.mapping_index, pdo.mapping_index
+            );
+            diagnostics.push(
+                Diagnostic::new(&codes::DEFAULT_PDOS_CONFLICT, pdo.origin.span, message)
+                    .label("left out of the process image by default")
+                    .note_at(other.origin.span, "this one is in it"),
+            );
+        }
+    }
+}
+
+fn lengths(data: &ProcessData, diagnostics: &mut Diagnostics) {
+    let assigned = data.assigned_by_default();
+    for own in &data.sync_managers {
+        let Some(max) = own.size_range.1.filter(|&max| max > 0) else { continue };
+        let inside = assigned.iter().filter(|(_, number)| *number == own.number);
+        let bits = inside.map(|(pdo, _)| u64::from(pdo.bits())).sum::<u64>();
+        if bits.div_ceil(8) > u64::from(max) {
+            let message = format!(
+                "the PDOs of sync manager {} have {} bytes by default, and at most {max} fit",
+                own.number,
+                bits.div_ceil(8)
+            );
+            diagnostics.push(Diagnostic::new(&codes::IMAGE_TOO_LONG, own.origin.span, message));
+        }
+    }
+}

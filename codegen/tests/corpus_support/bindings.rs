@@ -1,0 +1,71 @@
+//! The bindings of every device of the corpus, each different one once.
+
+use std::collections::HashSet;
+use std::sync::Mutex;
+
+use lexibus_codegen::backend::rust;
+use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::ir::{Catalog, Device, Format};
+use lexibus_codegen::source::Source;
+
+use super::File;
+
+/// The text below the header, which names the file and its digest.
+fn body(text: &str) -> &str {
+    text.split_once("\n\n").map_or(text, |(_, body)| body)
+}
+
+/// Bindings of a file, device by device: many files share devices, and one device a time needs little memory.
+fn texts(compilation: &Compilation, options: &Options) -> Vec<String> {
+    let Some(catalog) = compilation.catalog.as_ref().filter(|_| compilation.is_usable()) else { return Vec::new() };
+    if catalog.devices.len() <= 1 || compilation.format == Some(Format::Gsdml) {
+        return compilation.rust(&options.rust).into_iter().collect();
+    }
+    let single = |device: &Device| {
+        let (files, devices) = (catalog.files.clone(), vec![device.clone()]);
+        let modules = catalog.modules.clone();
+        rust::emit_catalog(&Catalog { files, devices, modules, ..Catalog::default() }, &options.rust)
+    };
+    catalog.devices.iter().filter_map(single).collect()
+}
+
+/// Hands the bindings of all `files` to `test`, on all processors, and gives the number of different ones.
+///
+/// # Panics
+///
+/// With the first failures, and where a file is rejected without a reason.
+pub fn each(files: Vec<File>, options: &Options, test: impl Fn(&str, &str) -> Result<(), String> + Sync) -> usize {
+    let queue = Mutex::new(files.into_iter());
+    let (seen, failures) = (Mutex::new(HashSet::new()), Mutex::new(Vec::new()));
+    let work = || {
+        while let Some(File { name, bytes }) = { queue.lock().expect("the queue").next() } {
+            let compilation = check(Source::new(name.as_str(), bytes), options);
+            let texts = texts(&compilation, options);
+            let nothing_to_say = texts.is_empty() && !compilation.diagnostics.has_errors();
+            assert!(!nothing_to_say || is_silent(&compilation), "{name}: rejected in silence");
+            for text in texts {
+                let is_new = seen.lock().expect("what was seen").insert(body(&text).to_owned());
+                if !is_new {
+                    continue;
+                }
+                if let Err(message) = test(&name, &text) {
+                    failures.lock().expect("the failures").push(message);
+                }
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        (0..std::thread::available_parallelism().map_or(1, usize::from)).for_each(|_| {
+            scope.spawn(work);
+        });
+    });
+    let failures = failures.into_inner().expect("the failures");
+    assert!(failures.is_empty(), "{} fail:\n{}", failures.len(), failures[..failures.len().min(20)].join("\n\n"));
+    seen.into_inner().expect("what was seen").len()
+}
+
+/// A file of nothing but texts of diagnosis describes no device.
+fn is_silent(compilation: &Compilation) -> bool {
+    let catalog = compilation.catalog.as_ref();
+    catalog.is_some_and(|catalog| catalog.devices.is_empty() && catalog.modules.is_empty())
+}

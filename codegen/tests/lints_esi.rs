@@ -1,0 +1,73 @@
+//! Lints of EtherCAT process data, each with its place.
+
+use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::source::Source;
+
+/// A slave with one sync manager for outputs and these PDOs, one a line from line 4 on.
+fn slave(sync_manager: &str, pdos: &[&str]) -> Compilation {
+    let text = format!(
+        "<EtherCATInfo><Vendor><Id>1</Id><Name>x</Name></Vendor><Descriptions><Devices>\n\
+         <Device Physics=\"YY\"><Type ProductCode=\"#x10\" RevisionNo=\"#x1\">D</Type><Name>d</Name>\n\
+         {sync_manager}\n{}\n</Device></Devices></Descriptions></EtherCATInfo>",
+        pdos.join("\n")
+    );
+    check(Source::new("slave.xml", text.into_bytes()), &Options::default())
+}
+
+const OUTPUTS: &str = "<Sm StartAddress=\"#x1100\" ControlByte=\"#x64\" Enable=\"1\" MaxSize=\"2\">Outputs</Sm>";
+
+/// An RxPDO of 16 bits.
+fn pdo(index: u16, attributes: &str, exclude: &str) -> String {
+    format!(
+        "<RxPdo Fixed=\"1\" {attributes}><Index>#x{index:04X}</Index><Name>P{index:X}</Name>{exclude}\
+         <Entry><Index>#x7000</Index><SubIndex>{}</SubIndex><BitLen>16</BitLen><Name>O</Name><DataType>UINT</DataType>\
+         </Entry></RxPdo>",
+        index & 0xFF
+    )
+}
+
+/// Code, line, message of each finding.
+fn findings(compilation: &Compilation) -> Vec<(&'static str, u32, String)> {
+    let source = &compilation.sources[0];
+    let list = compilation.diagnostics.list().iter();
+    list.map(|found| (found.code.id, source.position(found.span.start).line, found.message.clone())).collect()
+}
+
+#[test]
+fn pdo018_defaults_that_exclude_each_other() {
+    let exclude = "<Exclude>#x1602</Exclude>";
+    let found = slave(OUTPUTS, &[&pdo(0x1601, "Sm=\"0\"", exclude), &pdo(0x1602, "Sm=\"0\"", "")]);
+    let message = "0x1601 and 0x1602 are both assigned by default, and exclude each other";
+    assert_eq!(findings(&found), [("PDO018", 5, message.to_owned())]);
+    // The first one is the image.
+    let text = found.rust(&Options::default().rust).expect("bindings");
+    assert!(text.contains("default_pdos: &[0x1601],") && text.contains("pub p1601: super::pdo::P1601,"));
+    assert!(!text.contains("pub p1602:"));
+    let chosen = slave(OUTPUTS, &[&pdo(0x1601, "Sm=\"0\"", exclude), &pdo(0x1602, "", "")]);
+    assert_eq!(findings(&chosen), []);
+}
+
+#[test]
+fn pdo019_no_such_sync_manager() {
+    let found = slave(OUTPUTS, &[&pdo(0x1601, "Sm=\"0\"", ""), &pdo(0x1602, "Sm=\"5\"", "")]);
+    let message = "0x1602 is assigned to sync manager 5, which isn't described";
+    assert_eq!(findings(&found), [("PDO019", 5, message.to_owned())]);
+    // Without any sync manager in the description, the number is believed.
+    let without = slave("", &[&pdo(0x1602, "Sm=\"2\"", "")]);
+    assert_eq!(findings(&without), []);
+    let text = without.rust(&Options::default().rust).expect("bindings");
+    assert!(text.contains("pub const SYNC_MANAGER: u8 = 2;"));
+}
+
+#[test]
+fn pdo020_excluded_pdo_missing() {
+    let found = slave(OUTPUTS, &[&pdo(0x1601, "Sm=\"0\"", "<Exclude>#x1607</Exclude>")]);
+    assert_eq!(findings(&found), [("PDO020", 4, "0x1601 excludes 0x1607, which isn't described".to_owned())]);
+}
+
+#[test]
+fn pdo021_image_too_long() {
+    let found = slave(OUTPUTS, &[&pdo(0x1601, "Sm=\"0\"", ""), &pdo(0x1602, "Sm=\"0\"", "")]);
+    let message = "the PDOs of sync manager 0 have 4 bytes by default, and at most 2 fit";
+    assert_eq!(findings(&found), [("PDO021", 3, message.to_owned())]);
+}

@@ -1,0 +1,278 @@
+//! X01 to X07, X23, X24, X27: files, roots, vendors, names and what a file refers to.
+
+use std::path::PathBuf;
+
+use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::source::{Encoding, FileId, Source};
+
+use crate::support::*;
+
+fn bytes(bytes: &[u8]) -> Checked {
+    Checked(check(Source::new("slave.xml", bytes.to_vec()), &Options::default()))
+}
+
+#[test]
+fn x01_encodings() {
+    let named = |declaration: &str, name: &[u8]| {
+        let (head, tail) = ("<EtherCATInfo><Vendor><Id>1</Id><Name>", "</Name></Vendor></EtherCATInfo>");
+        let mut text = declaration.as_bytes().to_vec();
+        for part in [head.as_bytes(), name, tail.as_bytes()] {
+            text.extend(part);
+        }
+        bytes(&text)
+    };
+    let encoding = |checked: &Checked| checked.0.sources[0].encoding();
+    let marked = named("\u{feff}<?xml version='1.0'?>", b"A");
+    assert_eq!((encoding(&marked), marked.found()), (Encoding::Utf8Bom, vec![]));
+    for label in ["ISO-8859-1", "ISO8859-1", "windows-1252"] {
+        let latin = named(&format!("<?xml version='1.0' encoding='{label}'?>"), b"M\xfcller");
+        assert_eq!((encoding(&latin), latin.found()), (Encoding::Windows1252, vec![]), "{label}");
+        assert!(latin.0.sources[0].text().contains("Müller"));
+    }
+    let chinese = named("<?xml version='1.0' encoding='gb2312'?>", b"\xd6\xd0");
+    assert!(chinese.0.sources[0].text().contains('中'));
+    let undeclared = named("", b"M\xfcller");
+    assert_eq!(undeclared.found(), ["XML003 1:40"]);
+    let wrong = named("<?xml version='1.0' encoding='iso-8859-1'?>", "ü".as_bytes());
+    assert_eq!(wrong.found(), ["XML003 1:82"]);
+}
+
+#[test]
+fn x02_junk_behind_the_root() {
+    for junk in ["</Descriptions>", "<EtherCATInfo/>", "0>", "<", "<a b></a>"] {
+        let checked = read_text(&format!("{}\n{junk}", device_file("")));
+        assert_eq!(checked.device().name, "Drive", "{junk}");
+        assert_eq!(checked.found().len(), 1, "{junk}");
+        assert!(checked.found()[0].starts_with("XML004 6:"), "{junk}: {:?}", checked.found());
+    }
+    // Before the end of the root nothing is repaired.
+    let broken = read_text("<EtherCATInfo>\n<Vendor></EtherCATInfo>");
+    assert!(broken.0.catalog.is_none());
+    assert_eq!(broken.found(), ["XML001 2:9"]);
+    let cut = read_text("<EtherCATInfo>\n<Vendor>");
+    assert_eq!(cut.found(), ["XML001 2:8"]);
+}
+
+#[test]
+fn x03_roots() {
+    let slave = |name: &str| {
+        format!(
+            "<EtherCATInfo><Vendor><Id>2</Id></Vendor><Descriptions><Devices><Device>\
+             <Type ProductCode='7'>{name}</Type></Device></Devices></Descriptions></EtherCATInfo>"
+        )
+    };
+    let list = read_text(&format!("<EtherCATInfoList>{}{}</EtherCATInfoList>", slave("A"), slave("B")));
+    let ids: Vec<_> = list.catalog().devices.iter().map(|device| device.id.as_str()).collect();
+    assert_eq!(ids, ["A", "B"]);
+    assert_eq!(list.device().identity.vendor_id, Some(2));
+    for root in ["EtherCATTest", "SscToolConfiguration", "EtherCATConfig"] {
+        let other = read_text(&format!("<{root}/>"));
+        assert_eq!(other.found(), ["IO002 1:2"], "{root}");
+    }
+    let modules =
+        "<EtherCATModule><Vendor><Id>1</Id></Vendor><Modules><Module><Type ModuleIdent='#x5'>M</Type></Module>\
+                   </Modules></EtherCATModule>";
+    let modules = read_text(modules);
+    assert_eq!((modules.module().number, modules.module().identity.vendor_id), (5, Some(1)));
+}
+
+#[test]
+fn x03_dictionaries_and_messages_alone() {
+    let dictionary = read_text(&format!(
+        "<EtherCATDict><Dictionary><DataTypes>{}</DataTypes><Objects>{}</Objects></Dictionary></EtherCATDict>",
+        basic("UINT", 16),
+        var("#x2000", "UINT", "<DefaultValue>5</DefaultValue>")
+    ));
+    assert!(dictionary.device().dictionary_only);
+    assert_eq!(dictionary.default(0x2000, 0), int(5));
+    let messages = read_text(
+        "<EtherCATDiag><DiagMessages><DiagMessage><TextId>#xF008</TextId><MessageText>Too hot</MessageText>\
+         <Flags><DiagClass>error</DiagClass></Flags><CauseRemedy Idx='0'><Cause>No fan</Cause><Remedy>Add one</Remedy>\
+         </CauseRemedy></DiagMessage><DiagType><Text>Runtime</Text><Enum>3</Enum></DiagType></DiagMessages></EtherCATDiag>",
+    );
+    let [table, types] = &messages.catalog().code_tables[..] else { panic!("two tables") };
+    assert_eq!((table.rows[0].code, table.rows[0].name.as_str()), (0xF008, "Too hot"));
+    assert_eq!(table.rows[0].documentation.as_ref().unwrap().text, "Cause: No fan\n\nRemedy: Add one");
+    assert_eq!((types.name.as_str(), types.rows[0].code), ("DiagType", 3));
+    assert!(dictionary.found().is_empty() && messages.found().is_empty());
+}
+
+#[test]
+fn x04_no_version() {
+    for (version, expected) in [("", ""), (" Version='0.1'", "0.1"), (" Version='1.17'", "1.17")] {
+        let checked = read_text(&device_file("").replace("<EtherCATInfo>", &format!("<EtherCATInfo{version}>")));
+        assert_eq!(checked.device().header.format_version, expected);
+        assert_eq!(checked.found(), NOTHING);
+    }
+}
+
+#[test]
+fn x05_vendor_numbers() {
+    for (text, id) in [("#xF3F", 0xF3F), ("0xF3F", 0xF3F), ("0", 0), ("1337", 1337), ("#X0000000a", 10)] {
+        let checked = read_text(&device_file("").replace("#x1", text));
+        assert_eq!(checked.device().identity.vendor_id, Some(id), "{text}");
+        assert_eq!(checked.found(), NOTHING);
+    }
+    let empty = read_text(&device_file("").replace("#x1", ""));
+    assert_eq!(empty.device().identity.vendor_id, None);
+    assert_eq!(empty.found(), ["ESI060 1:1"]);
+    let text = read_text(&device_file("").replace("#x1", "ask us"));
+    assert_eq!(text.found(), ["ESI001 1:27"]);
+}
+
+#[test]
+fn x06_any_order() {
+    let ordered = "<Name>N</Name><Type ProductCode='1'>T</Type><Sm>Inputs</Sm>";
+    let pdo = tx_pdo("#x1A00", &entry("#x6000", 1, 8, "OWN"));
+    let types =
+        "<DataTypes><DataType><Name>OWN</Name><BaseType>USINT</BaseType><BitSize>8</BitSize></DataType></DataTypes>";
+    let objects = format!("<Objects>{}</Objects>", var("#x2000", "OWN", "<DefaultValue>1</DefaultValue>"));
+    let profile = format!("<Profile><Dictionary>{objects}{types}</Dictionary></Profile>");
+    let slots =
+        "<Slots><SlotGroupData SlotGroup='1'><Name>G</Name></SlotGroupData><Slot MinInstances='0' MaxInstances='2'>\
+                 <ModuleIdent>1</ModuleIdent></Slot></Slots>";
+    let device = format!("<Device>{pdo}{slots}{profile}<Info><Electrical/></Info>{ordered}</Device>");
+    let module = "<Modules><Module><Type ModuleIdent='1'>M</Type></Module></Modules>";
+    let text = format!(
+        "<EtherCATInfo><Descriptions>{module}<Devices>{device}</Devices></Descriptions>\
+         <Vendor><Name>V</Name><Id>9</Id></Vendor></EtherCATInfo>"
+    );
+    let checked = read_text(&text);
+    assert_eq!((checked.device().name.as_str(), checked.device().id.as_str()), ("N", "T"));
+    assert_eq!(checked.device().identity.vendor_id, Some(9));
+    assert_eq!(checked.pdo(0x1A00).entries[0].ty, lexibus_codegen::ir::Type::Unsigned(8));
+    assert_eq!(checked.default(0x2000, 0), int(1));
+    assert_eq!(checked.device().modules.len(), 1);
+    // The object that the PDO maps and its sync manager are left out of the vector.
+    let found = checked.found();
+    assert!(found.iter().all(|found| found.starts_with("PDO001") || found.starts_with("PDO019")), "{found:?}");
+}
+
+#[test]
+fn x07_names_by_lcid() {
+    let names = |names: &str| {
+        let checked = read_text(&device_file("").replace("<Name>Drive</Name>", names));
+        let device = checked.device();
+        let others = device.names.iter().map(|text| format!("{} {}", text.language, text.text)).collect::<Vec<_>>();
+        assert_eq!(checked.found(), NOTHING);
+        (device.name.to_string(), others.join(", "))
+    };
+    let three = "<Name LcId='1031'>Antrieb</Name><Name LcId='1033'>Drive</Name><Name LcId='2052'>驱动</Name>";
+    assert_eq!(names(three), ("Drive".into(), "de-DE Antrieb, zh-CN 驱动".into()));
+    assert_eq!(names("<Name LcId='2052'>驱动</Name>"), ("驱动".into(), "".into()));
+    assert_eq!(names("<Name LcId='1031'>Antrieb</Name><Name LcId='0'>D</Name>"), ("D".into(), "de-DE Antrieb".into()));
+    assert_eq!(names("<Name LcId='1'>D</Name><Name LcId='4660'>X</Name>"), ("D".into(), "lcid:4660 X".into()));
+    assert_eq!(names("<Name LcId='1041'>J</Name><Name>D</Name>"), ("D".into(), "ja-JP J".into()));
+    let bad = read_text(&device_file("").replace("<Name>Drive", "<Name LcId='en'>Drive"));
+    assert_eq!((bad.device().name.as_str(), bad.found()), ("Drive", vec!["ESI001 2:93".to_owned()]));
+}
+
+#[test]
+fn x23_revisions_and_hidden_types() {
+    let one = |code: &str, revision: &str| {
+        format!("<Device Physics='YY'><Type ProductCode='{code}' {revision}>T</Type><Name>N</Name></Device>")
+    };
+    let two = one("#x10", "RevisionNo='#x00110000'").replace("<Name>", "<HideType RevisionNo='#x00100000'/><Name>");
+    let text = file(&format!("<Devices>{}{two}{}</Devices>", one("16", "RevisionNo='#x00100000'"), one("16", "")));
+    let checked = read_text(&text);
+    let identities: Vec<_> = checked
+        .catalog()
+        .devices
+        .iter()
+        .map(|device| (device.identity.product_code, device.identity.revision_number))
+        .collect();
+    assert_eq!(identities, [(Some(16), Some(0x10_0000)), (Some(16), Some(0x11_0000)), (Some(16), None)]);
+    assert_eq!(checked.catalog().devices[1].ethercat.as_ref().unwrap().hides, [(None, Some(0x10_0000))]);
+    assert_eq!(checked.found(), NOTHING);
+    let none = read_text(&file("<Devices><Device Physics=''>\n<Type>T</Type></Device><Device/></Devices>"));
+    assert_eq!(none.found(), ["ESI060 3:1", "ESI060 3:24"]);
+}
+
+/// A folder with these files; the first is the description.
+fn folder(name: &str, files: &[(&str, &str)]) -> (PathBuf, Checked) {
+    let folder = std::env::temp_dir().join(format!("lexibus-esi-{name}-{}", std::process::id()));
+    for (name, text) in files {
+        let path = folder.join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    }
+    let checked = Checked(check(Source::read(&folder.join(files[0].0)).unwrap(), &Options::default()));
+    (folder, checked)
+}
+
+fn main_file() -> String {
+    let device = |product: u32| {
+        format!(
+            "<Device Physics='Y'><Type ProductCode='{product}'>T</Type><Name>N</Name>\
+             <Slots><Slot MinInstances='1' MaxInstances='1'><ModuleIdent>5</ModuleIdent></Slot></Slots>\
+             <Profile><DictionaryFile>Dicts\\dict.xml</DictionaryFile><DiagFile>diag.xml</DiagFile></Profile></Device>"
+        )
+    };
+    file(&format!("<Devices>{}{}</Devices>", device(1), device(2)))
+        .replace("<Vendor>", "<InfoReference>modules.xml</InfoReference><Vendor>")
+}
+
+#[test]
+fn x24_files_beside_the_description() {
+    let dictionary = format!(
+        "<EtherCATDict>\n<Dictionary><DataTypes><DataType><Name>E</Name><BaseType>USINT</BaseType><BitSize>8</BitSize>\
+         <EnumInfo><Text>On</Text><Enum>1</Enum></EnumInfo></DataType></DataTypes><Objects>\n{}</Objects></Dictionary>\
+         </EtherCATDict>",
+        var("#x2000", "E", "<DefaultValue>1</DefaultValue>")
+    );
+    // One file refers back to another, and to itself.
+    let modules = "<EtherCATModule><InfoReference>main.xml</InfoReference><InfoReference>./modules.xml</InfoReference>\
+                   <Vendor><Id>1</Id></Vendor><Modules><Module><Type ModuleIdent='5'>M</Type></Module></Modules>\
+                   </EtherCATModule>";
+    let diag = "<EtherCATDiag><DiagMessages><DiagMessage><TextId>1</TextId><MessageText>X</MessageText></DiagMessage>\
+                </DiagMessages></EtherCATDiag>";
+    let main = main_file();
+    let files =
+        [("main.xml", main.as_str()), ("Dicts/dict.xml", &dictionary), ("modules.xml", modules), ("diag.xml", diag)];
+    let (folder, checked) = folder("all", &files);
+    std::fs::remove_dir_all(folder).unwrap();
+    assert_eq!(checked.found(), NOTHING);
+    assert_eq!(checked.0.sources.len(), 4);
+    for device in &checked.catalog().devices {
+        let object = device.object(0x2000).unwrap();
+        assert_eq!((object.origin.span.file != FileId(0), object.origin.line), (true, 3));
+        assert_eq!((device.types.len(), device.code_tables.len(), device.modules.len()), (1, 1, 1));
+    }
+}
+
+#[test]
+fn x24_files_that_are_not_there() {
+    let (dir, checked) = folder("none", &[("main.xml", &main_file())]);
+    std::fs::remove_dir_all(dir).unwrap();
+    assert_eq!(checked.catalog().devices.len(), 2);
+    let found = checked.found();
+    assert_eq!(found.iter().filter(|found| found.starts_with("XML005")).count(), 3, "{found:?}");
+    assert!(found.contains(&"XML005 1:30".to_owned()));
+    // In memory there is no folder, and outside of it nothing is read.
+    let memory = read_text(&main_file().replace("modules.xml", "../modules.xml"));
+    assert_eq!(memory.found().iter().filter(|found| found.starts_with("XML005")).count(), 3);
+    let (dir, broken) = folder("broken", &[("main.xml", &main_file()), ("modules.xml", "<EtherCATModule>")]);
+    std::fs::remove_dir_all(dir).unwrap();
+    assert_eq!(broken.catalog().devices.len(), 2);
+    assert!(broken.found().contains(&"XML005 1:30".to_owned()));
+    let (dir, wrong) = folder("wrong", &[("main.xml", &main_file()), ("diag.xml", "<EtherCATInfo/>")]);
+    std::fs::remove_dir_all(dir).unwrap();
+    assert!(wrong.0.diagnostics.list().iter().any(|found| found.message.contains("has no diagnosis messages")));
+}
+
+#[test]
+fn x27_product_codes_and_booleans() {
+    for (code, expected) in [("#X0BBC3052", 0x0BBC_3052), (" #x2 ", 2), ("0x2", 2), ("196882514", 0x0BBC_3052)] {
+        let checked = read_text(&device_file("").replace("'#x2'", &format!("'{code}'")));
+        assert_eq!(checked.device().identity.product_code, Some(expected), "{code}");
+        assert_eq!(checked.found(), NOTHING);
+    }
+    for (text, fixed) in [("1", true), ("true", true), ("0", false), ("false", false)] {
+        let checked = device(&format!("<RxPdo Fixed='{text}'><Index>#x1600</Index><Name>P</Name></RxPdo>"));
+        assert_eq!(checked.pdo(0x1600).fixed, fixed);
+        assert_eq!(checked.found(), NOTHING);
+    }
+    let odd = device("<RxPdo Fixed='TRUE'><Index>#x1600</Index><Name>P</Name></RxPdo>");
+    assert!(odd.pdo(0x1600).fixed);
+    assert_eq!(odd.found(), ["ESI001 3:15"]);
+}

@@ -1,0 +1,258 @@
+//! Big-endian fields of a byte string.
+//!
+//! A field that is no whole number of bytes is a part of a big-endian number: of the bytes that it touches, where bit 0
+//! is the lowest bit of the last one. Reading beyond the end of the data gives 0; writing there does nothing.
+
+use crate::error::LengthError;
+use crate::pdo::{mask, sign_extend};
+use crate::time::{TimeDifference, TimeOfDay};
+
+/// The `N` bytes from `at` on, or zeros where the data has fewer.
+#[must_use]
+#[inline]
+pub const fn bytes<const N: usize>(data: &[u8], at: usize) -> [u8; N] {
+    if let Some((_, rest)) = data.split_at_checked(at) {
+        if let Some(chunk) = rest.first_chunk() {
+            return *chunk;
+        }
+    }
+    [0; N]
+}
+
+/// The first `N` bytes.
+///
+/// # Errors
+///
+/// When the data has fewer.
+#[inline]
+pub const fn chunk<const N: usize>(data: &[u8]) -> Result<&[u8; N], LengthError> {
+    match data.first_chunk() {
+        Some(chunk) => Ok(chunk),
+        None => Err(LengthError::new(N, data.len())),
+    }
+}
+
+/// The first `N` bytes, to be written.
+///
+/// # Errors
+///
+/// When the data has fewer.
+#[inline]
+pub fn chunk_mut<const N: usize>(data: &mut [u8]) -> Result<&mut [u8; N], LengthError> {
+    let error = LengthError::new(N, data.len());
+    data.first_chunk_mut().ok_or(error)
+}
+
+/// Puts `bytes` at the start of the data and returns them there.
+///
+/// # Errors
+///
+/// When the data has fewer bytes.
+#[inline]
+pub fn write<'d>(data: &'d mut [u8], bytes: &[u8]) -> Result<&'d [u8], LengthError> {
+    let error = LengthError::new(bytes.len(), data.len());
+    let to = data.get_mut(..bytes.len()).ok_or(error)?;
+    to.copy_from_slice(bytes);
+    Ok(to)
+}
+
+/// Puts `bytes` at `at`.
+#[inline]
+pub fn put(data: &mut [u8], at: usize, bytes: &[u8]) {
+    if let Some(to) = data.get_mut(at..).and_then(|rest| rest.get_mut(..bytes.len())) {
+        to.copy_from_slice(bytes);
+    }
+}
+
+/// Sets or clears one bit of the byte at `at`; bit 0 is its lowest.
+#[inline]
+pub fn put_bit(data: &mut [u8], at: usize, bit: u32, value: bool) {
+    if let Some(byte) = data.get_mut(at) {
+        let mask = 1_u8.wrapping_shl(bit);
+        *byte = if value { *byte | mask } else { *byte & !mask };
+    }
+}
+
+/// How many bytes a field of `width` bits touches that leaves `shift` bits below it free; at most 8.
+const fn touched(shift: u32, width: u32) -> usize {
+    let bytes = shift.saturating_add(width).div_ceil(8);
+    if bytes > 8 {
+        8
+    } else {
+        bytes as usize
+    }
+}
+
+/// The number of `width` bits, 1 to 64, in the bytes from `at` on, with `shift` bits below it.
+#[must_use]
+#[inline]
+pub const fn number(data: &[u8], at: usize, shift: u32, width: u32) -> u64 {
+    let end = at.saturating_add(touched(shift, width));
+    let (mut word, mut next) = (0, at);
+    while next < end {
+        word = word << 8 | if next < data.len() { data[next] as u64 } else { 0 };
+        next += 1;
+    }
+    word.wrapping_shr(shift) & mask(width)
+}
+
+macro_rules! bits {
+    ($($unsigned:ident $u:ty, $signed:ident $i:ty;)*) => {$(
+        /// The [`number`] as an unsigned integer of Rust's own; bits beyond its width are cut off.
+        #[must_use]
+        #[inline]
+        pub const fn $unsigned(data: &[u8], at: usize, shift: u32, width: u32) -> $u {
+            number(data, at, shift, width) as $u
+        }
+
+        /// The [`number`] as a signed integer of Rust's own, in two's complement; bits beyond its width are cut off.
+        #[must_use]
+        #[inline]
+        pub const fn $signed(data: &[u8], at: usize, shift: u32, width: u32) -> $i {
+            sign_extend(number(data, at, shift, width), width) as $i
+        }
+    )*};
+}
+
+bits! {
+    bits_u8 u8, bits_i8 i8;
+    bits_u16 u16, bits_i16 i16;
+    bits_u32 u32, bits_i32 i32;
+    bits_u64 u64, bits_i64 i64;
+}
+
+/// Puts the low `width` bits of `value` into the bytes from `at` on, and leaves the `shift` bits below as they are.
+#[inline]
+pub fn put_number(data: &mut [u8], at: usize, shift: u32, width: u32, value: u64) {
+    let field = mask(width).wrapping_shl(shift);
+    let value = value.wrapping_shl(shift) & field;
+    let last = touched(shift, width).saturating_sub(1);
+    if let Some(bytes) = data.get_mut(at..).and_then(|rest| rest.get_mut(..=last)) {
+        for (place, byte) in bytes.iter_mut().rev().enumerate() {
+            let down = 8 * place as u32;
+            *byte = *byte & !((field >> down) as u8) | (value >> down) as u8;
+        }
+    }
+}
+
+/// "TimeOfDay with date indication" of IEC 61158-6: milliseconds in 28 bits of 4 bytes, then days since 1984 in 2
+/// bytes.
+#[must_use]
+#[inline]
+pub const fn time_of_day(data: &[u8], at: usize) -> TimeOfDay {
+    let [a, b, c, d, high, low] = bytes(data, at);
+    TimeOfDay::new(u32::from_be_bytes([a & 0x0F, b, c, d]), u16::from_be_bytes([high, low]))
+}
+
+/// The bytes of [`time_of_day`].
+#[must_use]
+#[inline]
+pub const fn from_time_of_day(time: TimeOfDay) -> [u8; 6] {
+    from_time(time.milliseconds, time.days)
+}
+
+/// "TimeDifference with date indication" of IEC 61158-6: milliseconds in 4 bytes, then days in 2 bytes.
+#[must_use]
+#[inline]
+pub const fn time_difference(data: &[u8], at: usize) -> TimeDifference {
+    let [a, b, c, d, high, low] = bytes(data, at);
+    TimeDifference::new(u32::from_be_bytes([a & 0x0F, b, c, d]), u16::from_be_bytes([high, low]))
+}
+
+/// The bytes of [`time_difference`].
+#[must_use]
+#[inline]
+pub const fn from_time_difference(time: TimeDifference) -> [u8; 6] {
+    from_time(time.milliseconds, time.days)
+}
+
+const fn from_time(milliseconds: u32, days: u16) -> [u8; 6] {
+    let [a, b, c, d] = milliseconds.to_be_bytes();
+    let [high, low] = days.to_be_bytes();
+    [a & 0x0F, b, c, d, high, low]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_bytes() {
+        const WORD: [u8; 2] = bytes(&[1, 2, 3], 1);
+        assert_eq!(WORD, [2, 3]);
+        assert_eq!(bytes::<2>(&[1, 2, 3], 2), [0, 0], "beyond the end");
+        assert_eq!(bytes::<1>(&[1], usize::MAX), [0]);
+        let mut data = [0; 4];
+        put(&mut data, 1, &0x0102_u16.to_be_bytes());
+        put(&mut data, 3, &[9, 9]);
+        put(&mut data, usize::MAX, &[9, 9]);
+        assert_eq!(data, [0, 1, 2, 0]);
+        assert_eq!(chunk::<2>(&data), Ok(&[0, 1]));
+        assert_eq!(chunk::<5>(&data), Err(LengthError::new(5, 4)));
+        *chunk_mut::<2>(&mut data).unwrap() = [7, 8];
+        assert_eq!(write(&mut data, &[9]), Ok(&[9][..]));
+        assert_eq!(data, [9, 8, 2, 0]);
+        assert_eq!(chunk_mut::<5>(&mut data), Err(LengthError::new(5, 4)));
+        assert_eq!(write(&mut data, &[0; 5]), Err(LengthError::new(5, 4)));
+    }
+
+    #[test]
+    fn bits_within_a_byte() {
+        let mut data = [0b1000_0001, 0xFF];
+        put_bit(&mut data, 0, 2, true);
+        put_bit(&mut data, 1, 7, false);
+        put_bit(&mut data, 2, 0, true);
+        assert_eq!(data, [0b1000_0101, 0x7F]);
+        assert_eq!(number(&data, 0, 2, 3), 0b001);
+        put_number(&mut data, 0, 4, 3, 0xFF);
+        assert_eq!(data, [0b1111_0101, 0x7F]);
+    }
+
+    #[test]
+    fn bits_across_bytes_are_a_part_of_a_big_endian_number() {
+        // 0x1234 >> 6 & 0xF = 0b0001_00[10_00]11_0100 = 8.
+        assert_eq!(number(&[0x12, 0x34], 0, 6, 4), 0b1000);
+        let mut data = [0xFF; 4];
+        put_number(&mut data, 1, 6, 4, 0);
+        assert_eq!(data, [0xFF, 0b1111_1100, 0b0011_1111, 0xFF]);
+        assert_eq!(number(&[1, 2, 3], 0, 0, 24), 0x01_0203);
+        put_number(&mut data, 0, 0, 24, 0xAA01_0203);
+        assert_eq!(data, [1, 2, 3, 0xFF]);
+        assert_eq!((bits_u8(&[0x0C], 0, 2, 2), bits_i8(&[0x0C], 0, 2, 2)), (3, -1));
+        assert_eq!((bits_u32(&[0xFF; 3], 0, 0, 24), bits_i32(&[0xFF; 3], 0, 0, 24)), (0xFF_FFFF, -1));
+    }
+
+    #[test]
+    fn every_field_comes_back_and_leaves_the_rest() {
+        for shift in 0..8 {
+            for width in 1..=64 - shift {
+                let value = 0xDEAD_BEEF_0BAD_CAFE & mask(width);
+                let mut data = [0x55; 10];
+                put_number(&mut data, 1, shift, width, value);
+                assert_eq!(number(&data, 1, shift, width), value, "{shift} {width}");
+                put_number(&mut data, 1, shift, width, number(&[0x55; 10], 1, shift, width));
+                assert_eq!(data, [0x55; 10], "{shift} {width}");
+            }
+        }
+    }
+
+    #[test]
+    fn far_beyond_the_end() {
+        assert_eq!(number(&[0xFF; 2], 1, 0, 16), 0xFF00);
+        assert_eq!(number(&[0xFF; 2], usize::MAX, 0, 16), 0);
+        let mut data = [0; 2];
+        put_number(&mut data, 1, 0, 16, 0xFFFF);
+        put_number(&mut data, usize::MAX, 0, 16, 0xFFFF);
+        put_number(&mut data, 0, 80, 16, 0xFFFF);
+        assert_eq!(data, [0; 2]);
+    }
+
+    #[test]
+    fn times() {
+        let data = [0xFF, 0xF1, 0x02, 0x03, 0x04, 0x12, 0x34];
+        let time = time_of_day(&data, 1);
+        assert_eq!((time.milliseconds, time.days), (0x0102_0304, 0x1234));
+        assert_eq!(from_time_of_day(time), [0x01, 0x02, 0x03, 0x04, 0x12, 0x34]);
+        assert_eq!(from_time_difference(time_difference(&data, 1)), [0x01, 0x02, 0x03, 0x04, 0x12, 0x34]);
+    }
+}

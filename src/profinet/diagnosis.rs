@@ -1,0 +1,326 @@
+//! Diagnosis of channels (ChannelDiagnosisData, ExtChannelDiagnosisData, QualifiedChannelDiagnosisData of IEC
+//! 61158-6-10).
+
+use super::be::bytes;
+
+/// What the description of a device says about a channel error type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ChannelError {
+    /// The error type.
+    pub error_type: u16,
+    /// Its name.
+    pub name: &'static str,
+    /// Cause and remedy; empty where the description gives none.
+    pub help: &'static str,
+    /// More precise errors, by extended error type.
+    pub extended: &'static [ExtendedError],
+}
+
+/// What the description of a device says about an extended error type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ExtendedError {
+    /// The extended error type.
+    pub error_type: u16,
+    /// Its name.
+    pub name: &'static str,
+    /// Cause and remedy; empty where the description gives none.
+    pub help: &'static str,
+}
+
+impl ChannelError {
+    /// An error type.
+    #[must_use]
+    pub const fn new(
+        error_type: u16,
+        name: &'static str,
+        help: &'static str,
+        extended: &'static [ExtendedError],
+    ) -> Self {
+        Self { error_type, name, help, extended }
+    }
+
+    /// The error of `errors`, which are in ascending order, with this type.
+    #[must_use]
+    pub fn find(errors: &'static [ChannelError], error_type: u16) -> Option<&'static ChannelError> {
+        let at = errors.binary_search_by_key(&error_type, |error| error.error_type).ok()?;
+        errors.get(at)
+    }
+
+    /// The more precise error with this extended type.
+    #[must_use]
+    pub fn extended(&self, error_type: u16) -> Option<&'static ExtendedError> {
+        let at = self.extended.binary_search_by_key(&error_type, |error| error.error_type).ok()?;
+        self.extended.get(at)
+    }
+}
+
+impl ExtendedError {
+    /// An extended error type.
+    #[must_use]
+    pub const fn new(error_type: u16, name: &'static str, help: &'static str) -> Self {
+        Self { error_type, name, help }
+    }
+}
+
+/// How a block of diagnosis is coded (UserStructureIdentifier).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum UserStructure {
+    /// 0x0000 to 0x7FFF: as the vendor says.
+    Manufacturer(u16),
+    /// 0x8000: channel diagnosis, 6 bytes each.
+    Channel,
+    /// 0x8002: extended channel diagnosis, 12 bytes each.
+    ExtendedChannel,
+    /// 0x8003: qualified channel diagnosis, 16 bytes each.
+    QualifiedChannel,
+    /// Another one, of a profile or reserved.
+    Other(u16),
+}
+
+impl UserStructure {
+    /// The structure with this identifier.
+    #[must_use]
+    pub const fn from_identifier(identifier: u16) -> Self {
+        match identifier {
+            0x8000 => Self::Channel,
+            0x8002 => Self::ExtendedChannel,
+            0x8003 => Self::QualifiedChannel,
+            0..=0x7FFF => Self::Manufacturer(identifier),
+            _ => Self::Other(identifier),
+        }
+    }
+
+    /// Length in bytes of one channel's diagnosis; `None` for the structures that aren't about channels.
+    #[must_use]
+    pub const fn channel_len(self) -> Option<usize> {
+        match self {
+            Self::Channel => Some(6),
+            Self::ExtendedChannel => Some(12),
+            Self::QualifiedChannel => Some(16),
+            Self::Manufacturer(_) | Self::Other(_) => None,
+        }
+    }
+}
+
+/// Diagnosis of one channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ChannelDiagnosis {
+    /// The channel, 0 to 0x7FFF; 0x8000 for the submodule as a whole.
+    pub channel: u16,
+    /// What the diagnosis is about, and whether it appears or disappears.
+    pub properties: ChannelProperties,
+    /// The error type.
+    pub error_type: u16,
+    /// The extended error type with its value, where the block has them.
+    pub extended: Option<ExtendedDiagnosis>,
+}
+
+/// The extended part of a diagnosis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ExtendedDiagnosis {
+    /// The extended error type.
+    pub error_type: u16,
+    /// A value whose meaning depends on the error.
+    pub add_value: u32,
+    /// The qualifier, a bit for each severity, in qualified diagnosis.
+    pub qualifier: Option<u32>,
+}
+
+impl ChannelDiagnosis {
+    /// Reads each diagnosis of a block that is coded in this way. An incomplete one at the end is left out, and there
+    /// is none in a block of another structure.
+    #[must_use]
+    pub const fn decode(structure: UserStructure, data: &[u8]) -> ChannelDiagnoses<'_> {
+        ChannelDiagnoses { structure, data }
+    }
+}
+
+/// The diagnoses of a block.
+#[derive(Clone, Debug)]
+pub struct ChannelDiagnoses<'d> {
+    structure: UserStructure,
+    data: &'d [u8],
+}
+
+impl Iterator for ChannelDiagnoses<'_> {
+    type Item = ChannelDiagnosis;
+
+    fn next(&mut self) -> Option<ChannelDiagnosis> {
+        let (entry, rest) = self.data.split_at_checked(self.structure.channel_len()?)?;
+        self.data = rest;
+        let word = |at| u16::from_be_bytes(bytes(entry, at));
+        let double = |at| u32::from_be_bytes(bytes(entry, at));
+        let extended = (entry.len() > 6).then(|| ExtendedDiagnosis {
+            error_type: word(6),
+            add_value: double(8),
+            qualifier: (entry.len() > 12).then(|| double(12)),
+        });
+        Some(ChannelDiagnosis {
+            channel: word(0),
+            properties: ChannelProperties(word(2)),
+            error_type: word(4),
+            extended,
+        })
+    }
+}
+
+/// What a diagnosis is about (ChannelProperties).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ChannelProperties(pub u16);
+
+impl ChannelProperties {
+    /// Width of the channel in bits (bits 0 to 7): 1 to 64; `None` for the submodule as a whole, and where it isn't
+    /// said.
+    #[must_use]
+    pub const fn bits(self) -> Option<u8> {
+        match self.0 & 0xFF {
+            kind @ 1..=7 => Some(1 << (kind - 1)),
+            _ => None,
+        }
+    }
+
+    /// Whether the diagnosis is about a group of channels (bit 8).
+    #[must_use]
+    pub const fn is_accumulative(self) -> bool {
+        self.0 & 0x0100 != 0
+    }
+
+    /// How urgent it is (bits 9 and 10).
+    #[must_use]
+    pub const fn maintenance(self) -> Maintenance {
+        match self.0 >> 9 & 3 {
+            0 => Maintenance::Fault,
+            1 => Maintenance::Required,
+            2 => Maintenance::Demanded,
+            _ => Maintenance::Qualified,
+        }
+    }
+
+    /// Whether it appears or disappears (bits 11 and 12).
+    #[must_use]
+    pub const fn specifier(self) -> ChannelSpecifier {
+        match self.0 >> 11 & 3 {
+            0 => ChannelSpecifier::AllDisappear,
+            1 => ChannelSpecifier::Appears,
+            2 => ChannelSpecifier::Disappears,
+            _ => ChannelSpecifier::DisappearsOthersRemain,
+        }
+    }
+
+    /// Direction of the channel (bits 13 to 15).
+    #[must_use]
+    pub const fn direction(self) -> ChannelDirection {
+        match self.0 >> 13 {
+            0 => ChannelDirection::Manufacturer,
+            1 => ChannelDirection::Input,
+            2 => ChannelDirection::Output,
+            3 => ChannelDirection::Both,
+            other => ChannelDirection::Reserved(other as u8),
+        }
+    }
+}
+
+/// How urgent a diagnosis is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Maintenance {
+    /// A fault.
+    Fault,
+    /// Maintenance is required.
+    Required,
+    /// Maintenance is demanded, which is more urgent.
+    Demanded,
+    /// As the qualifier says.
+    Qualified,
+}
+
+/// Whether a diagnosis appears or disappears.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ChannelSpecifier {
+    /// All of the channel disappear.
+    AllDisappear,
+    /// It appears.
+    Appears,
+    /// It disappears, and there is no other one.
+    Disappears,
+    /// It disappears, and others of the channel remain.
+    DisappearsOthersRemain,
+}
+
+/// Direction of a channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ChannelDirection {
+    /// As the vendor says.
+    Manufacturer,
+    /// An input.
+    Input,
+    /// An output.
+    Output,
+    /// An input and output.
+    Both,
+    /// Reserved.
+    Reserved(u8),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+
+    static ERRORS: [ChannelError; 2] = [
+        ChannelError::new(
+            0x10,
+            "Supply",
+            "",
+            &[ExtendedError::new(1, "Low", "Check the fuse"), ExtendedError::new(5, "High", "")],
+        ),
+        ChannelError::new(0x1A, "Output", "", &[]),
+    ];
+
+    #[test]
+    fn errors_are_found_by_type() {
+        let supply = ChannelError::find(&ERRORS, 0x10).unwrap();
+        assert_eq!(supply.extended(1).map(|error| error.help), Some("Check the fuse"));
+        assert_eq!((supply.name, supply.extended(2)), ("Supply", None));
+        assert_eq!(ChannelError::find(&ERRORS, 0x11), None);
+    }
+
+    #[test]
+    fn plain_diagnosis() {
+        // Channel 4, appears, input of 8 bits, error type 1; then an incomplete one.
+        let data = [0x00, 0x04, 0x28, 0x04, 0x00, 0x01, 0xFF];
+        let all: Vec<_> = ChannelDiagnosis::decode(UserStructure::Channel, &data).collect();
+        assert_eq!(all.len(), 1);
+        let properties = all[0].properties;
+        assert_eq!((all[0].channel, all[0].error_type, all[0].extended), (4, 1, None));
+        assert_eq!((properties.bits(), properties.is_accumulative()), (Some(8), false));
+        assert_eq!(properties.maintenance(), Maintenance::Fault);
+        assert_eq!(properties.specifier(), ChannelSpecifier::Appears);
+        assert_eq!(properties.direction(), ChannelDirection::Input);
+    }
+
+    #[test]
+    fn extended_and_qualified_diagnosis() {
+        let data = [0x80, 0x00, 0xF7, 0x00, 0x80, 0x02, 0x00, 0x03, 1, 2, 3, 4, 5, 6, 7, 8];
+        let extended = ExtendedDiagnosis { error_type: 3, add_value: 0x0102_0304, qualifier: None };
+        let first = ChannelDiagnosis::decode(UserStructure::ExtendedChannel, &data).next().unwrap();
+        assert_eq!((first.channel, first.extended), (0x8000, Some(extended)));
+        let properties = first.properties;
+        assert_eq!((properties.bits(), properties.is_accumulative()), (None, true));
+        assert_eq!(properties.maintenance(), Maintenance::Qualified);
+        assert_eq!(properties.specifier(), ChannelSpecifier::Disappears);
+        assert_eq!(properties.direction(), ChannelDirection::Reserved(7));
+        let qualified = ChannelDiagnosis::decode(UserStructure::from_identifier(0x8003), &data).next().unwrap();
+        assert_eq!(qualified.extended, Some(ExtendedDiagnosis { qualifier: Some(0x0506_0708), ..extended }));
+    }
+
+    #[test]
+    fn structures() {
+        assert_eq!(UserStructure::from_identifier(0x8002), UserStructure::ExtendedChannel);
+        assert_eq!(UserStructure::from_identifier(0x10), UserStructure::Manufacturer(0x10));
+        assert_eq!(UserStructure::from_identifier(0x8001), UserStructure::Other(0x8001));
+        assert_eq!(ChannelDiagnosis::decode(UserStructure::Manufacturer(1), &[0; 20]).count(), 0);
+    }
+}

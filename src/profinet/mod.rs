@@ -1,0 +1,79 @@
+//! PROFINET IO: data of submodules with their status, parameter records, diagnosis, and the plan of what is plugged
+//! where.
+//!
+//! Bindings generated from a GSDML file build on this module. [`Dap`], [`Module`] and [`Submodule`] describe a device
+//! as constant data; a [`Plan`] puts modules into its slots and yields the expected configuration and the start-up
+//! records. What the bindings generate per submodule (structs of inputs, outputs and parameter records) implements
+//! [`IoData`] and [`RecordData`]. Numbers are big-endian throughout.
+//!
+//! Inputs go from the device to the controller, outputs from the controller to the device.
+//!
+//! ```
+//! use lexibus::profinet::{Dap, IoLengths, Module, ModuleUse, Places, Plan, PlanError, Submodule, SubmoduleUse};
+//!
+//! // What the compiler emits for a device with one kind of module, of four bytes of inputs, for slots 1 to 3:
+//! static COUNTER: Submodule = Submodule {
+//!     ident: 0x31,
+//!     api: 0,
+//!     name: "Counter",
+//!     input_len: Some(4),
+//!     output_len: None,
+//!     provider_len: 1,
+//!     consumer_len: 1,
+//!     records: &[],
+//! };
+//! static COUNTER_MODULE: Module = Module {
+//!     ident: 0x30,
+//!     name: "Counter",
+//!     submodules: &[SubmoduleUse::new(&COUNTER, Places::fixed(&[(1, 1)]))],
+//!     subslots: &[],
+//! };
+//! static DEVICE: Submodule = Submodule { ident: 1, name: "Device", input_len: None, ..COUNTER };
+//! static DAP: Dap = Dap {
+//!     vendor_id: 0x1234,
+//!     device_id: 0x0001,
+//!     slot: 0,
+//!     module: Module {
+//!         ident: 0x10,
+//!         name: "Device",
+//!         submodules: &[SubmoduleUse::new(&DEVICE, Places::fixed(&[(1, 1)]))],
+//!         subslots: &[],
+//!     },
+//!     slots: &[(0, 3)],
+//!     modules: &[ModuleUse::new(&COUNTER_MODULE, Places::allowed(&[(1, 3)]))],
+//!     max_lengths: IoLengths { input: Some(64), output: Some(64), data: None },
+//!     max_record_size: 4068,
+//! };
+//!
+//! let mut plan: Plan<8> = Plan::new(&DAP)?;
+//! plan.plug(2, &COUNTER_MODULE)?;
+//! assert_eq!(plan.plug(4, &COUNTER_MODULE), Err(PlanError::NoSuchSlot));
+//! let places: [(u16, u16, u32); 2] = core::array::from_fn(|at| {
+//!     let expected = plan.expected().nth(at).unwrap();
+//!     (expected.slot, expected.subslot, expected.module_ident)
+//! });
+//! assert_eq!(places, [(0, 1, 0x10), (2, 1, 0x30)]);
+//! # Ok::<(), PlanError>(())
+//! ```
+
+pub mod be;
+mod descriptor;
+mod diagnosis;
+mod f_parameters;
+mod f_record;
+mod io;
+#[cfg(feature = "serde")]
+pub mod octets;
+mod plan;
+mod record;
+
+pub use descriptor::{Dap, IoLengths, Module, ModuleUse, Places, Record, Submodule, SubmoduleUse};
+pub use diagnosis::{
+    ChannelDiagnoses, ChannelDiagnosis, ChannelDirection, ChannelError, ChannelProperties, ChannelSpecifier,
+    ExtendedDiagnosis, ExtendedError, Maintenance, UserStructure,
+};
+pub use f_parameters::{FCrcLength, FParameters, FPassivation, Sil};
+pub use f_record::{FField, FLimit, FRecord};
+pub use io::{FTrailer, IoData, IoObject, IoObjectMut, IoStatus, WithStatus};
+pub use plan::{Expected, Plan, PlanError, RecordWrite, Records, Replacement};
+pub use record::{check, NotAllowed, RecordData, RecordError};
