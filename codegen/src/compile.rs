@@ -64,31 +64,22 @@ impl Compilation {
     }
 }
 
+/// From so many bytes on, another thread digests a file while it is read.
+const LARGE: usize = 256 * 1024;
+
 /// Reads `source` into the IR, as it stands.
 pub fn read(source: Source, options: &Options) -> Compilation {
     let mut diagnostics = Diagnostics::new(options.levels.clone());
-    let file = FileId(0);
-    let format = match detect::format(&source, file) {
-        Ok(format) => Some(format),
-        Err(diagnostic) => {
-            diagnostics.push(*diagnostic);
-            None
-        }
+    let mut read = || front_end(&source, options, &mut diagnostics);
+    let (format, catalog, mut others) = if source.text().len() < LARGE {
+        read()
+    } else {
+        std::thread::scope(|scope| {
+            // Where no thread can be had, the digest is taken when it is asked for.
+            let _ = std::thread::Builder::new().spawn_scoped(scope, || source.sha256().len());
+            read()
+        })
     };
-    let aliases = &options.node_id_aliases;
-    let mut references = References::new(&source);
-    let catalog = match format {
-        Some(Format::Eds | Format::Dcf) => eds::read(&source, file, aliases, &mut diagnostics),
-        Some(Format::Xdd) => xdd::read(&source, file, aliases, &mut diagnostics),
-        Some(Format::Esi) => esi::read(&source, file, &mut references, &mut diagnostics),
-        Some(Format::Gsdml) => gsdml::read(&source, file, &mut diagnostics),
-        _ => None,
-    };
-    // What tells a DCF from an EDS is the place in a network that it gives the device, whatever its file is called.
-    let mut devices = catalog.iter().flat_map(|catalog| &catalog.devices);
-    let commissioned = devices.any(|device| device.commissioning.is_some());
-    let format = if format == Some(Format::Eds) && commissioned { Some(Format::Dcf) } else { format };
-    let mut others = references.into_sources();
     let mut sources = vec![source];
     sources.append(&mut others);
     let catalog = catalog.zip(format).map(|(mut catalog, format)| {
@@ -96,6 +87,36 @@ pub fn read(source: Source, options: &Options) -> Compilation {
         catalog
     });
     Compilation { sources, catalog, diagnostics, format }
+}
+
+/// The format of `source`, what it describes, and the files that it refers to.
+fn front_end(
+    source: &Source,
+    options: &Options,
+    diagnostics: &mut Diagnostics,
+) -> (Option<Format>, Option<Catalog>, Vec<Source>) {
+    let file = FileId(0);
+    let format = match detect::format(source, file) {
+        Ok(format) => format,
+        Err(diagnostic) => {
+            diagnostics.push(*diagnostic);
+            return (None, None, Vec::new());
+        }
+    };
+    let aliases = &options.node_id_aliases;
+    let mut references = References::new(source);
+    let catalog = match format {
+        Format::Eds | Format::Dcf => eds::read(source, file, aliases, diagnostics),
+        Format::Xdd => xdd::read(source, file, aliases, diagnostics),
+        Format::Esi => esi::read(source, file, &mut references, diagnostics),
+        Format::Gsdml => gsdml::read(source, file, diagnostics),
+        Format::Table => None,
+    };
+    // What tells a DCF from an EDS is the place in a network that it gives the device, whatever its file is called.
+    let mut devices = catalog.iter().flat_map(|catalog| &catalog.devices);
+    let commissioned = devices.any(|device| device.commissioning.is_some());
+    let format = if format == Format::Eds && commissioned { Format::Dcf } else { format };
+    (Some(format), catalog, references.into_sources())
 }
 
 fn file_info(source: &Source, format: Format) -> FileInfo {

@@ -134,7 +134,7 @@ impl Pdo {
 
     /// Length in bits.
     pub fn bits(&self) -> u32 {
-        self.entries.iter().map(|entry| entry.bits).sum()
+        self.entries.iter().fold(0, |bits, entry| bits.saturating_add(entry.bits))
     }
 
     /// Length in bytes, the last one perhaps not full.

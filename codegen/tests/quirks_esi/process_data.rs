@@ -147,6 +147,14 @@ fn x26_more_than_255_entries() {
 }
 
 #[test]
+fn x26_lengths_that_no_number_holds() {
+    let entry = entry("#x6000", 1, u32::MAX, "BOOL");
+    let checked = device(&tx_pdo("#x1A00", &entry.repeat(3)));
+    let pdo = checked.pdo(0x1A00);
+    assert_eq!((pdo.bits(), pdo.entries[2].bit_offset), (u32::MAX, u32::MAX));
+}
+
+#[test]
 fn x29_single_bits_and_gaps() {
     let entries = [
         entry("#x6000", 1, 1, "BOOL"),
