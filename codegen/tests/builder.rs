@@ -63,3 +63,17 @@ fn what_is_chosen_is_what_is_there() {
     let bare = chosen.accessors(false).generate(&input).expect("bindings");
     assert!(!bare.contains("pub struct Tap") && bare.contains("pub const OPENING"));
 }
+
+#[test]
+fn of_many_devices_those_that_are_selected() {
+    let coupler = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/coupler.esi.xml");
+    let builder = Builder::new().quiet();
+    let text = builder.clone().device("SV-1@latest").objects("0x6040..0x6041").generate(coupler).expect("bindings");
+    assert!(text.contains("pub struct Sv1<C>") && text.contains("STATUSWORD") && !text.contains("MOTOR"));
+    let text = builder.clone().device("0x00A10001").module("AI-2").generate(coupler).expect("bindings");
+    assert!(text.contains("pub mod ai_2 {") && !text.contains("di_16"));
+    let error = builder.clone().device("SV-1@7").generate(coupler).expect_err("no such revision").to_string();
+    assert!(error.contains("IO004") && error.contains("sv-1@0x00000007"), "{error}");
+    let error = builder.objects("x").generate(coupler).expect_err("no index").to_string();
+    assert!(error.contains("expected 0x6040"), "{error}");
+}
