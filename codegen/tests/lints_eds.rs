@@ -800,6 +800,8 @@ fn every_code_is_given_out() {
         .iter()
         .map(|code| code.id)
         .filter(|id| ["EDS", "PDO", "MOD"].iter().any(|family| id.starts_with(family)) && !seen.contains(id))
+        // Those of EtherCAT are in `lints_esi.rs`.
+        .filter(|&id| !("PDO018"..="PDO021").contains(&id))
         .collect();
     assert_eq!(missing, [""; 0]);
 }
