@@ -1,5 +1,12 @@
 //! Small helpers on text.
 
+/// As much of a text as a message quotes or a key takes, so that deep nesting can't multiply long names.
+pub(crate) fn brief(text: &str) -> &str {
+    const LETTERS: usize = 64;
+    let end = text.char_indices().nth(LETTERS).map_or(text.len(), |(at, _)| at);
+    &text[..end]
+}
+
 /// The Levenshtein distance: how many characters to insert, delete or replace to get from `a` to `b`.
 pub(crate) fn edit_distance(a: &str, b: &str) -> usize {
     // One row of the usual table: `row[j]` is the distance of the part of `a` read so far to the first `j` of `b`.

@@ -26,6 +26,7 @@
 
 use std::borrow::Cow;
 
+use compact_str::{format_compact, CompactString};
 use memchr::{memchr, memchr2, memchr_iter};
 use quick_xml::events::Event as Raw;
 use quick_xml::Reader;
@@ -34,6 +35,7 @@ use smallvec::SmallVec;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::limits;
 use crate::source::{FileId, Origin, Span};
+use crate::text::brief;
 
 /// Why reading stopped: the document isn't well formed, or nested too deeply.
 #[derive(Clone, Debug)]
@@ -475,6 +477,16 @@ impl<'a> Cursor<'a> {
         self.open.iter().map(|full| split_name(full).1)
     }
 
+    /// The names of the two innermost open elements, `parent/own`, shortened where they are very long.
+    pub fn innermost(&self) -> CompactString {
+        let mut path = self.path().rev();
+        let own = path.next().map_or("", brief);
+        match path.next() {
+            Some(parent) => format_compact!("{}/{own}", brief(parent)),
+            None => own.into(),
+        }
+    }
+
     /// Line and place of a start tag.
     pub fn origin(&mut self, tag: &Tag<'a>) -> Origin {
         Origin { span: tag.span, line: self.line(tag.span.start) }
@@ -744,12 +756,6 @@ fn split_name(full: &str) -> (&str, &str) {
         Some(at) => (&full[..at], &full[at + 1..]),
         None => ("", full),
     }
-}
-
-/// As much of a name as a message quotes.
-fn brief(name: &str) -> &str {
-    let end = name.char_indices().nth(64).map_or(name.len(), |(at, _)| at);
-    &name[..end]
 }
 
 #[cfg(test)]

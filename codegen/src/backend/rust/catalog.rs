@@ -1,16 +1,12 @@
 //! All devices and modules of a file in one Rust module.
 
-use std::fmt::Write;
-
 use super::ethercat::ModulePaths;
 use super::model::{self, Model, Place};
+use super::nested::{self, STEP};
 use super::options::RustOptions;
 use super::{docs, header, layout, render};
 use crate::ir::{Catalog, Device, FileInfo, Module, ModuleId};
 use crate::passes::names_unique::{self, Case, Wish};
-
-/// How far the content of a module stands to the right of the module.
-const STEP: usize = 4;
 
 /// Names that a device's module can't have.
 const RESERVED: [&str; 5] = ["self", "super", "crate", "modules", "rt"];
@@ -31,9 +27,7 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
             for (device, name) in devices.iter().zip(device_names(devices, file)) {
                 let place = Place { nest: STEP, modules: paths.clone() };
                 let body = render(Model::new(device, file, options, &place));
-                let title = docs::escape(&device.name);
-                open(&mut text, 0, &name, if title.is_empty() { &name } else { &title });
-                close(&mut text, 0, &body);
+                nested::module(&mut text, &heading(&device.name, &name), &name, &body);
             }
         }
     }
@@ -41,14 +35,13 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
         if !text.ends_with('\n') {
             text.push('\n');
         }
-        text += "/// Modules that can be plugged in. Indices that depend on the slot are those of slot 0.\npub mod modules {\n";
+        let mut content = String::new();
         for ((_, module), name) in modules.iter().zip(&names) {
             let body = render(Model::of_module(module, options, 2 * STEP));
-            let title = docs::escape(&module.name);
-            open(&mut text, STEP, name, if title.is_empty() { name } else { &title });
-            close(&mut text, STEP, &body);
+            nested::module(&mut content, &heading(&module.name, name), name, &body);
         }
-        text += "}\n";
+        let about = "Modules that can be plugged in. Indices that depend on the slot are those of slot 0.";
+        nested::module(&mut text, about, "modules", &content);
     }
     Some(layout::fit(&text))
 }
@@ -114,20 +107,8 @@ fn paths(modules: &[(ModuleId, &Module)], names: &[String], outer: &str) -> Modu
     modules.iter().zip(names).map(|((id, _), name)| (*id, format!("{outer}::{name}::MODULE"))).collect()
 }
 
-fn open(text: &mut String, indent: usize, name: &str, title: &str) {
-    let title = docs::sentence(title);
-    let _ = writeln!(text, "{:indent$}/// {title}\n{:indent$}pub mod {name} {{", "", "");
-}
-
-/// The content of a module, moved to the right, and its end.
-fn close(text: &mut String, indent: usize, body: &str) {
-    let inner = indent + STEP;
-    for line in body.lines() {
-        if line.is_empty() {
-            text.push('\n');
-        } else {
-            let _ = writeln!(text, "{:inner$}{line}", "");
-        }
-    }
-    let _ = writeln!(text, "{:indent$}}}", "");
+/// What a device or module is called in the source, else its name in Rust.
+fn heading(original: &str, name: &str) -> String {
+    let title = docs::escape(original);
+    docs::sentence(if title.is_empty() { name } else { &title })
 }

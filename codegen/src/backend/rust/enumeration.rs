@@ -51,25 +51,25 @@ pub(super) fn models(scope: &Scope<'_>, options: &RustOptions) -> Vec<(u32, Enum
         }
     }
     used.sort_unstable();
-    used.retain(|&position| has_values(scope, position));
-    let wishes: Vec<Wish<'_>> = used
+    let mut models: Vec<(u32, EnumerationModel)> =
+        used.into_iter().filter_map(|position| Some((position, model(scope, position, options)?))).collect();
+    let wishes: Vec<Wish<'_>> = models
         .iter()
-        .map(|&position| Wish {
-            name: &scope.types[position as usize].name,
+        .map(|(position, _)| Wish {
+            name: &scope.types[*position as usize].name,
             fallback: format!("enumeration {position}"),
             suffix: position.to_string(),
         })
         .collect();
     let names = names_unique::unique(&wishes, &RESERVED_TYPES, Case::Pascal);
-    let pairs = used.iter().zip(names);
-    pairs.filter_map(|(&position, name)| Some((position, model(scope, position, name, options)?))).collect()
+    for ((_, model), name) in models.iter_mut().zip(names) {
+        model.name = name;
+    }
+    models
 }
 
-fn has_values(scope: &Scope<'_>, position: u32) -> bool {
-    model(scope, position, String::new(), &RustOptions::default()).is_some()
-}
-
-fn model(scope: &Scope<'_>, position: u32, name: String, options: &RustOptions) -> Option<EnumerationModel> {
+/// The enumeration at this position, as yet without a name; `None` where it has no value that its integer has.
+fn model(scope: &Scope<'_>, position: u32, options: &RustOptions) -> Option<EnumerationModel> {
     let definition = scope.types.get(position as usize)?;
     let Shape::Enumeration { base, values, .. } = &definition.shape else { return None };
     // A truth value with names for its values is a number of one bit.
@@ -95,7 +95,7 @@ fn model(scope: &Scope<'_>, position: u32, name: String, options: &RustOptions) 
         ty: base,
         bits: base.bits()?,
         variants: variants(&values),
-        name,
+        name: String::new(),
     })
 }
 

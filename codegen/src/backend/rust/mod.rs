@@ -12,6 +12,7 @@ mod ethercat;
 mod layout;
 mod literal;
 mod model;
+mod nested;
 mod options;
 mod pdo;
 mod profinet;

@@ -78,16 +78,7 @@ impl ValueType {
     pub(super) fn number(self) -> Option<(&'static str, &'static str)> {
         let (low, high) = self.integers()?;
         let width = 128 - if low < 0 { high + 1 } else { high }.leading_zeros();
-        let native = match (low < 0, width) {
-            (false, ..=8) => "u8",
-            (false, ..=16) => "u16",
-            (false, ..=32) => "u32",
-            (false, _) => "u64",
-            (true, ..=8) => "i8",
-            (true, ..=16) => "i16",
-            (true, ..=32) => "i32",
-            (true, _) => "i64",
-        };
+        let native = native(low < 0, width);
         Some((self.path(), native))
     }
 
@@ -200,6 +191,20 @@ impl ValueType {
         }
         let write = |value: Option<f64>| value.and_then(|value| self.literal(&Value::Real(value)));
         Some((write(low), write(high)))
+    }
+}
+
+/// The narrowest integer of Rust's own with so many bits.
+pub(super) fn native(signed: bool, bits: u32) -> &'static str {
+    match (signed, bits) {
+        (false, ..=8) => "u8",
+        (false, ..=16) => "u16",
+        (false, ..=32) => "u32",
+        (false, _) => "u64",
+        (true, ..=8) => "i8",
+        (true, ..=16) => "i16",
+        (true, ..=32) => "i32",
+        (true, _) => "i64",
     }
 }
 

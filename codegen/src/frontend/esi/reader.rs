@@ -12,6 +12,7 @@ use crate::ir::{Documentation, Extension, LocalText, Texts};
 use crate::limits;
 use crate::source::Span;
 use crate::syntax::xml::{Cursor, Event, Tag, Text};
+pub(super) use crate::text::brief as shortened;
 
 /// A result that ends the reading of the file with one diagnostic.
 pub(super) type Read<T> = Result<T, Box<Diagnostic>>;
@@ -125,9 +126,6 @@ impl<'a> Names<'a> {
 fn local(lcid: Option<u32>, given: &Given<'_>) -> LocalText {
     LocalText { language: language::tag(lcid), text: given.compact() }
 }
-
-/// How much of a name becomes part of the key of an extension, so that deep nesting can't multiply long names.
-const MAX_KEY_PART: usize = 64;
 
 impl<'a> Reader<'a, '_> {
     /// Reads an element that has nothing but text to its end; whatever else it has becomes extensions.
@@ -253,7 +251,7 @@ impl<'a> Reader<'a, '_> {
                 Some(Event::Start(inner)) => self.keep_attributes(&inner, extensions)?,
                 Some(Event::Text(text)) => {
                     let value = text.value(self.diagnostics);
-                    let (key, value) = (self.key(), value.trim().into());
+                    let (key, value) = (self.cursor.innermost(), value.trim().into());
                     extensions.push(Extension { key, value, span: text.span });
                 }
                 Some(Event::End) => {}
@@ -268,7 +266,7 @@ impl<'a> Reader<'a, '_> {
     pub fn vendor_specific(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
         while let Some(child) = self.cursor.child(tag)? {
             self.keep_attributes(&child, extensions)?;
-            let key = self.key();
+            let key = self.cursor.innermost();
             let (mut value, mut span) = (CompactString::default(), child.span);
             while self.cursor.depth() >= child.depth {
                 match self.cursor.read()? {
@@ -315,21 +313,11 @@ impl<'a> Reader<'a, '_> {
             if attribute.is_namespace() || is_english || attribute.raw.is_empty() {
                 continue;
             }
-            let key = format_compact!("{}@{}", self.key(), shortened(attribute.name));
+            let key = format_compact!("{}@{}", self.cursor.innermost(), shortened(attribute.name));
             let value = attribute.value(self.diagnostics).into();
             extensions.push(Extension { key, value, span: attribute.span });
         }
         Ok(())
-    }
-
-    /// The two innermost open elements.
-    fn key(&self) -> CompactString {
-        let mut path = self.cursor.path().rev();
-        let own = path.next().map_or("", shortened);
-        match path.next() {
-            Some(parent) => format_compact!("{}/{own}", shortened(parent)),
-            None => own.into(),
-        }
     }
 
     /// Whether so many items and bytes may be added to objects. That they may not is told once.
@@ -442,12 +430,6 @@ impl<'a> Reader<'a, '_> {
 /// Whether anything stands between the name of a tag and its end.
 pub(super) fn has_attributes(tag: &Tag<'_>) -> bool {
     tag.span.end.saturating_sub(tag.name_span().end) > 1 + u32::from(tag.empty)
-}
-
-/// The beginning of a text that may be long.
-pub(super) fn shortened(text: &str) -> &str {
-    let end = text.char_indices().nth(MAX_KEY_PART).map_or(text.len(), |(at, _)| at);
-    text.get(..end).unwrap_or(text)
 }
 
 /// Keeps something that was read as an extension.

@@ -11,6 +11,7 @@ use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Extension, Item};
 use crate::source::Span;
 use crate::syntax::xml::{Attribute, Cursor, Event, Tag};
+pub(super) use crate::text::brief as shortened;
 
 /// A result that ends the reading of the file with one diagnostic.
 pub(super) type Read<T> = Result<T, Box<Diagnostic>>;
@@ -39,9 +40,6 @@ pub(super) struct Given<'a> {
     pub text: Cow<'a, str>,
     pub span: Span,
 }
-
-/// How much of a name becomes part of a key or a message, so that nothing multiplies long names.
-const MAX_NAME_PART: usize = 64;
 
 impl<'a> Reader<'a, '_> {
     /// The attributes called `names`, by their position there; further ones become extensions.
@@ -145,11 +143,11 @@ impl<'a> Reader<'a, '_> {
         self.each_within(tag, |reader, found| {
             let (key, value, span) = match found {
                 Found::Attribute(attribute) => {
-                    let key = format_compact!("{}@{}", reader.key(), shortened(attribute.name));
+                    let key = format_compact!("{}@{}", reader.cursor.innermost(), shortened(attribute.name));
                     (key, attribute.value(reader.diagnostics).into(), attribute.span)
                 }
-                Found::Text(value, span) => (reader.key(), value, span),
-                Found::Nothing(span) => (reader.key(), CompactString::default(), span),
+                Found::Text(value, span) => (reader.cursor.innermost(), value, span),
+                Found::Nothing(span) => (reader.cursor.innermost(), CompactString::default(), span),
             };
             extensions.push(Extension { key, value, span });
         })
@@ -210,16 +208,6 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    /// The two innermost open elements.
-    fn key(&self) -> CompactString {
-        let mut path = self.cursor.path().rev();
-        let own = path.next().map_or("", shortened);
-        match path.next() {
-            Some(parent) => format_compact!("{}/{own}", shortened(parent)),
-            None => own.into(),
-        }
-    }
-
     /// Reports an attribute whose form GSDML doesn't allow.
     pub fn bad(&mut self, given: &Given<'_>, what: &str, label: impl Into<String>) {
         let message = format!("`{}` is no {what}", shortened(&given.text));
@@ -239,12 +227,6 @@ enum Found<'f, 'a> {
     Text(CompactString, Span),
     /// An empty element without attributes.
     Nothing(Span),
-}
-
-/// As much of a name as a key or a message quotes.
-pub(super) fn shortened(name: &str) -> &str {
-    let end = name.char_indices().nth(MAX_NAME_PART).map_or(name.len(), |(at, _)| at);
-    &name[..end]
 }
 
 /// Keeps something that was read as an extension.

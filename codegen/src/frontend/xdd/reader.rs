@@ -10,6 +10,7 @@ use crate::frontend::canopen::value::Converter;
 use crate::ir::{self, Documentation, Extension, LocalText};
 use crate::source::Span;
 use crate::syntax::xml::{Attribute, Cursor, Event, Tag};
+use crate::text::brief as shortened;
 
 /// A result that ends the reading of the file with one diagnostic.
 pub(super) type Read<T> = Result<T, Box<Diagnostic>>;
@@ -60,9 +61,6 @@ fn first(texts: &[LocalText]) -> Option<&LocalText> {
     let english = |text: &&LocalText| text.language == "en" || text.language.starts_with("en-");
     texts.iter().find(english).or(texts.first())
 }
-
-/// How much of a name becomes part of the key of an extension, so that deep nesting can't multiply long names.
-const MAX_KEY_PART: usize = 64;
 
 impl<'a, 'd> Reader<'a, 'd> {
     pub(super) fn converter(&mut self) -> Converter<'_> {
@@ -157,7 +155,7 @@ impl<'a, 'd> Reader<'a, 'd> {
                 Some(Event::Start(inner)) => self.keep_attributes(&inner, extensions)?,
                 Some(Event::Text(text)) => {
                     let value = text.value(self.diagnostics);
-                    let (key, value) = (self.key(), value.trim().into());
+                    let (key, value) = (self.cursor.innermost(), value.trim().into());
                     extensions.push(Extension { key, value, span: text.span });
                 }
                 Some(Event::End) => {}
@@ -187,21 +185,11 @@ impl<'a, 'd> Reader<'a, 'd> {
             if attribute.is_namespace() || is_english || attribute.raw.is_empty() {
                 continue;
             }
-            let key = format_compact!("{}@{}", self.key(), shortened(attribute.name));
+            let key = format_compact!("{}@{}", self.cursor.innermost(), shortened(attribute.name));
             let value = attribute.value(self.diagnostics).into();
             extensions.push(Extension { key, value, span: attribute.span });
         }
         Ok(())
-    }
-
-    /// The two innermost open elements.
-    fn key(&self) -> CompactString {
-        let mut path = self.cursor.path().rev();
-        let own = path.next().map_or("", shortened);
-        match path.next() {
-            Some(parent) => format_compact!("{}/{own}", shortened(parent)),
-            None => own.into(),
-        }
     }
 
     /// Reports an attribute or text whose form CiA 311 doesn't allow.
@@ -268,11 +256,6 @@ impl<'a, 'd> Reader<'a, 'd> {
         }
         value
     }
-}
-
-fn shortened(name: &str) -> &str {
-    let end = name.char_indices().nth(MAX_KEY_PART).map_or(name.len(), |(at, _)| at);
-    &name[..end]
 }
 
 /// Keeps something that was read as an extension.

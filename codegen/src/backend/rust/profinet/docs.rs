@@ -2,7 +2,7 @@
 
 pub(super) use super::super::docs::sentence;
 
-use super::super::{docs, literal};
+use super::super::docs;
 use crate::ir::{Documentation, Value};
 
 /// Text as one line of Markdown without any markup; empty where nothing of it can be shown.
@@ -46,9 +46,4 @@ pub(super) fn value(value: &Value) -> String {
         Some((cut, _)) => format!("{} …", escape(&text[..cut])),
         None => escape(&text),
     }
-}
-
-/// A string without what could steer a terminal, for the comment at the top of the file.
-pub(super) fn harmless(text: &str) -> String {
-    text.chars().map(|letter| if literal::is_harmless(letter) { letter } else { ' ' }).collect()
 }

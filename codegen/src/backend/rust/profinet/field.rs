@@ -2,6 +2,7 @@
 
 use super::types::type_name;
 use super::values::{Enumeration, Values};
+use crate::backend::rust::value_type::native;
 use crate::ir::{TimeFormat, Type, TypeDef};
 
 /// Bits of a word, the longest field that is no byte string.
@@ -255,20 +256,6 @@ fn kind(base: Type, place: Place) -> Option<Kind> {
         Type::Boolean | Type::Integer(_) | Type::Unsigned(_) => integer.or(bytes),
         Type::Time(TimeFormat::TimeOfDay | TimeFormat::TimeDifference) if fits => integer,
         _ => bytes.or(integer),
-    }
-}
-
-/// The narrowest integer of Rust's own with so many bits.
-pub(super) fn native(signed: bool, bits: u32) -> &'static str {
-    match (signed, bits) {
-        (false, ..=8) => "u8",
-        (false, ..=16) => "u16",
-        (false, ..=32) => "u32",
-        (false, _) => "u64",
-        (true, ..=8) => "i8",
-        (true, ..=16) => "i16",
-        (true, ..=32) => "i32",
-        (true, _) => "i64",
     }
 }
 

@@ -16,7 +16,8 @@ mod values;
 
 use askama::Template;
 
-use super::{layout, literal};
+use super::nested::module;
+use super::{header, layout, literal};
 use super::{Presence, RustOptions, INTERFACE_VERSION};
 use crate::ir::{Catalog, FileInfo};
 use descriptor::{DapModel, ModuleModel, SubmoduleModel};
@@ -28,10 +29,7 @@ use values::Enumeration;
 #[template(path = "rust/profinet.rs.txt", escape = "none")]
 struct FileTemplate<'a> {
     options: &'a RustOptions,
-    compiler_version: &'a str,
     interface_version: u32,
-    file_name: String,
-    sha256: &'a str,
     body: String,
 }
 
@@ -75,16 +73,8 @@ pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) ->
     if scope.access_points.is_empty() {
         return None;
     }
-    let name = file.name.rsplit(['/', '\\']).next().unwrap_or(&file.name);
-    let text = render(&FileTemplate {
-        options,
-        compiler_version: env!("CARGO_PKG_VERSION"),
-        interface_version: INTERFACE_VERSION,
-        file_name: docs::harmless(name),
-        sha256: &file.sha256,
-        body: body(&scope),
-    });
-    Some(layout::fit(&text))
+    let text = render(&FileTemplate { options, interface_version: INTERFACE_VERSION, body: body(&scope) });
+    Some(layout::fit(&(header(file) + &text)))
 }
 
 fn body(scope: &Scope<'_>) -> String {
@@ -118,22 +108,6 @@ fn body(scope: &Scope<'_>) -> String {
         module(&mut out, "Diagnosis: what error types and user structures mean.", "diagnosis", &content);
     }
     out
-}
-
-/// Writes a module, where it has content.
-fn module(out: &mut String, heading: &str, name: &str, content: &str) {
-    if content.is_empty() {
-        return;
-    }
-    *out += &format!("/// {heading}\npub mod {name} {{\n");
-    for line in content.lines() {
-        if !line.is_empty() {
-            out.push_str("    ");
-        }
-        out.push_str(line);
-        out.push('\n');
-    }
-    out.push_str("}\n");
 }
 
 /// What a template writes, with the end of its last line.

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::collections::HashSet;
 
 use super::docs;
-use super::field::native;
 use super::types::resolve;
 use super::RustOptions;
+use crate::backend::rust::value_type::native;
 use crate::ir::{EnumValue, Shape, Type, TypeDef};
 use crate::passes::names_unique::{self, Case, Wish};
 
