@@ -130,12 +130,16 @@ mod profisafe {
         let block = [0x00, 0x03, 0x08, 0x00, 0x01, 0x00, 0x00, 0x07, 0x00, 0x00, 0x00, 0x05];
         let structure = UserStructure::from_identifier(0x8002);
         let found = ChannelDiagnosis::decode(structure, &block).next().unwrap();
-        let error = diagnosis::channel_error(found.error_type).unwrap();
+        let error = diagnosis::channel_error(0, found.error_type).unwrap();
         assert_eq!((error.name, error.help), ("Cross circuit", "Check the wiring."));
         let extended = found.extended.unwrap();
         let precise = error.extended(extended.error_type).unwrap();
         assert_eq!((precise.name, extended.add_value), ("Between A and B", 5));
-        assert_eq!(diagnosis::channel_error(1), None);
+        assert_eq!(diagnosis::channel_error(0, 1), None);
+        // Profiles give one type two meanings; what isn't a profile's holds in every application process.
+        let name = |api| diagnosis::channel_error(api, 0x9000).map(|error| error.name);
+        assert_eq!((name(0x3A00), name(0x5B00), name(0)), (Some("Alpha"), Some("Beta"), None));
+        assert_eq!(diagnosis::channel_error(0x3A00, found.error_type), Some(error));
         // Count 0x0102, state 2 in bits 4 and 5.
         let report = diagnosis::ReportDiagnosis::decode(&[0x01, 0x02, 0x20]).unwrap();
         assert_eq!((report.count, report.state), (0x0102, 2));

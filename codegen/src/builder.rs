@@ -212,6 +212,10 @@ impl Builder {
 }
 
 fn errors(compilation: &Compilation) -> String {
+    if compilation.is_usable() {
+        let name = compilation.sources.first().map_or("the file", |source| source.name());
+        return format!("{name}: {}", compile::NOTHING_TO_GENERATE);
+    }
     let errors = compilation.diagnostics.list().iter().filter(|d| d.severity == Severity::Error);
     let shown = errors.map(|error| render::terminal::render(error, &compilation.sources, false));
     shown.collect::<Vec<_>>().join("\n\n")

@@ -64,8 +64,11 @@ impl Compilation {
     }
 }
 
+/// What to say of a usable compilation whose [`Compilation::rust`] is `None`.
+pub const NOTHING_TO_GENERATE: &str = "it describes no device and no module, so there is nothing to generate";
+
 /// From so many bytes on, another thread digests a file while it is read.
-const LARGE: usize = 256 * 1024;
+const LARGE: usize = 64 * 1024;
 
 /// Reads `source` into the IR, as it stands.
 pub fn read(source: Source, options: &Options) -> Compilation {

@@ -246,6 +246,20 @@ fn info_lists_devices_and_modules() {
 }
 
 #[test]
+fn what_describes_no_device_gives_no_bindings() {
+    let folder = folder("nothing");
+    let empty = file(&folder, "empty.xml", "<EtherCATInfo><Vendor><Id>1</Id></Vendor></EtherCATInfo>");
+    let target = folder.join("empty.rs");
+    let generated = lexibus(&["generate", &empty, "--out", &target.to_string_lossy()]);
+    assert_eq!((code(&generated), target.exists()), (1, false));
+    assert!(err(&generated).contains("describes no device"), "{}", err(&generated));
+    // Among others it is passed over.
+    std::fs::copy(COUPLER, folder.join("coupler.xml")).expect("a copy");
+    let all = lexibus(&["generate", &folder.to_string_lossy(), "--out", &format!("{}/", folder.display())]);
+    assert_eq!((code(&all), folder.join("coupler.rs").exists()), (0, true), "{}", err(&all));
+}
+
+#[test]
 fn folders_are_searched_for_xml_that_describes_devices() {
     let folder = folder("xml");
     std::fs::copy(COUPLER, folder.join("coupler.xml")).expect("a copy");

@@ -335,6 +335,19 @@ fn what_nothing_refers_to_costs_nothing() {
 }
 
 #[test]
+fn user_structures_need_no_enumeration() {
+    let mut gsdml = Gsdml::new();
+    let text = gsdml.text("Report");
+    let structure = format!(
+        "<UnitDiagTypeList><UnitDiagTypeItem UserStructureIdentifier=\"5\"><Name TextId=\"{text}\"/>\
+         <Ref DataType=\"Unsigned8\" ByteOffset=\"0\" TextId=\"{text}\"/></UnitDiagTypeItem></UnitDiagTypeList>"
+    );
+    let text = rust(gsdml.lists(&structure).xml("Unit"), &RustOptions::default());
+    assert!(text.contains("pub struct ReportDiagnosis"), "{text}");
+    accept("unit_diagnosis", &text);
+}
+
+#[test]
 fn optional_implementations_are_gated() {
     let options = RustOptions {
         debug: Presence::Never,

@@ -212,6 +212,9 @@ fn warnings(compilation: &Compilation, span: Span) -> Vec<TokenStream> {
 }
 
 fn errors(compilation: &Compilation) -> String {
+    if compilation.is_usable() {
+        return format!("the device description can't be used: {}", compile::NOTHING_TO_GENERATE);
+    }
     let errors = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
     let rendered = errors.take(MAX_SHOWN).map(|error| render::terminal::render(error, &compilation.sources, false));
     format!("the device description has errors\n\n{}", rendered.collect::<Vec<_>>().join("\n\n"))

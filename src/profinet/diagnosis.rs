@@ -6,6 +6,8 @@ use super::be::bytes;
 /// What the description of a device says about a channel error type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChannelError {
+    /// The application process (API) whose profile defines it; 0 for those that aren't a profile's.
+    pub api: u32,
     /// The error type.
     pub error_type: u16,
     /// Its name.
@@ -28,7 +30,7 @@ pub struct ExtendedError {
 }
 
 impl ChannelError {
-    /// An error type.
+    /// An error type that isn't a profile's.
     #[must_use]
     pub const fn new(
         error_type: u16,
@@ -36,14 +38,25 @@ impl ChannelError {
         help: &'static str,
         extended: &'static [ExtendedError],
     ) -> Self {
-        Self { error_type, name, help, extended }
+        Self { api: 0, error_type, name, help, extended }
     }
 
-    /// The error of `errors`, which are in ascending order, with this type.
+    /// The same as the profile of this application process defines it.
     #[must_use]
-    pub fn find(errors: &'static [ChannelError], error_type: u16) -> Option<&'static ChannelError> {
-        let at = errors.binary_search_by_key(&error_type, |error| error.error_type).ok()?;
-        errors.get(at)
+    pub const fn of_api(mut self, api: u32) -> Self {
+        self.api = api;
+        self
+    }
+
+    /// What this type means in a submodule of this application process: as its profile says, else as the device says of
+    /// all. `errors` are in ascending order of API and type.
+    #[must_use]
+    pub fn find(errors: &'static [ChannelError], api: u32, error_type: u16) -> Option<&'static ChannelError> {
+        let find = |api| {
+            let at = errors.binary_search_by_key(&(api, error_type), |error| (error.api, error.error_type)).ok()?;
+            errors.get(at)
+        };
+        find(api).or_else(|| find(0))
     }
 
     /// The more precise error with this extended type.
@@ -281,10 +294,10 @@ mod tests {
 
     #[test]
     fn errors_are_found_by_type() {
-        let supply = ChannelError::find(&ERRORS, 0x10).unwrap();
+        let supply = ChannelError::find(&ERRORS, 0, 0x10).unwrap();
         assert_eq!(supply.extended(1).map(|error| error.help), Some("Check the fuse"));
         assert_eq!((supply.name, supply.extended(2)), ("Supply", None));
-        assert_eq!(ChannelError::find(&ERRORS, 0x11), None);
+        assert_eq!(ChannelError::find(&ERRORS, 0, 0x11), None);
     }
 
     #[test]

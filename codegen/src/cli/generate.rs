@@ -10,7 +10,7 @@ use super::report::Reporter;
 use super::Failure;
 use crate::backend::rust;
 use crate::builder::write_if_changed;
-use crate::compile::Compilation;
+use crate::compile::{self, Compilation};
 
 pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
     let options = generate.inputs.options()?;
@@ -19,10 +19,15 @@ pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
     let mut target = Target::new(generate)?;
     inputs::each(&generate.inputs, &options, |input, compilation| {
         reporter.report(&compilation)?;
-        if let Some(text) = compilation.rust(&rust_options) {
-            target.put(input, &compilation, &text, &mut reporter)?;
+        match compilation.rust(&rust_options) {
+            Some(text) => target.put(input, &compilation, &text, &mut reporter),
+            // Its errors were told; among many files, one without a device was found rather than asked for.
+            None if !compilation.is_usable() || target.many => Ok(()),
+            None => {
+                reporter.error(&format!("{}: {}", input.display(), compile::NOTHING_TO_GENERATE));
+                Ok(())
+            }
         }
-        Ok(())
     })?;
     reporter.finish()
 }
@@ -31,6 +36,8 @@ pub(super) fn run(generate: &Generate) -> Result<bool, Failure> {
 struct Target<'g> {
     generate: &'g Generate,
     is_folder: bool,
+    /// Whether there are several inputs, or folders of them.
+    many: bool,
     /// Names given so far, with the input that got each.
     names: BTreeMap<PathBuf, PathBuf>,
 }
@@ -51,7 +58,7 @@ impl<'g> Target<'g> {
             std::fs::create_dir_all(out)
                 .map_err(|error| Failure::Usage(format!("can't make the folder {}: {error}", out.display())))?;
         }
-        Ok(Target { generate, is_folder, names: BTreeMap::new() })
+        Ok(Target { generate, is_folder, many, names: BTreeMap::new() })
     }
 
     fn put(

@@ -535,8 +535,9 @@ codes! {
         reference would have added is missing."
     GSD012 UNKNOWN_GSDML_TYPE "unknown-gsdml-type" Repair Warn
         "a data type isn't known"
-        "The name is none of the data types of GSDML. The value is kept as raw bytes of the length that is given beside it; \
-        without a length it takes no room, and what follows may stand elsewhere."
+        "The name is none of the data types of GSDML. One in another case was read as the data type that it is. Any other \
+        value is kept as raw bytes of the length that is given beside it; without a length it takes no room, and what \
+        follows may stand elsewhere."
     GSD013 GSDML_DEFAULT "gsdml-default" Repair Warn
         "a default isn't written as its data type wants"
         "Numbers are decimal, octets are written `0x00,0x1F`, a bit is 0 or 1. A hexadecimal number was read; anything else is \

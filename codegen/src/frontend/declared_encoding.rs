@@ -7,6 +7,9 @@ use crate::source::{Encoding, FileId, Source, Span};
 pub fn report(source: &Source, file: FileId, diagnostics: &mut Diagnostics) {
     let declared = source.declared_encoding();
     let (message, read_as) = match source.encoding() {
+        Encoding::Windows1252 if source.declares_unknown_encoding() => {
+            ("the file declares an encoding that can't be read here", "Windows-1252")
+        }
         Encoding::Windows1252 if declared.is_none_or(|label| label.eq_ignore_ascii_case("utf-8")) => {
             ("the file is neither UTF-8 nor of an encoding that it declares", "Windows-1252")
         }

@@ -9,6 +9,8 @@ pub(super) fn run(device: &mut Device, diagnostics: &mut Diagnostics) {
         let value = item.default.as_ref().and_then(Value::as_int)?;
         Some((u32::try_from(value).ok()?, item.at.default))
     };
+    // The numbers of ETG.2000's Type select the device, also where they are zero, and one that is missing fits any.
+    let as_given = device.ethercat.is_some();
     for (sub, name) in [(1, "vendor number"), (2, "product code"), (3, "revision number")] {
         let object = from_object(device, sub);
         let header = match sub {
@@ -18,9 +20,10 @@ pub(super) fn run(device: &mut Device, diagnostics: &mut Diagnostics) {
         };
         let Some((value, span)) = object else { continue };
         match *header {
+            None if as_given => {}
             None => *header = Some(value),
             // Zero is how tools fill a field that nobody filled in.
-            Some(announced) if announced != value && announced != 0 && value != 0 => {
+            Some(announced) if announced != value && (announced != 0 || as_given) && value != 0 => {
                 diagnostics.push(
                     Diagnostic::new(
                         &codes::IDENTITY_MISMATCH,

@@ -12,7 +12,7 @@ pub enum Encoding {
     /// UTF-8 that starts with a byte order mark.
     #[serde(rename = "utf-8-bom")]
     Utf8Bom,
-    /// UTF-16, recognised by its byte order mark.
+    /// UTF-16, recognised by its byte order mark or by the zero bytes of its first characters.
     #[serde(rename = "utf-16")]
     Utf16,
     /// Not UTF-8: every byte read as Windows-1252, which contains ISO 8859-1.
@@ -51,6 +51,12 @@ pub(super) fn decode(bytes: Vec<u8>) -> (String, Encoding, Option<Vec<u8>>) {
             return (text, Encoding::Utf16, Some(bytes));
         }
     }
+    // Without a mark: the first two characters of XML (XML 1.0, appendix F).
+    for (start, charset) in [(b"<\0?\0", UTF_16LE), (b"\0<\0?", UTF_16BE)] {
+        if bytes.starts_with(start) {
+            return (with(charset, &bytes), Encoding::Utf16, Some(bytes));
+        }
+    }
     match String::from_utf8(bytes) {
         Ok(text) => (text, Encoding::Utf8, None),
         Err(error) => {
@@ -77,6 +83,11 @@ pub(super) fn declared(bytes: &[u8]) -> Option<&str> {
     rest[1..].split_once(quote).map(|(label, _)| label.trim())
 }
 
+/// Whether this is the name of an encoding that can be read.
+pub(super) fn is_known(label: &str) -> bool {
+    Charset::for_label(label.as_bytes()).is_some()
+}
+
 fn with(charset: &'static Charset, bytes: &[u8]) -> String {
     charset.decode_without_bom_handling(bytes).0.into_owned()
 }
@@ -89,6 +100,13 @@ mod tests {
     fn marks_are_stripped_and_bytes_that_are_not_utf8_are_cp1252() {
         assert_eq!(decode(b"\xef\xbb\xbfa".to_vec()).0, "a");
         assert_eq!(decode(b"\xff\xfea\0".to_vec()), ("a".into(), Encoding::Utf16, Some(b"\xff\xfea\0".to_vec())));
+        for (start, order) in [(b'<', u16::to_le_bytes as fn(u16) -> [u8; 2]), (0, u16::to_be_bytes)] {
+            let bytes: Vec<u8> = "<?xml?><ä/>".encode_utf16().flat_map(order).collect();
+            assert_eq!(
+                (bytes[0], decode(bytes.clone())),
+                (start, ("<?xml?><ä/>".into(), Encoding::Utf16, Some(bytes)))
+            );
+        }
         let (text, encoding, _) = decode(b"Ger\xe4t \x80".to_vec());
         assert_eq!((text.as_str(), encoding), ("Gerät €", Encoding::Windows1252));
         assert_eq!(decode("µ".as_bytes().to_vec()).1, Encoding::Utf8);

@@ -91,6 +91,11 @@ impl Source {
         decode::declared(self.text.as_bytes())
     }
 
+    /// Whether the XML declaration names an encoding that nobody here can read.
+    pub fn declares_unknown_encoding(&self) -> bool {
+        self.declared_encoding().is_some_and(|label| !decode::is_known(label))
+    }
+
     /// The name that diagnostics show.
     pub fn name(&self) -> &str {
         &self.name

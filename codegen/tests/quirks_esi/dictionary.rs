@@ -170,6 +170,24 @@ fn arrays_have_an_item_for_every_element() {
 }
 
 #[test]
+fn x15_the_default_of_a_whole_array() {
+    let with = |data: &str| {
+        let info = format!("<Info><DefaultData>{data}</DefaultData></Info></SubItem>");
+        let object = object("DT2000", &["SubIndex 000", "Elements"]);
+        let at = object.rfind("</SubItem>").unwrap();
+        dictionary(&array(FOUR, 64), &(object[..at].to_owned() + &info + &object[at + "</SubItem>".len()..]))
+    };
+    let whole = with("0100020003000400");
+    let defaults: Vec<_> = (1..=4).map(|sub| whole.item(0x2000, sub).default.clone()).collect();
+    assert_eq!((defaults, whole.found()), ((1..=4).map(int).collect(), vec!["ESI030 7:1".to_owned()]));
+    let third = whole.item(0x2000, 3);
+    assert_eq!((third.name.as_str(), whole.0.sources[0].slice(third.at.default)), ("Elements 3", "0300"));
+    // Nothing else can be taken apart.
+    let short = with("010002000300");
+    assert_eq!((short.item(0x2000, 2).default.clone(), short.found().len()), (None, 2));
+}
+
+#[test]
 fn x14_arrays_whose_size_is_wrong() {
     let names = ["SubIndex 000", "One", "Two", "Three", "Four"];
     let missing = dictionary(&array("", 64), &object("DT2000", &names));

@@ -241,6 +241,41 @@ fn x24_files_beside_the_description() {
 }
 
 #[test]
+fn x24_devices_of_a_file_that_is_referred_to() {
+    let other = file("<Devices><Device><Type ProductCode='7'>O</Type><Name>O</Name></Device></Devices>");
+    let main = file("<Devices><Device><Type ProductCode='1'>T</Type><Name>N</Name></Device></Devices>")
+        .replace("<Vendor>", "<InfoReference>other.xml</InfoReference><Vendor>");
+    let list = "<EtherCATInfo><InfoReference>other.xml</InfoReference></EtherCATInfo>";
+    // They are another file's, and come only where nothing else can be meant.
+    for (main, product, own) in [(main.as_str(), 1, 1), (list, 7, 0)] {
+        let (folder, checked) = folder("devices", &[("main.xml", main), ("other.xml", &other)]);
+        std::fs::remove_dir_all(folder).unwrap();
+        let products: Vec<_> = checked.catalog().devices.iter().map(|device| device.identity.product_code).collect();
+        assert_eq!(products, [Some(product)]);
+        assert_eq!(lexibus_codegen::backend::json::info(&checked.0).devices.len(), own);
+    }
+}
+
+#[test]
+fn x23_the_numbers_of_the_device_select_it() {
+    let fields = [("N", "USINT", 8, 0), ("V", "UDINT", 32, 16), ("P", "UDINT", 32, 48), ("R", "UDINT", 32, 80)];
+    let fields = (0..).zip(fields).map(|(sub, (name, ty, bits, at))| sub_item(sub, name, ty, bits, at));
+    let ty = format!("<DataType><Name>DT1018</Name><BitSize>112</BitSize>{}</DataType>", fields.collect::<String>());
+    let default = |name: &str, value: u32| {
+        format!("<SubItem><Name>{name}</Name><Info><DefaultValue>{value}</DefaultValue></Info></SubItem>")
+    };
+    let defaults = [default("N", 3), default("V", 1), default("P", 2), default("R", 1)].concat();
+    let identity = profile(&(basic("USINT", 8) + &basic("UDINT", 32) + &ty), &var("#x1018", "DT1018", &defaults));
+    // Zero is a revision as any other, whatever the object says, and one that is missing fits any.
+    for (revision, expected) in [("RevisionNo='0'", Some(0)), ("", None), ("RevisionNo='1'", Some(1))] {
+        let checked = read_text(&device_file(&identity).replace("RevisionNo='#x3'", revision));
+        assert_eq!(checked.device().identity.revision_number, expected);
+        let mismatch = checked.found().iter().any(|found| found.starts_with("EDS061"));
+        assert_eq!(mismatch, expected == Some(0), "{:?}", checked.found());
+    }
+}
+
+#[test]
 fn x24_files_that_are_not_there() {
     let (dir, checked) = folder("none", &[("main.xml", &main_file())]);
     std::fs::remove_dir_all(dir).unwrap();

@@ -192,6 +192,14 @@ fn g16_data_types_that_gsdml_does_not_have() {
 }
 
 #[test]
+fn g16_data_types_in_another_case() {
+    let checked =
+        inputs("<DataItem DataType=\"unsigned16\" TextId=\"T_Speed\"/>\n<DataItem DataType=\"n2\" TextId=\"T_Mode\"/>");
+    assert_eq!(checked.fields(), [("Speed", 0, 16), ("Mode", 16, 16)]);
+    assert_eq!((checked.field("Speed").ty, checked.codes()), (Type::Unsigned(16), vec!["GSD012", "GSD012"]));
+}
+
+#[test]
 fn g19_trailers_of_safety_messages() {
     for (name, bytes) in [("F_MessageTrailer4Byte", 4), ("F_MessageTrailer5Byte", 5)] {
         let submodule = format!(

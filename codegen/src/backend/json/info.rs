@@ -10,7 +10,7 @@ use crate::ir::{
     Catalog, Device, Direction, Format, Group, GroupKind, IoData, Module, ProcessData, Submodule, SubmoduleKind,
     SubmoduleUse,
 };
-use crate::source::FileId;
+use crate::source::{FileId, Origin};
 
 /// What `lexibus info --format json` says of a file.
 #[derive(Clone, Debug, Serialize)]
@@ -170,14 +170,16 @@ pub fn info(compilation: &Compilation) -> Info {
     let catalog = compilation.catalog.as_ref().unwrap_or(&nothing);
     let is_gsdml = compilation.format == Some(Format::Gsdml);
     let is_modular = is_gsdml || compilation.format == Some(Format::Esi);
+    let own_devices = || catalog.devices.iter().filter(|device| is_own(device.origin));
+    let own_modules = || catalog.modules.iter().filter(|module| is_own(module.origin));
     let mut info = Info {
         file: source.map(|source| source.name().to_owned()).unwrap_or_default(),
         format: compilation.format.map(|format| format.name()),
         encoding: source.map_or("utf-8", |source| source.encoding().name()),
-        devices: catalog.devices.iter().filter(|device| !device.dictionary_only).map(device).collect(),
-        dictionary: catalog.devices.iter().find(|device| device.dictionary_only).map(dictionary),
+        devices: own_devices().filter(|device| !device.dictionary_only).map(device).collect(),
+        dictionary: own_devices().find(|device| device.dictionary_only).map(dictionary),
         daps: is_gsdml.then(|| catalog.devices.iter().map(|device| dap(device, catalog)).collect()),
-        modules: is_modular.then(|| catalog.modules.iter().map(|one| module(one, catalog, is_gsdml)).collect()),
+        modules: is_modular.then(|| own_modules().map(|one| module(one, catalog, is_gsdml)).collect()),
         submodules: is_gsdml.then(|| {
             let pluggable = |one: &&Submodule| one.kind == SubmoduleKind::Pluggable;
             catalog.submodules.iter().filter(pluggable).map(submodule).collect()
@@ -195,9 +197,14 @@ pub fn info(compilation: &Compilation) -> Info {
     info
 }
 
+/// Whether something stands in the file itself, not in one that it refers to.
+fn is_own(origin: Origin) -> bool {
+    origin.span.file == FileId(0)
+}
+
 /// What the file itself declares of `groups`: neither what follows from something else, nor what another file adds.
 fn declared(groups: &[Group]) -> impl Iterator<Item = &Group> {
-    let own = |group: &&Group| group.origin.line > 0 && group.origin.span.file == FileId(0) && group.index().is_some();
+    let own = |group: &&Group| group.origin.line > 0 && is_own(group.origin) && group.index().is_some();
     groups.iter().filter(own)
 }
 

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use compact_str::{format_compact, CompactString};
 
+use super::array_default;
 use super::data_type::{RawField, RawType};
 use super::dictionary::missing_index;
 use super::flags::Flags;
@@ -55,12 +56,12 @@ struct Builder<'b, 't, 'a> {
 const SUB_INDICES: u32 = 256;
 
 /// A value of an object, as its data type describes it.
-struct Entry<'t, 'a> {
+pub(super) struct Entry<'t, 'a> {
     sub_index: u8,
-    ty: Type,
-    field: &'t RawField<'a>,
+    pub ty: Type,
+    pub field: &'t RawField<'a>,
     /// The number of the element, where the field is an array.
-    element: Option<u32>,
+    pub element: Option<u32>,
 }
 
 impl<'t, 'a> Builder<'_, 't, 'a> {
@@ -141,17 +142,20 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
     ) -> ObjectCode {
         let entries = self.entries(reader, raw, ty, record);
         let mut matched = match_up(reader, &entries, subs);
+        let mut parts = array_default::take_apart(self.types, &entries, &matched.of_entry, subs);
         group.items.reserve_exact(entries.len() + matched.extra.len());
         for (position, entry) in entries.iter().enumerate() {
             let sub = matched.of_entry.get(position).copied().flatten().and_then(|at| subs.get_mut(at));
-            let cost = (usize::from(sub.is_none()), entry.field.weight);
+            let described = sub.is_some() || parts.contains_key(&position);
+            let cost = (usize::from(!described), entry.field.weight);
             if !reader.derive(cost, raw.origin.span) {
                 break;
             }
             // Filled where it stands: it is too large to be moved about.
             group.items.push(Item::new(Binding::coe(raw.index.unwrap_or(0), entry.sub_index)));
             if let Some(item) = group.items.last_mut() {
-                self.entry(reader, raw, entry, sub, item);
+                let part = RawInfo { default: parts.remove(&position), more: None };
+                self.entry(reader, raw, entry, (sub, part), item);
             }
         }
         matched.extra.sort_unstable();
@@ -258,14 +262,13 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
         reader: &mut Reader<'_, '_>,
         raw: &RawObject<'a>,
         entry: &Entry<'t, 'a>,
-        sub: Option<&mut RawSub<'a>>,
+        (sub, part): (Option<&mut RawSub<'a>>, RawInfo<'a>),
         item: &mut Item,
     ) {
         let field = entry.field;
         (item.ty, item.at.ty) = (entry.ty, field.ty.span);
         self.flags(item, &field.flags, &raw.flags, Some(entry.sub_index));
         item.documentation = field.comment.documentation();
-        let empty = RawInfo::default();
         match sub {
             Some(sub) => {
                 item.origin = sub.origin;
@@ -281,7 +284,7 @@ impl<'t, 'a> Builder<'_, 't, 'a> {
                     Some(number) => format_compact!("{} {number}", field.name.text),
                     None => field.name.compact(),
                 };
-                self.info(reader, item, &empty, Some(&field.info));
+                self.info(reader, item, &part, Some(&field.info));
             }
         }
     }

@@ -17,9 +17,10 @@
 //! | `profile`, `diagnosis` | profiles, diagnosis messages |
 //! | `dictionary` | dictionaries as they stand in the file: `data_type`, `object`, `flags` |
 //! | `types`, `type_name` | data types to types |
-//! | `items`, `value`, `unit` | objects to groups and items |
+//! | `items`, `value`, `array_default`, `unit` | objects to groups and items |
 //! | `references` | files that the description refers to |
 
+mod array_default;
 mod clocks;
 mod data_type;
 mod device;

@@ -54,6 +54,8 @@ pub(super) fn follow(
     let own = Path::new(main.name()).file_name().map(|name| name.to_string_lossy().into_owned());
     // The content of each file, as far as others need it; `None` for one that can't be used.
     let mut files: HashMap<String, Option<Box<Catalog>>> = HashMap::new();
+    // Who refers to a file from a device wants the modules there; a mere list of files stands for the devices in them.
+    let only_modules = !description.catalog.devices.is_empty();
     let mut queue: VecDeque<(Owner, Reference)> = std::mem::take(&mut description.references).into();
     while let Some((owner, reference)) = queue.pop_front() {
         let name = normal(&reference.name);
@@ -73,6 +75,10 @@ pub(super) fn follow(
         };
         match reference.target {
             Target::Info => {
+                if only_modules {
+                    read.catalog.devices.clear();
+                    read.references.retain(|(owner, _)| !matches!(owner, Owner::Device(_)));
+                }
                 queue.extend(join(description, read));
                 files.insert(name, None);
             }

@@ -89,34 +89,59 @@ static PAIRS: [PairType; 7] = [
     pair("Unsigned8_S", Type::Unsigned(8), "status"),
 ];
 
+/// The types of IEC 61158-6-10 and IEC 61131, in which GSDML describes most data.
+static BASIC: [(&str, DataType); 31] = [
+    ("Unsigned8", DataType::Basic(Type::Unsigned(8))),
+    ("Unsigned16", DataType::Basic(Type::Unsigned(16))),
+    ("Unsigned32", DataType::Basic(Type::Unsigned(32))),
+    ("Unsigned64", DataType::Basic(Type::Unsigned(64))),
+    ("Integer8", DataType::Basic(Type::Integer(8))),
+    ("Integer16", DataType::Basic(Type::Integer(16))),
+    ("Integer32", DataType::Basic(Type::Integer(32))),
+    ("Integer64", DataType::Basic(Type::Integer(64))),
+    ("Float32", DataType::Basic(Type::Real32)),
+    ("Float64", DataType::Basic(Type::Real64)),
+    // One byte, of which bit 0 is the value.
+    ("Boolean", DataType::Basic(Type::Boolean)),
+    ("Bit", DataType::Bit),
+    ("BitArea", DataType::BitArea),
+    ("VisibleString", DataType::String(StringType::Visible)),
+    ("OctetString", DataType::String(StringType::Octet)),
+    ("UnicodeString8", DataType::String(StringType::Named("UnicodeString8"))),
+    ("61131_STRING", DataType::String(StringType::Named("61131_STRING"))),
+    ("61131_WSTRING", DataType::String(StringType::Named("61131_WSTRING"))),
+    ("OctetString_S", DataType::OctetsWithStatus),
+    ("F_MessageTrailer4Byte", DataType::Trailer(4)),
+    ("F_MessageTrailer5Byte", DataType::Trailer(5)),
+    ("Date", DataType::Basic(Type::Time(TimeFormat::Date))),
+    ("TimeOfDay with date indication", DataType::Basic(Type::TimeOfDay)),
+    ("TimeDifference with date indication", DataType::Basic(Type::TimeDifference)),
+    ("TimeOfDay without date indication", DataType::Basic(Type::Time(TimeFormat::TimeOfDay))),
+    ("TimeDifference without date indication", DataType::Basic(Type::Time(TimeFormat::TimeDifference))),
+    ("NetworkTime", DataType::Basic(Type::Time(TimeFormat::NetworkTime))),
+    ("NetworkTimeDifference", DataType::Basic(Type::Time(TimeFormat::NetworkTimeDifference))),
+    ("TimeStamp", DataType::Basic(Type::Time(TimeFormat::TimeStamp))),
+    ("TimeStampDifference", DataType::Basic(Type::Time(TimeFormat::TimeStampDifference))),
+    ("TimeStampDifferenceShort", DataType::Basic(Type::Time(TimeFormat::TimeStampDifferenceShort))),
+];
+
 impl DataType {
     /// The data type with this name.
     pub fn find(name: &str) -> Option<Self> {
-        Some(match name {
-            "Unsigned8" => DataType::Basic(Type::Unsigned(8)),
-            "Unsigned16" => DataType::Basic(Type::Unsigned(16)),
-            "Unsigned32" => DataType::Basic(Type::Unsigned(32)),
-            "Unsigned64" => DataType::Basic(Type::Unsigned(64)),
-            "Integer8" => DataType::Basic(Type::Integer(8)),
-            "Integer16" => DataType::Basic(Type::Integer(16)),
-            "Integer32" => DataType::Basic(Type::Integer(32)),
-            "Integer64" => DataType::Basic(Type::Integer(64)),
-            "Float32" => DataType::Basic(Type::Real32),
-            "Float64" => DataType::Basic(Type::Real64),
-            // One byte, of which bit 0 is the value.
-            "Boolean" => DataType::Basic(Type::Boolean),
-            "Bit" => DataType::Bit,
-            "BitArea" => DataType::BitArea,
-            "VisibleString" => DataType::String(StringType::Visible),
-            "OctetString" => DataType::String(StringType::Octet),
-            "UnicodeString8" => DataType::String(StringType::Named("UnicodeString8")),
-            "61131_STRING" => DataType::String(StringType::Named("61131_STRING")),
-            "61131_WSTRING" => DataType::String(StringType::Named("61131_WSTRING")),
-            "OctetString_S" => DataType::OctetsWithStatus,
-            "F_MessageTrailer4Byte" => DataType::Trailer(4),
-            "F_MessageTrailer5Byte" => DataType::Trailer(5),
-            _ => return time(name).map(DataType::Basic).or_else(|| profile(name)),
-        })
+        Self::all().find(|(other, _)| *other == name).map(|(_, ty)| ty)
+    }
+
+    /// The data type with this name in any case, and its name.
+    pub fn find_in_any_case(name: &str) -> Option<(&'static str, Self)> {
+        Self::all().find(|(other, _)| other.eq_ignore_ascii_case(name))
+    }
+
+    fn all() -> impl Iterator<Item = (&'static str, Self)> {
+        let numbers = NUMBERS.iter().map(|number| match number.name {
+            "V2" | "L2" => (number.name, DataType::Basic(number.base)),
+            name => (name, DataType::Number(number)),
+        });
+        BASIC.iter().copied().chain(numbers).chain(PAIRS.iter().map(|pair| (pair.name, DataType::Pair(pair))))
     }
 
     /// Length in bytes, where the name tells it.
@@ -140,30 +165,4 @@ impl PairType {
             ty => ty.bits().unwrap_or(0),
         }
     }
-}
-
-fn time(name: &str) -> Option<Type> {
-    Some(match name {
-        "Date" => Type::Time(TimeFormat::Date),
-        "TimeOfDay with date indication" => Type::TimeOfDay,
-        "TimeDifference with date indication" => Type::TimeDifference,
-        "TimeOfDay without date indication" => Type::Time(TimeFormat::TimeOfDay),
-        "TimeDifference without date indication" => Type::Time(TimeFormat::TimeDifference),
-        "NetworkTime" => Type::Time(TimeFormat::NetworkTime),
-        "NetworkTimeDifference" => Type::Time(TimeFormat::NetworkTimeDifference),
-        "TimeStamp" => Type::Time(TimeFormat::TimeStamp),
-        "TimeStampDifference" => Type::Time(TimeFormat::TimeStampDifference),
-        "TimeStampDifferenceShort" => Type::Time(TimeFormat::TimeStampDifferenceShort),
-        _ => return None,
-    })
-}
-
-fn profile(name: &str) -> Option<DataType> {
-    if let Some(number) = NUMBERS.iter().find(|number| number.name == name) {
-        return Some(match number.name {
-            "V2" | "L2" => DataType::Basic(number.base),
-            _ => DataType::Number(number),
-        });
-    }
-    PAIRS.iter().find(|pair| pair.name == name).map(DataType::Pair)
 }

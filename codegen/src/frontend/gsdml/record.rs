@@ -204,7 +204,15 @@ impl<'a> Reader<'a, '_> {
             return None;
         };
         let found = DataType::find(&given.text);
-        if found.is_none() {
+        if found.is_some() {
+            return found;
+        }
+        let similar = DataType::find_in_any_case(&given.text);
+        if let Some((name, _)) = similar {
+            let message = format!("`{}` is written in another case than GSDML has it", shortened(&given.text));
+            let diagnostic = Diagnostic::new(&codes::UNKNOWN_GSDML_TYPE, given.span, message);
+            self.diagnostics.push(diagnostic.label(format!("read as `{name}`")));
+        } else {
             let message = format!("`{}` is no data type of GSDML", shortened(&given.text));
             let diagnostic = Diagnostic::new(&codes::UNKNOWN_GSDML_TYPE, given.span, message);
             let diagnostic = diagnostic.label("kept as raw bytes of the length that is given");
@@ -213,7 +221,7 @@ impl<'a> Reader<'a, '_> {
                 _ => diagnostic,
             });
         }
-        found
+        similar.map(|(_, ty)| ty)
     }
 
     /// Default and allowed values.

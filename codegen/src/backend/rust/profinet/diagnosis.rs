@@ -8,7 +8,7 @@ use super::image::{self, FieldModel};
 use super::literal;
 use super::values::Values;
 use super::RustOptions;
-use crate::ir::{Catalog, CodeRow, Type, UnitDiagnosis, Value};
+use crate::ir::{Catalog, CodeRow, Type, UnitDiagnosis};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// The longest user structure that becomes a struct: that of an alarm lies far below.
@@ -20,29 +20,34 @@ const ERRORS: &str = "channel_diagnosis";
 /// The table of extended errors; their first cell is the error type that they belong to.
 const EXTENDED: &str = "extended_channel_diagnosis";
 
-/// The errors of channels that the source names, as elements of a table: each by its type once.
+/// What an error is known by: the application process whose profile defines it, and its type.
+type Key = (u32, u16);
+
+/// The errors of channels that the source names, as elements of a table: each once.
 pub(super) fn channel_errors(catalog: &Catalog) -> Vec<String> {
     let rows = |name: &'static str| {
         catalog.code_tables.iter().filter(move |table| table.name == name).flat_map(|table| &table.rows)
     };
-    let mut extended: BTreeMap<u16, BTreeMap<u16, &CodeRow>> = BTreeMap::new();
-    for row in rows(EXTENDED) {
-        let parent = row.cells.first().and_then(Value::as_int).and_then(|parent| u16::try_from(parent).ok());
-        if let (Some(parent), Ok(code)) = (parent, u16::try_from(row.code)) {
-            extended.entry(parent).or_default().entry(code).or_insert(row);
-        }
-    }
-    let mut errors: BTreeMap<u16, Option<&CodeRow>> = extended.keys().map(|&code| (code, None)).collect();
+    let mut errors: BTreeMap<Key, (Option<&CodeRow>, BTreeMap<u16, &CodeRow>)> = BTreeMap::new();
     for row in rows(ERRORS) {
-        if let Ok(code) = u16::try_from(row.code) {
-            errors.entry(code).or_default().get_or_insert(row);
+        if let (Some(api), Ok(code)) = (number(row, 1), u16::try_from(row.code)) {
+            errors.entry((api, code)).or_default().0.get_or_insert(row);
         }
     }
-    let none = BTreeMap::new();
-    errors.iter().map(|(code, row)| error(*code, *row, extended.get(code).unwrap_or(&none))).collect()
+    for row in rows(EXTENDED) {
+        let parent = number(row, 0).and_then(|parent| u16::try_from(parent).ok());
+        if let (Some(parent), Some(api), Ok(code)) = (parent, number(row, 2), u16::try_from(row.code)) {
+            errors.entry((api, parent)).or_default().1.entry(code).or_insert(row);
+        }
+    }
+    errors.iter().map(|(key, (row, extended))| error(*key, *row, extended)).collect()
 }
 
-fn error(code: u16, row: Option<&CodeRow>, extended: &BTreeMap<u16, &CodeRow>) -> String {
+fn number(row: &CodeRow, cell: usize) -> Option<u32> {
+    u32::try_from(row.cells.get(cell)?.as_int()?).ok()
+}
+
+fn error((api, code): Key, row: Option<&CodeRow>, extended: &BTreeMap<u16, &CodeRow>) -> String {
     let (name, help) = row.map_or(("\"\"".to_owned(), "\"\"".to_owned()), texts);
     let extended: Vec<String> = extended
         .iter()
@@ -51,7 +56,9 @@ fn error(code: u16, row: Option<&CodeRow>, extended: &BTreeMap<u16, &CodeRow>) -
             format!("rt::profinet::ExtendedError::new(«0x{code:04X}¦ {name}¦ {help}»)")
         })
         .collect();
-    format!("rt::profinet::ChannelError::new(«0x{code:04X}¦ {name}¦ {help}¦ &[«{}»]»)", extended.join("¦ "))
+    let of_api = if api == 0 { String::new() } else { format!(".of_api(0x{api:04X})") };
+    let extended = extended.join("¦ ");
+    format!("rt::profinet::ChannelError::new(«0x{code:04X}¦ {name}¦ {help}¦ &[«{extended}»]»){of_api}")
 }
 
 fn texts(row: &CodeRow) -> (String, String) {

@@ -65,6 +65,8 @@ struct DiagnosisTemplate<'a> {
     runtime: &'a str,
     errors: Vec<String>,
     units: Vec<UnitModel>,
+    /// Whether there is a module of enumerations.
+    values: bool,
 }
 
 /// The Rust module for all device access points of `catalog`; `None` where there is none.
@@ -104,7 +106,8 @@ fn body(scope: &Scope<'_>) -> String {
     let errors = diagnosis::channel_errors(scope.catalog);
     let units = diagnosis::units(scope.catalog, &scope.values, scope.options);
     if !errors.is_empty() || !units.is_empty() {
-        let content = render(&DiagnosisTemplate { runtime, errors, units });
+        let values = scope.values.iter().next().is_some();
+        let content = render(&DiagnosisTemplate { runtime, errors, units, values });
         module(&mut out, "Diagnosis: what error types and user structures mean.", "diagnosis", &content);
     }
     out

@@ -1,0 +1,50 @@
+//! The default of a whole array that its first element has.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+
+use super::items::Entry;
+use super::object::{Form, RawSub, RawValue};
+use super::reader::Given;
+use super::types::Types;
+
+/// Takes it apart: the first element keeps its part, and the others' parts come back by their position in `entries`.
+///
+/// `of_entry` has the sub-item of the object that each entry is described by.
+pub(super) fn take_apart<'a>(
+    types: &mut Types<'_, 'a>,
+    entries: &[Entry<'_, 'a>],
+    of_entry: &[Option<usize>],
+    subs: &mut [RawSub<'a>],
+) -> HashMap<usize, RawValue<'a>> {
+    let mut parts = HashMap::new();
+    for (first, entry) in entries.iter().enumerate().filter(|(_, entry)| entry.element == Some(1)) {
+        // The other elements, of which the object says nothing.
+        let others = entries.iter().zip(of_entry).skip(first + 1);
+        let others = others.take_while(|(other, sub)| std::ptr::eq(other.field, entry.field) && sub.is_none()).count();
+        let sub = of_entry.get(first).copied().flatten().and_then(|at| subs.get_mut(at));
+        let Some(whole) = sub.and_then(|sub| sub.info.default.as_mut()) else { continue };
+        let digits = types.bits(entry.ty).filter(|bits| bits % 8 == 0).map_or(0, |bits| bits as usize / 4);
+        let text = whole.given.text.as_ref();
+        let is_whole = text.len() == digits * (others + 1) && text.bytes().all(|digit| digit.is_ascii_hexdigit());
+        if whole.form != Form::Data || others == 0 || !is_whole {
+            continue;
+        }
+        for number in 1..=others {
+            parts.insert(first + number, RawValue { form: Form::Data, given: part(&whole.given, number, digits) });
+        }
+        whole.given = part(&whole.given, 0, digits);
+    }
+    parts
+}
+
+fn part<'a>(whole: &Given<'a>, number: usize, digits: usize) -> Given<'a> {
+    let range = number * digits..(number + 1) * digits;
+    let start = whole.span.start + range.start as u32;
+    let text = match &whole.text {
+        Cow::Borrowed(text) => Cow::Borrowed(&text[range]),
+        Cow::Owned(text) => Cow::Owned(text[range].to_owned()),
+    };
+    let span = crate::source::Span { start, end: (start + digits as u32).min(whole.span.end), ..whole.span };
+    Given { text, span }
+}
