@@ -2,6 +2,7 @@
 
 mod fixed;
 mod octets;
+mod scaled;
 mod text;
 
 use core::fmt;

@@ -70,8 +70,15 @@ pub fn set(data: &mut [u8], bit: usize, width: u32, value: u64) {
 /// Writes `bytes` at `bit` of `data`. Bits that would fall beyond `data` are dropped.
 #[inline]
 pub fn set_bytes(data: &mut [u8], bit: usize, bytes: &[u8]) {
-    for (chunk, at) in bytes.chunks(8).zip((bit..).step_by(64)) {
-        set(data, at, 8 * chunk.len() as u32, from_bytes(chunk));
+    set_bits(data, bit, 8 * bytes.len(), bytes);
+}
+
+/// Writes the first `width` bits of `bytes` at `bit` of `data`. Bits that would fall beyond `data` are dropped.
+#[inline]
+pub fn set_bits(data: &mut [u8], bit: usize, width: usize, bytes: &[u8]) {
+    for (chunk, from) in bytes.chunks(8).zip((0..width).step_by(64)) {
+        let left = width - from;
+        set(data, bit.saturating_add(from), part(chunk, left), from_bytes(chunk));
     }
 }
 
@@ -89,20 +96,49 @@ pub const fn get_bytes<const N: usize>(data: &[u8], bit: usize) -> [u8; N] {
     out
 }
 
+/// The first `width` bits of the `N` bytes at `bit`; those behind are 0, and so are bits beyond `data`.
+#[must_use]
+#[inline]
+pub const fn get_bits<const N: usize>(data: &[u8], bit: usize, width: usize) -> [u8; N] {
+    let mut out = get_bytes(data, bit);
+    let mut at = width / 8;
+    let mut kept = mask(width as u32 % 8) as u8;
+    while at < N {
+        out[at] &= kept;
+        at += 1;
+        kept = 0;
+    }
+    out
+}
+
 /// `buffer` with `bytes` at `bit`. Bits that would fall beyond `buffer` are dropped.
 #[must_use]
 #[inline]
 pub const fn put_bytes<const N: usize>(buffer: [u8; N], bit: usize, bytes: &[u8]) -> [u8; N] {
+    put_bits(buffer, bit, 8 * bytes.len(), bytes)
+}
+
+/// `buffer` with the first `width` bits of `bytes` at `bit`. Bits that would fall beyond `buffer` are dropped.
+#[must_use]
+#[inline]
+pub const fn put_bits<const N: usize>(buffer: [u8; N], bit: usize, width: usize, bytes: &[u8]) -> [u8; N] {
     let mut out = buffer;
-    let mut rest = bytes;
+    let (mut rest, mut left) = (bytes, width);
     let mut to = bit;
-    while !rest.is_empty() && to / 8 < N {
-        let width = if rest.len() < 8 { 8 * rest.len() as u32 } else { 64 };
-        out = put(out, to, width, from_bytes(rest));
+    while !rest.is_empty() && left > 0 && to / 8 < N {
+        out = put(out, to, part(rest, left), from_bytes(rest));
         rest = skip(rest, 8);
+        left = left.saturating_sub(64);
         to += 64;
     }
     out
+}
+
+/// How many of the `left` bits that are still to be moved are in the first word of `bytes`.
+#[inline]
+const fn part(bytes: &[u8], left: usize) -> u32 {
+    let word = if bytes.len() < 8 { 8 * bytes.len() } else { 64 };
+    (if left < word { left } else { word }) as u32
 }
 
 /// `data` without its first `count` bytes.
@@ -206,12 +242,36 @@ mod tests {
     }
 
     #[test]
+    fn parts_of_byte_strings_agree_with_bit_by_bit() {
+        let data = noisy_bytes(9);
+        for (bit, width) in (0..LEN * 8 + 5).flat_map(|bit| (0..=80).map(move |width| (bit, width))) {
+            let got: [u8; 10] = get_bits(&data, bit, width);
+            assert!((0..80).all(|at| bit_of(&got, at) == (at < width && bit_of(&data, bit + at))), "get {bit} {width}");
+            let mut expected = [0xA5; LEN];
+            (0..width).for_each(|at| set_bit(&mut expected, bit + at, bit_of(&data, at)));
+            assert_eq!(put_bits([0xA5; LEN], bit, width, &data[..10]), expected, "put {bit} {width}");
+            let mut changed = [0xA5; LEN];
+            set_bits(&mut changed, bit, width, &data[..10]);
+            assert_eq!(changed, expected, "set {bit} {width}");
+        }
+        // A width beyond the bytes moves the bytes.
+        assert_eq!(put_bits([0xFF; 3], 4, 100, &[0]), [0x0F, 0xF0, 0xFF]);
+        let mut changed = [0xFF; 3];
+        set_bits(&mut changed, 4, usize::MAX, &[0]);
+        assert_eq!(changed, [0x0F, 0xF0, 0xFF]);
+        assert_eq!(get_bits::<2>(&[0xFF; 3], 4, usize::MAX), [0xFF; 2]);
+    }
+
+    #[test]
     fn far_beyond_the_end() {
         assert_eq!(get(&[0xFF; 3], usize::MAX, 64), 0);
         assert_eq!(put([0; 3], usize::MAX, 64, u64::MAX), [0; 3]);
         assert_eq!(get_bytes::<20>(&[0xFF; 3], usize::MAX - 70), [0; 20]);
         assert_eq!(put_bytes([0; 3], usize::MAX, &[0xFF; 20]), [0; 3]);
         assert_eq!(put_bytes([0; 0], 0, &[1]), []);
+        let mut data = [0; 3];
+        set_bytes(&mut data, usize::MAX - 70, &[0xFF; 20]);
+        assert_eq!(data, [0; 3]);
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 use core::fmt;
 
+use crate::register::Register;
+
 /// A bus, or a protocol that runs over one: which form its addresses have.
 pub trait Bus {
     /// Where a value is found on this bus.
@@ -19,7 +21,7 @@ pub enum CanOpen {}
 #[derive(Clone, Copy, Debug)]
 pub enum CoE {}
 
-/// Modbus RTU or TCP: holding registers.
+/// Modbus RTU or TCP: registers and single bits.
 #[derive(Clone, Copy, Debug)]
 pub enum Modbus {}
 
@@ -65,21 +67,18 @@ pub struct Object {
     pub sub_index: u8,
 }
 
+impl Object {
+    /// The entry at `index` and `sub_index`.
+    #[must_use]
+    pub const fn new(index: u16, sub_index: u8) -> Self {
+        Self { index, sub_index }
+    }
+}
+
 impl fmt::Display for Object {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:#06X}:{:02X}", self.index, self.sub_index)
     }
-}
-
-/// One or more consecutive Modbus holding registers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Register {
-    /// The first register's address as it is on the wire, counted from 0.
-    pub address: u16,
-    /// How many registers of 16 bits the value takes.
-    pub words: u8,
-    /// Whether the register with the lowest address holds the least significant word.
-    pub low_word_first: bool,
 }
 
 /// A value inside a PROFINET record.
@@ -99,7 +98,7 @@ pub struct Record {
 
 /// The number of a parameter of a serial protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Parameter(pub u16);
+pub struct Parameter(pub u32);
 
 #[cfg(test)]
 mod tests {

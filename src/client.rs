@@ -105,7 +105,7 @@ mod tests {
         }
     }
 
-    fn first<C: Client<Bus = Serial>>(mut client: C, number: u16) -> Option<u8> {
+    fn first<C: Client<Bus = Serial>>(mut client: C, number: u32) -> Option<u8> {
         let mut buffer = [0];
         client.read(Parameter(number), &mut buffer).ok().map(|_| buffer[0])
     }

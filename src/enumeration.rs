@@ -1,11 +1,11 @@
-//! Values that have names.
+//! Values, or bits, that have names.
 
 use crate::data_type::DataType;
 use crate::error::{LengthError, OutOfRange};
 use crate::range::Range;
 use crate::value::{Fixed, Value};
 
-/// An enumeration of a device: named values of an integer.
+/// An enumeration of a device: named values of an integer. A bit field, an integer whose bits have names, is one, too.
 ///
 /// Generated enumerations have a variant for every other value, so that reading never fails on a device that is newer
 /// than its description. One that implements this trait is the [`Value`] of an item:

@@ -8,6 +8,7 @@
 
 mod assignment;
 mod clock;
+mod depends_on;
 mod mailbox;
 mod module;
 mod pdo;
@@ -17,8 +18,9 @@ mod sync_manager;
 
 pub use assignment::{Assignment, AssignmentError, Placed};
 pub use clock::{ClockMode, ClockTime};
+pub use depends_on::DependsOn;
 pub use mailbox::{Coe, InitCommand, Mailbox, Transition, Transitions};
-pub use module::{Fit, Module, PdoGroup, Slot, Slots};
+pub use module::{Fit, Increments, Module, PdoGroup, Slot, SlotGroup, SlotObjects, Slots};
 pub use pdo::{Direction, PdoInfo};
 pub use plan::{Place, PlanError, SlotPlan};
 pub use startup::{StartupCommand, StartupData};

@@ -1,6 +1,8 @@
 //! The value that an item has after power-on.
 
+use crate::enumeration::Enumeration;
 use crate::node_id::NodeId;
+use crate::value::Value;
 
 /// The value after power-on, as the description of the device gives it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -54,6 +56,15 @@ macro_rules! add_node_id {
 
 add_node_id! { u8 u16 u32 u64 i8 i16 i32 i64 }
 
+impl<E: Enumeration> AddNodeId for E
+where
+    <E::Base as Value>::Native: AddNodeId,
+{
+    fn add_node_id(self, node: NodeId) -> Option<Self> {
+        self.native().add_node_id(node).map(E::from_native)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -65,6 +76,27 @@ mod tests {
         assert_eq!(Initial::Value(7_u32).resolve(node), Some(7));
         assert_eq!(Initial::NodeId(0x600_u32).resolve(node), Some(0x605));
         assert_eq!(Initial::NodeId(-5_i8).resolve(node), Some(0));
+    }
+
+    #[test]
+    fn a_bit_field_has_it_in_its_number() {
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        struct CobId(u32);
+
+        impl Enumeration for CobId {
+            type Base = u32;
+
+            fn from_native(native: u32) -> Self {
+                Self(native)
+            }
+
+            fn native(self) -> u32 {
+                self.0
+            }
+        }
+
+        let node = NodeId::new(5).unwrap();
+        assert_eq!(Initial::NodeId(CobId(0x8000_0180)).resolve(node), Some(CobId(0x8000_0185)));
     }
 
     #[test]

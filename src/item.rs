@@ -4,10 +4,15 @@ use core::fmt;
 use core::marker::PhantomData;
 
 use crate::accessor::Accessor;
+use crate::error::OutOfRange;
 use crate::flags::Flags;
 use crate::initial::Initial;
-use crate::location::{OnCanOpen, OnCoE};
+use crate::location::{
+    OnCanOpen, OnCanOpenAndCoE, OnCanOpenAndModbus, OnCanOpenCoEAndModbus, OnCoE, OnCoEAndModbus, OnModbus,
+};
+use crate::quantity::Quantity;
 use crate::range::Range;
+use crate::register::Register;
 use crate::value::Value;
 
 /// One value of a device: an entry of its object dictionary, a register, a parameter.
@@ -63,7 +68,7 @@ impl<V: Value, A, L> Item<V, A, L> {
         &self.initial
     }
 
-    /// The unit of the value; empty where there is none.
+    /// The unit of the value, of the physical one where it is a [`Quantity`]; empty where there is none.
     #[must_use]
     pub const fn unit(&self) -> &'static str {
         self.unit
@@ -78,6 +83,50 @@ impl<V: Value, A, L> Item<V, A, L> {
     /// Joins the item to a client of one device.
     pub fn at<C>(self, client: &mut C) -> Accessor<'_, C, V, A, L> {
         Accessor::new(client, self)
+    }
+}
+
+impl<V: Quantity, A, L> Item<V, A, L> {
+    fn checked(&self, raw: V::Native) -> Result<V::Native, OutOfRange> {
+        if V::in_range(raw, &self.range) {
+            Ok(raw)
+        } else {
+            Err(OutOfRange)
+        }
+    }
+}
+
+impl<V: Quantity<Other = ()>, A, L> Item<V, A, L> {
+    /// The value in its unit, from a raw number that came in a PDO, say.
+    #[must_use]
+    pub fn physical(&self, raw: V::Native) -> V::Physical {
+        V::physical(raw, ())
+    }
+
+    /// The raw number that is nearest to a value in the item's unit.
+    ///
+    /// # Errors
+    ///
+    /// [`OutOfRange`] where it is outside the item's range, doesn't fit its type, or means something else.
+    pub fn raw(&self, physical: f64) -> Result<V::Native, OutOfRange> {
+        self.checked(V::raw(physical, ())?)
+    }
+}
+
+impl<V: Quantity<Other = f64>, A, L> Item<V, A, L> {
+    /// The value in its unit. `other` is the value that its scale depends on.
+    #[must_use]
+    pub fn physical_by(&self, raw: V::Native, other: f64) -> V::Physical {
+        V::physical(raw, other)
+    }
+
+    /// The raw number that is nearest to a value in the item's unit. `other` is the value that its scale depends on.
+    ///
+    /// # Errors
+    ///
+    /// [`OutOfRange`] where it is outside the item's range, doesn't fit its type, or means something else.
+    pub fn raw_by(&self, physical: f64, other: f64) -> Result<V::Native, OutOfRange> {
+        self.checked(V::raw(physical, other)?)
     }
 }
 
@@ -126,6 +175,45 @@ macro_rules! objects {
 
 objects!(OnCanOpen, canopen: object, object_with_default, flagged_object, flagged_object_with_default);
 objects!(OnCoE, coe: coe_object, coe_object_with_default, flagged_coe_object, flagged_coe_object_with_default);
+objects!(
+    OnCanOpenAndCoE,
+    object: shared_object,
+    shared_object_with_default,
+    flagged_shared_object,
+    flagged_shared_object_with_default
+);
+
+macro_rules! registers {
+    ($location:ty, $on:ident, ($($argument:ident: $ty:ty),*)) => {
+        impl<V: Value, A> Item<V, A, $location> {
+            /// A register of which nothing else is known.
+            #[must_use]
+            pub const fn register($($argument: $ty,)* register: Register, name: &'static str, flags: Flags) -> Self {
+                let location = <$location>::$on($($argument,)* register);
+                Self::new(location, name, Range::Full, Initial::Unknown, "", flags)
+            }
+
+            /// A register with a range or a unit.
+            #[must_use]
+            pub const fn register_within(
+                $($argument: $ty,)*
+                register: Register,
+                name: &'static str,
+                range: Range<V::Native>,
+                unit: &'static str,
+                flags: Flags,
+            ) -> Self {
+                let location = <$location>::$on($($argument,)* register);
+                Self::new(location, name, range, Initial::Unknown, unit, flags)
+            }
+        }
+    };
+}
+
+registers!(OnModbus, modbus, ());
+registers!(OnCanOpenAndModbus, register, (index: u16, sub_index: u8));
+registers!(OnCoEAndModbus, register, (index: u16, sub_index: u8));
+registers!(OnCanOpenCoEAndModbus, register, (index: u16, sub_index: u8));
 
 impl<V: Value, A> Item<V, A, OnCoE> {
     /// The same entry with `offset` added to the index: that of a module in another slot.
@@ -194,6 +282,25 @@ mod tests {
         const INPUT: Item<u8, Rw, OnCoE> = Item::coe_object(0x6000, 1, "Input");
         const OTHER: Item<u8, Rw, OnCoE> = INPUT.shifted(0x30);
         assert_eq!((OTHER.location().coe.index, OTHER.location().coe.sub_index, OTHER.name()), (0x6030, 1, "Input"));
+    }
+
+    #[test]
+    fn registers() {
+        type Everywhere = Item<i32, Rw, OnCanOpenCoEAndModbus>;
+        type OnRegisters = Item<u16, Rw, OnModbus>;
+        const SPEED: Everywhere = Everywhere::register_within(
+            0x203F,
+            1,
+            Register::low_first(63, 2),
+            "Speed",
+            Range::From(0),
+            "rev/s",
+            Flags::RPDO,
+        );
+        assert_eq!((SPEED.location().coe.index, SPEED.location().modbus.count), (0x203F, 2));
+        assert_eq!((*SPEED.range(), *SPEED.initial(), SPEED.unit()), (Range::From(0), Initial::Unknown, "rev/s"));
+        const STATUS: OnRegisters = OnRegisters::register(Register::holding(5), "Status", Flags::NONE);
+        assert_eq!((STATUS.location().modbus.address, *STATUS.range()), (5, Range::Full));
     }
 
     #[test]

@@ -67,9 +67,11 @@ extern crate std;
 
 mod access;
 mod accessor;
+mod bit_field;
 pub mod bits;
 mod bus;
 mod client;
+pub mod codes;
 mod data_type;
 mod enumeration;
 mod error;
@@ -83,7 +85,9 @@ mod location;
 mod node_id;
 pub mod pdo;
 pub mod profinet;
+mod quantity;
 mod range;
+mod register;
 pub mod table;
 mod text;
 mod time;
@@ -92,7 +96,8 @@ mod wide;
 
 pub use access::{Const, Readable, Ro, Rw, Wo, Writable};
 pub use accessor::Accessor;
-pub use bus::{Bus, CanOpen, CoE, Modbus, Object, Parameter, Profinet, Record, Register, Serial};
+pub use bit_field::DebugBits;
+pub use bus::{Bus, CanOpen, CoE, Modbus, Object, Parameter, Profinet, Record, Serial};
 pub use client::{AsyncClient, Client};
 pub use data_type::DataType;
 pub use enumeration::Enumeration;
@@ -101,10 +106,15 @@ pub use flags::Flags;
 pub use identity::Identity;
 pub use initial::{AddNodeId, Initial};
 pub use item::Item;
-pub use location::{Absent, Location, On, OnCanOpen, OnCanOpenAndCoE, OnCoE};
+pub use location::{
+    Absent, Location, On, OnCanOpen, OnCanOpenAndCoE, OnCanOpenAndModbus, OnCanOpenCoEAndModbus, OnCoE, OnCoEAndModbus,
+    OnModbus, OnSerial,
+};
 pub use node_id::NodeId;
 pub use pdo::{CobId, MappedEntry, Pdo, SdoWrite};
+pub use quantity::{Exponential, Fraction, Number, OrNone, PerItem, Quantity, Reciprocal, Scaled};
 pub use range::Range;
+pub use register::{Register, RegisterPart, RegisterTable, WordOrder};
 pub use table::{AccessRights, Bound, Entry, RawInitial};
 pub use text::{Domain, OctetString, Opaque, UnicodeString, Utf16, VisibleString};
 pub use time::{TimeDifference, TimeOfDay};

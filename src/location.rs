@@ -1,6 +1,7 @@
 //! Where an item is found: at most one address on each bus.
 
-use crate::bus::{Bus, CanOpen, CoE, Modbus, Object, Parameter, Profinet, Record, Register, Serial};
+use crate::bus::{Bus, CanOpen, CoE, Modbus, Object, Parameter, Profinet, Record, Serial};
+use crate::register::Register;
 
 /// Stands in a [`Location`] for a bus on which the item doesn't exist.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -14,7 +15,7 @@ pub struct Absent;
 /// const TARGET_POSITION: Location<Object, Object, Register> = Location {
 ///     canopen: Object { index: 0x607A, sub_index: 0 },
 ///     coe: Object { index: 0x607A, sub_index: 0 },
-///     modbus: Register { address: 0x8009, words: 2, low_word_first: false },
+///     modbus: Register::high_first(0x8009, 2),
 ///     profinet: Absent,
 ///     serial: Absent,
 /// };
@@ -32,6 +33,14 @@ pub struct Location<C = Absent, E = Absent, M = Absent, P = Absent, S = Absent> 
     pub profinet: P,
     /// On a serial protocol: [`Parameter`] or [`Absent`].
     pub serial: S,
+}
+
+impl<C, E, M, P, S> Location<C, E, M, P, S> {
+    /// The address on each bus.
+    #[must_use]
+    pub const fn new(canopen: C, coe: E, modbus: M, profinet: P, serial: S) -> Self {
+        Self { canopen, coe, modbus, profinet, serial }
+    }
 }
 
 /// Implemented by the locations that have an address on bus `B`.
@@ -83,6 +92,21 @@ pub type OnCoE = Location<Absent, Object>;
 /// The location of an item that has the same object address on CANopen and on CANopen over EtherCAT.
 pub type OnCanOpenAndCoE = Location<Object, Object>;
 
+/// The location of an item that exists on Modbus only.
+pub type OnModbus = Location<Absent, Absent, Register>;
+
+/// The location of an item that is an object on CANopen and a register on Modbus.
+pub type OnCanOpenAndModbus = Location<Object, Absent, Register>;
+
+/// The location of an item that is an object on CANopen over EtherCAT and a register on Modbus.
+pub type OnCoEAndModbus = Location<Absent, Object, Register>;
+
+/// The location of an item that is the same object on CANopen and on CANopen over EtherCAT, and a register on Modbus.
+pub type OnCanOpenCoEAndModbus = Location<Object, Object, Register>;
+
+/// The location of an item that exists on a serial protocol only.
+pub type OnSerial = Location<Absent, Absent, Absent, Absent, Parameter>;
+
 impl OnCanOpen {
     /// An object of a CANopen device.
     #[must_use]
@@ -107,6 +131,50 @@ impl OnCanOpenAndCoE {
     }
 }
 
+impl OnModbus {
+    /// A register of a Modbus device.
+    #[must_use]
+    pub const fn modbus(register: Register) -> Self {
+        registers(Absent, Absent, register)
+    }
+}
+
+impl OnCanOpenAndModbus {
+    /// An object that is a register, too.
+    #[must_use]
+    pub const fn register(index: u16, sub_index: u8, register: Register) -> Self {
+        registers(Object { index, sub_index }, Absent, register)
+    }
+}
+
+impl OnCoEAndModbus {
+    /// An object that is a register, too.
+    #[must_use]
+    pub const fn register(index: u16, sub_index: u8, register: Register) -> Self {
+        registers(Absent, Object { index, sub_index }, register)
+    }
+}
+
+impl OnCanOpenCoEAndModbus {
+    /// An object, the same on both buses, that is a register, too.
+    #[must_use]
+    pub const fn register(index: u16, sub_index: u8, register: Register) -> Self {
+        registers(Object { index, sub_index }, Object { index, sub_index }, register)
+    }
+}
+
+impl OnSerial {
+    /// A parameter of a serial protocol.
+    #[must_use]
+    pub const fn serial(number: u32) -> Self {
+        Location { canopen: Absent, coe: Absent, modbus: Absent, profinet: Absent, serial: Parameter(number) }
+    }
+}
+
+const fn registers<C: Copy, E: Copy>(canopen: C, coe: E, modbus: Register) -> Location<C, E, Register> {
+    Location { canopen, coe, modbus, profinet: Absent, serial: Absent }
+}
+
 const fn objects<C: Copy, E: Copy>(canopen: C, coe: E) -> Location<C, E> {
     Location { canopen, coe, modbus: Absent, profinet: Absent, serial: Absent }
 }
@@ -125,11 +193,24 @@ mod tests {
     }
 
     #[test]
+    fn a_register_may_be_an_object_too() {
+        let (object, register) = (Object { index: 0x2008, sub_index: 1 }, Register::low_first(8, 2));
+        let everywhere = OnCanOpenCoEAndModbus::register(0x2008, 1, register);
+        assert_eq!(On::<CanOpen>::address(&everywhere), object);
+        assert_eq!(On::<CoE>::address(&everywhere), object);
+        assert_eq!(On::<Modbus>::address(&everywhere), register);
+        assert_eq!(On::<CanOpen>::address(&OnCanOpenAndModbus::register(0x2008, 1, register)), object);
+        assert_eq!(On::<CoE>::address(&OnCoEAndModbus::register(0x2008, 1, register)), object);
+        assert_eq!(On::<Modbus>::address(&OnModbus::modbus(register)), register);
+        assert_eq!(On::<Serial>::address(&OnSerial::serial(70_000)), Parameter(70_000));
+    }
+
+    #[test]
     fn every_bus_has_its_own_address() {
         let everywhere = Location {
             canopen: Object { index: 1, sub_index: 2 },
             coe: Object { index: 3, sub_index: 4 },
-            modbus: Register { address: 5, words: 1, low_word_first: false },
+            modbus: Register::holding(5),
             profinet: Record { api: 0, slot: 1, subslot: 1, index: 6, offset: 7 },
             serial: Parameter(8),
         };

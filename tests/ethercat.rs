@@ -1,5 +1,6 @@
-//! EtherCAT from description to bytes: the bindings of `data/coupler.esi.xml`, a modular coupler and a servo drive, with
-//! process images and start-up lists that were worked out by hand.
+//! EtherCAT from description to bytes: the bindings of `data/coupler.esi.xml`, a modular coupler and a servo drive, and
+//! of `data/gateway.esi.xml`, which has groups of slots, with process images and start-up lists that were worked out by
+//! hand.
 
 use lexibus::ethercat::{Assignment, AssignmentError, PlanError, SlotPlan, Transition};
 use lexibus::{Client, CoE, Object, Pdo, SdoWrite};
@@ -16,6 +17,13 @@ lexibus::dictionary! {
     pub mod drive = "tests/data/coupler.esi.xml" { device: "sv-*@latest", objects: "0x6000..0xFFFF" }
 }
 
+lexibus::dictionary! {
+    /// Slots in groups, and PDOs of any number of bits.
+    #[allow(deprecated)]
+    pub mod bits = "tests/data/gateway.esi.xml";
+}
+
+use bits::{bs_175, gw_4};
 use io::{cp_32, modules, sv_1};
 
 /// Slot 0: inputs, slot 1: analogue inputs, slot 2: outputs, slot 4: inputs.
@@ -78,16 +86,25 @@ fn what_does_not_fit_is_refused() {
     assert_eq!(SlotPlan::<32>::new(&cp_32::DEVICE).unwrap().check(), Err(PlanError::Empty(0)));
 }
 
-#[test]
-fn the_start_up_list_of_a_plan() {
+/// What a plan sends on a change of state: index, sub-index, bytes.
+fn commands<const N: usize>(plan: &SlotPlan<N>, transition: Transition) -> Vec<(u16, u8, Vec<u8>)> {
     let mut commands = Vec::new();
-    let collected = plan().try_for_each_command(Transition::PS, |command| {
+    let collected = plan.try_for_each_command(transition, |command| {
         commands.push((command.object.index, command.object.sub_index, command.data().to_vec()));
         Ok::<(), ()>(())
     });
     assert_eq!(collected, Ok(()));
-    let expected: &[(u16, u8, &[u8])] = &[
-        (0xF030, 0, &[0]),
+    commands
+}
+
+fn expected(list: &[(u16, u8, &[u8])]) -> Vec<(u16, u8, Vec<u8>)> {
+    list.iter().map(|&(index, sub, data)| (index, sub, data.to_vec())).collect()
+}
+
+#[test]
+fn the_start_up_list_of_a_plan() {
+    let list = [
+        (0xF030, 0, &[0][..]),
         (0xF030, 1, &[0x01, 0x10, 0, 0]),
         (0xF030, 2, &[0x01, 0x30, 0, 0]),
         (0xF030, 3, &[0x01, 0x20, 0, 0]),
@@ -105,8 +122,162 @@ fn the_start_up_list_of_a_plan() {
         (0x1C13, 4, &[0x04, 0x1A]),
         (0x1C13, 0, &[4]),
     ];
-    let expected: Vec<_> = expected.iter().map(|&(index, sub, data)| (index, sub, data.to_vec())).collect();
-    assert_eq!(commands, expected);
+    assert_eq!(commands(&plan(), Transition::PS), expected(&list));
+    assert_eq!(commands(&plan(), Transition::IP), []);
+}
+
+/// Slots 0 and 1 are group 1, slots 2 and 3 group 2: modules of 2, 4, 4 and 2 bits.
+fn groups() -> SlotPlan<4> {
+    let mut plan = SlotPlan::new(&gw_4::DEVICE).unwrap();
+    plan.plug(0, &bits::modules::bit_2::MODULE).unwrap();
+    plan.plug(1, &bits::modules::bit_4::MODULE).unwrap();
+    plan.plug(2, &bits::modules::bit_4::MODULE).unwrap();
+    plan.plug(3, &bits::modules::bit_2::MODULE).unwrap();
+    plan.check().unwrap();
+    plan
+}
+
+#[test]
+fn indices_grow_with_slot_and_slot_group() {
+    // PDOs by 1 a slot and 0x20 a group, 0x30 in group 2; objects by 0x10 a slot in group 1, 0x20 in group 2, and 0x800 a group.
+    let list = [
+        (0x8800, 1, &[1][..]),
+        (0x9000, 1, &[1]),
+        (0x1C12, 0, &[0]),
+        (0x1C13, 0, &[0]),
+        // Outputs: by slot with an object by both, then by group with an object by group and one that is the device's own.
+        (0x1600, 0, &[0]),
+        (0x1600, 1, &[0x02, 1, 0x00, 0x78]),
+        (0x1600, 0, &[1]),
+        (0x1620, 0, &[0]),
+        (0x1620, 1, &[0x03, 2, 0x00, 0x78]),
+        (0x1620, 2, &[0x01, 1, 0x00, 0xF2]),
+        (0x1620, 0, &[2]),
+        (0x1660, 0, &[0]),
+        (0x1660, 1, &[0x03, 2, 0x00, 0x80]),
+        (0x1660, 2, &[0x01, 1, 0x00, 0xF2]),
+        (0x1660, 0, &[2]),
+        (0x1603, 0, &[0]),
+        (0x1603, 1, &[0x02, 1, 0x60, 0x80]),
+        (0x1603, 0, &[1]),
+        // Inputs: by both with objects by slot, then by slot with an object by both.
+        (0x1A20, 0, &[0]),
+        (0x1A20, 1, &[0x01, 1, 0x00, 0x60]),
+        (0x1A20, 2, &[0x01, 2, 0x00, 0x60]),
+        (0x1A20, 0, &[2]),
+        (0x1A01, 0, &[0]),
+        (0x1A01, 1, &[0x04, 1, 0x10, 0x68]),
+        (0x1A01, 0, &[1]),
+        (0x1A02, 0, &[0]),
+        (0x1A02, 1, &[0x04, 1, 0x40, 0x70]),
+        (0x1A02, 0, &[1]),
+        (0x1A63, 0, &[0]),
+        (0x1A63, 1, &[0x01, 1, 0x60, 0x60]),
+        (0x1A63, 2, &[0x01, 2, 0x60, 0x60]),
+        (0x1A63, 0, &[2]),
+        (0x1C12, 1, &[0x00, 0x16]),
+        (0x1C12, 2, &[0x20, 0x16]),
+        (0x1C12, 3, &[0x60, 0x16]),
+        (0x1C12, 4, &[0x03, 0x16]),
+        (0x1C12, 0, &[4]),
+        (0x1C13, 1, &[0x20, 0x1A]),
+        (0x1C13, 2, &[0x01, 0x1A]),
+        (0x1C13, 3, &[0x02, 0x1A]),
+        (0x1C13, 4, &[0x63, 0x1A]),
+        (0x1C13, 0, &[4]),
+    ];
+    let plan = groups();
+    assert_eq!(commands(&plan, Transition::PS), expected(&list));
+    let offsets = |index| [0, 1, 2, 3].map(|slot| plan.index_offset(slot, index).unwrap());
+    // Of the modules in slots 1 and 2: by both, by group, not at all.
+    assert_eq!(offsets(0x8000)[1..3], [0x810, 0x1040]);
+    assert_eq!(offsets(0x9000)[1..3], [0x800, 0x1000]);
+    assert_eq!(offsets(0xF210), [0; 4]);
+    assert_eq!(offsets(0x6000), [0, 0x810, 0x1040, 0x60]);
+}
+
+#[test]
+fn the_list_of_modules_goes_out_on_the_change_that_the_description_names() {
+    let list = [
+        (0xF030, 0, &[0][..]),
+        (0xF030, 1, &[0x01, 0x50, 0, 0]),
+        (0xF030, 2, &[0x02, 0x50, 0, 0]),
+        (0xF030, 3, &[0x02, 0x50, 0, 0]),
+        (0xF030, 4, &[0x01, 0x50, 0, 0]),
+        (0xF030, 0, &[4]),
+    ];
+    assert_eq!(commands(&groups(), Transition::IP), expected(&list));
+    assert_eq!(commands(&groups(), Transition::SO), []);
+}
+
+#[test]
+fn modules_of_a_few_bits_are_read_and_written_where_the_plan_puts_them() {
+    let plan = groups();
+    let bit = |slot, index| plan.place(slot, index).unwrap().bit as usize;
+    assert_eq!([0, 1, 2, 3].map(|slot| bit(slot, 0x1A00)), [0, 2, 6, 10]);
+    // From the last module to the first: 10, 0110, 1010, 01.
+    let image = [0b1010_1001, 0b0000_1001];
+    let two = |slot| bits::modules::bit_2::view::Inputs::at(image, bit(slot, 0x1A00)).unwrap();
+    let four = |slot| bits::modules::bit_4::view::Inputs::at(image, bit(slot, 0x1A00)).unwrap().state().get();
+    assert_eq!((two(0).input_1(), two(0).input_2(), four(1)), (true, false, 0b1010));
+    assert_eq!((four(2), two(3).input_1(), two(3).input_2()), (0b0110, false, true));
+
+    let mut image = [0xFF; 2];
+    let mut four = bits::modules::bit_4::view::Outputs::at(&mut image, bit(2, 0x1600)).unwrap();
+    four.set_level(lexibus::Uint::new(0b010).unwrap());
+    assert!(four.enable());
+    four.set_enable(false);
+    assert_eq!((four.level().get(), four.enable()), (0b010, false));
+    assert_eq!(image, [0b1011_1111, 0b1111_1100]);
+    let mut two = |slot, value| {
+        let mut view = bits::modules::bit_2::view::Outputs::at(&mut image, bit(slot, 0x1600)).unwrap();
+        view.set_level(lexibus::Uint::new(value).unwrap());
+    };
+    two(3, 0b01);
+    two(0, 0b00);
+    assert_eq!(image, [0b1011_1100, 0b1111_0100]);
+
+    // Two bytes end behind bit 15.
+    assert!(bits::modules::bit_4::view::Inputs::at(image, 12).is_ok());
+    assert!(bits::modules::bit_4::view::Inputs::at(image, 13).is_err());
+    assert!(bits::modules::bit_4::view::Inputs::at(image, usize::MAX).is_err());
+}
+
+/// 3 and 100 bits, then 70 and 2 bits.
+#[test]
+fn strings_of_bits_of_any_length() {
+    let mut flags = [0; 13];
+    (flags[0], flags[12]) = (0x01, 0x0F);
+    let mut pattern = [0xFF; 9];
+    pattern[8] = 0x3F;
+    let image = bs_175::image::Inputs {
+        data: bs_175::pdo::Data { mode: lexibus::Uint::new(0b101).unwrap(), flags },
+        bytes: bs_175::pdo::Bytes { pattern, count: lexibus::Uint::new(0b10).unwrap() },
+    };
+    let mut bytes = [0; 22];
+    bytes[0] = 0b0000_1101;
+    bytes[12..21].fill(0xFF);
+    bytes[12] = 0b1111_1000;
+    bytes[21] = 0b0101_1111;
+    assert_eq!(image.pack(), bytes);
+    assert_eq!(bs_175::image::Inputs::unpack(&bytes).unwrap(), image);
+    // What a field has beyond its bits goes nowhere.
+    let data = bs_175::pdo::Data { flags: [0xFF; 13], ..image.data };
+    assert_eq!(data.pack()[12], 0b0111_1111);
+    assert_eq!(bs_175::pdo::Data::unpack(&[0xFF; 13]).unwrap().flags[12], 0x0F);
+
+    let view = bs_175::image::InputsView::new(&bytes).unwrap();
+    assert_eq!((view.data().mode().get(), view.data().flags()), (0b101, flags));
+    assert_eq!((view.bytes().pattern(), view.bytes().count().get()), (pattern, 0b10));
+    let mut view = bs_175::image::InputsView::new(&mut bytes).unwrap();
+    view.bytes_mut().set_pattern([0; 9]);
+    view.data_mut().set_flags([0xFF; 13]);
+    let mut changed = [0xFF; 22];
+    changed[0] = 0b1111_1101;
+    changed[12] = 0b0111_1111;
+    changed[13..].fill(0);
+    changed[21] = 0b0100_0000;
+    assert_eq!(bytes, changed);
 }
 
 #[derive(Default)]
@@ -131,7 +302,7 @@ impl Client for Recorder {
 fn objects_of_a_module_are_found_at_its_slot() {
     use modules::ai_2::{objects, types::Filter};
     let mut client = Recorder::default();
-    let offset = plan().index_offset(1).unwrap();
+    let offset = plan().index_offset(1, 0x8000).unwrap();
     objects::settings::FILTER.shifted(offset).at(&mut client).write(Filter::_50Hz).unwrap();
     assert_eq!(client.0, [(Object { index: 0x8010, sub_index: 1 }, vec![1])]);
     assert_eq!(objects::settings::FILTER.at(&mut client).read().unwrap(), Filter::_60Hz);
@@ -143,7 +314,10 @@ fn the_image_of_the_drive() {
     // Ready and mode in bits 0 to 3 of byte 0, four bits of padding, then 16 and 32 bits.
     let inputs = sv_1::image::Inputs {
         inputs: sv_1::pdo::Inputs { ready: true, mode: lexibus::Uint::new(5).unwrap() },
-        position: sv_1::pdo::Position { statusword: 0x1237, position_actual_value: -2 },
+        position: sv_1::pdo::Position {
+            statusword: sv_1::types::Statusword::from_raw(0x1237),
+            position_actual_value: -2,
+        },
     };
     let bytes = [0x0B, 0x37, 0x12, 0xFE, 0xFF, 0xFF, 0xFF];
     assert_eq!(inputs.pack(), bytes);
@@ -154,7 +328,7 @@ fn the_image_of_the_drive() {
 
     let mut outputs = [0; sv_1::image::Outputs::LEN];
     let mut view = sv_1::image::OutputsView::new(&mut outputs).unwrap();
-    view.position_mode_mut().set_controlword(0x0F);
+    view.position_mode_mut().set_controlword(sv_1::types::Controlword::from_raw(0x0F));
     view.position_mode_mut().set_target_position(0x0102_0304);
     assert_eq!(outputs, [0x0F, 0, 4, 3, 2, 1]);
 }
@@ -198,8 +372,9 @@ fn what_a_master_has_to_know() {
 
 #[test]
 fn items_have_the_types_of_the_dictionary() {
-    use sv_1::{objects, types::DirectionOfRotation};
-    assert_eq!(*objects::DEVICE_TYPE.initial(), lexibus::Initial::Value(0x0002_0192));
+    use sv_1::objects;
+    use sv_1::types::{DeviceType, DirectionOfRotation};
+    assert_eq!(*objects::DEVICE_TYPE.initial(), lexibus::Initial::Value(DeviceType::from_raw(0x0002_0192)));
     assert_eq!(*objects::DEVICE_NAME.initial(), lexibus::Initial::Value("SV-1"));
     assert_eq!(*objects::motor::DIRECTION.initial(), lexibus::Initial::Value(DirectionOfRotation::CounterClockwise));
     assert_eq!(*objects::motor::CURRENT_LIMIT.range(), lexibus::Range::Between(1, 500));

@@ -34,6 +34,7 @@ pub struct Builder {
     levels: Vec<(String, Level)>,
     devices: Vec<String>,
     objects: Vec<String>,
+    overlays: Vec<PathBuf>,
     out_dir: Option<PathBuf>,
     quiet: bool,
 }
@@ -80,6 +81,28 @@ impl Builder {
     /// it, all objects are taken.
     pub fn objects(mut self, filter: impl Into<String>) -> Self {
         self.objects.push(filter.into());
+        self
+    }
+
+    /// Chooses what the manual of a register table leaves open. May be called several times.
+    pub fn option(mut self, name: impl Into<String>, choice: impl Into<String>) -> Self {
+        self.options.choices.push((name.into(), choice.into()));
+        self
+    }
+
+    /// Applies an overlay: a table that corrects the description and adds what it can't carry. May be called several times;
+    /// they are applied in this order.
+    ///
+    /// A path that isn't absolute is relative to the folder of the crate, as that of the input is.
+    pub fn overlay(mut self, path: impl Into<PathBuf>) -> Self {
+        self.overlays.push(path.into());
+        self
+    }
+
+    /// Whether profiles (CiA 301, CiA 402, CoE, PROFIdrive) add names of bits and values, units and words to the objects of
+    /// devices that follow them. They do by default.
+    pub fn profiles(mut self, profiles: bool) -> Self {
+        self.options.no_profiles = !profiles;
         self
     }
 
@@ -193,6 +216,10 @@ impl Builder {
         }
         for text in &self.objects {
             options.select.objects.push(text.parse().map_err(BuildError::Selection)?);
+        }
+        for path in &self.overlays {
+            let read = Source::read(path).map_err(|error| BuildError::Read { path: path.clone(), error });
+            options.overlays.push(read?);
         }
         Ok(options)
     }

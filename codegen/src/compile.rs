@@ -2,9 +2,10 @@
 
 use crate::backend::rust::{self, RustOptions};
 use crate::diagnostics::{Diagnostic, Diagnostics, Levels};
-use crate::frontend::{detect, eds, esi, gsdml, xdd};
+use crate::frontend::{detect, eds, esi, gsdml, table, xdd};
 use crate::ir::{Catalog, FileInfo, Format};
 use crate::passes;
+use crate::profiles;
 use crate::selection::Selection;
 use crate::source::{FileId, References, Source};
 
@@ -15,8 +16,14 @@ pub struct Options {
     pub levels: Levels,
     /// Further names of `$NODEID` in formulas, such as `$MY_NODE_ID`.
     pub node_id_aliases: Vec<String>,
+    /// The choices of a register table's options, by the option's name.
+    pub choices: Vec<(String, String)>,
     /// What of the description is wanted.
     pub select: Selection,
+    /// Tables that correct the description and add to it, in the order in which they are applied.
+    pub overlays: Vec<Source>,
+    /// Whether profiles add nothing to the objects of the devices that follow them.
+    pub no_profiles: bool,
     /// What the generated Rust looks like.
     pub rust: RustOptions,
 }
@@ -62,6 +69,13 @@ impl Compilation {
         }
         rust::emit_catalog(self.catalog.as_ref()?, options)
     }
+}
+
+/// The choice of an option as the doors take it: `NAME=CHOICE`.
+pub fn choice(text: &str) -> Option<(String, String)> {
+    let (name, choice) = text.split_once('=')?;
+    let (name, choice) = (name.trim(), choice.trim());
+    (!name.is_empty() && !choice.is_empty()).then(|| (name.to_owned(), choice.to_owned()))
 }
 
 /// What to say of a usable compilation whose [`Compilation::rust`] is `None`.
@@ -113,7 +127,7 @@ fn front_end(
         Format::Xdd => xdd::read(source, file, aliases, diagnostics),
         Format::Esi => esi::read(source, file, &mut references, diagnostics),
         Format::Gsdml => gsdml::read(source, file, diagnostics),
-        Format::Table => None,
+        Format::Table => table::read(source, file, &options.choices, diagnostics),
     };
     // What tells a DCF from an EDS is the place in a network that it gives the device, whatever its file is called.
     let mut devices = catalog.iter().flat_map(|catalog| &catalog.devices);
@@ -132,7 +146,16 @@ pub fn check(source: Source, options: &Options) -> Compilation {
     let mut compilation = read(source, options);
     if let Some(catalog) = &mut compilation.catalog {
         options.select.devices_and_modules(catalog, &mut compilation.diagnostics);
+        for source in &options.overlays {
+            let file = FileId(compilation.sources.len() as u32);
+            table::overlay::apply(source, file, catalog, &mut compilation.diagnostics);
+            catalog.files.push(file_info(source, Format::Table));
+            compilation.sources.push(source.clone());
+        }
         passes::check(catalog, &mut compilation.diagnostics);
+        if !options.no_profiles {
+            profiles::apply(catalog);
+        }
         options.select.objects(catalog);
     }
     compilation.diagnostics.sort();

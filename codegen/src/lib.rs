@@ -12,7 +12,7 @@
 //! Underneath is a pipeline in which data flows one way:
 //!
 //! ```text
-//! source -> syntax -> frontend/{eds, xdd, esi, gsdml} -> ir -> passes -> backend/{rust, json}
+//! source -> syntax -> frontend/{eds, xdd, esi, gsdml} -> ir -> passes -> backend/{rust, json, eds}
 //! ```
 //!
 //! Each stage can be used by itself:
@@ -40,9 +40,12 @@ pub mod cli;
 pub mod compile;
 pub mod diagnostics;
 pub mod frontend;
+#[cfg(feature = "cli")]
+pub mod import;
 pub mod ir;
 pub mod limits;
 pub mod passes;
+pub mod profiles;
 pub mod selection;
 pub mod source;
 pub mod syntax;

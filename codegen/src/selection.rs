@@ -140,8 +140,8 @@ fn number(text: &str) -> Option<u32> {
     }
 }
 
-/// Whether `text` has the form `pattern`, in which `*` stands for any letters.
-fn glob(pattern: &str, text: &str) -> bool {
+/// Whether `text` has the form of `pattern`, in which `*` stands for any letters.
+pub(crate) fn glob(pattern: &str, text: &str) -> bool {
     let Some((head, rest)) = pattern.split_once('*') else { return pattern == text };
     let Some(mut text) = text.strip_prefix(head) else { return false };
     let mut parts = rest.split('*').peekable();

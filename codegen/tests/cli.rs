@@ -216,7 +216,7 @@ fn of_many_devices_those_that_are_selected() {
     assert!(["pub mod cp_32 {", "pub mod sv_1 {", "pub mod modules {"].iter().all(|part| all.contains(part)));
     let drive = generate(&["--device", "0x00A10002@0x00020001", "--objects", "0x6000..0xFFFF"]);
     assert!(drive.contains("pub struct Sv1<C>") && drive.contains("TARGET_POSITION"));
-    for absent in ["cp_32", "mod modules", "0x2000", "MOTOR"] {
+    for absent in ["cp_32", "mod modules", "0x2000:", "MOTOR"] {
         assert!(!drive.contains(absent), "{absent}");
     }
     // The layout of PDOs doesn't depend on what is selected.
@@ -269,4 +269,56 @@ fn folders_are_searched_for_xml_that_describes_devices() {
     let said = out(&checked) + &err(&checked);
     assert_eq!(code(&checked), 1, "{said}");
     assert!(said.contains("broken.xml:1:") && !said.contains("pom.xml") && said.contains("2 files"), "{said}");
+}
+
+#[test]
+fn export_writes_an_eds_and_says_what_it_leaves_out() {
+    let folder = folder("export");
+    let made = lexibus(&["export", "--format", "eds", DEMO]);
+    assert_eq!((code(&made), err(&made)), (0, String::new()));
+    let text = out(&made);
+    assert!(text.starts_with("[FileInfo]\r\nFileName=demo-drive.eds\r\n"), "{text}");
+    let path = file(&folder, "again.eds", &text);
+    assert_eq!(out(&lexibus(&["export", "--format", "eds", &path])), text, "an export exports as itself");
+    assert_eq!(code(&lexibus(&["export", "--format", "eds", DEMO, "--out", &path, "--check"])), 0);
+    std::fs::write(&path, "[FileInfo]\n").expect("a stale file");
+    let stale = lexibus(&["export", "--format", "eds", DEMO, "--out", &path, "--check"]);
+    assert_eq!(code(&stale), 1);
+    assert!(err(&stale).contains("is stale"), "{}", err(&stale));
+
+    let many = lexibus(&["export", "--format", "eds", COUPLER, "-A", "warnings"]);
+    assert_eq!((code(&many), out(&many)), (1, String::new()));
+    assert!(err(&many).contains("describes 2 devices: choose one with --device"), "{}", err(&many));
+    let one = lexibus(&["export", "--format", "eds", COUPLER, "--device", "SV-1", "-A", "warnings"]);
+    assert_eq!(code(&one), 0, "{}", err(&one));
+    let note = "1 × enumeration written as the integer below (first: 0x2000:01)";
+    assert!(err(&one).lines().any(|line| line.starts_with("note: ") && line.ends_with(note)), "{}", err(&one));
+    let target = folder.join("devices/").to_string_lossy().into_owned();
+    assert_eq!(code(&lexibus(&["export", "--format", "eds", COUPLER, "--out", &target])), 0);
+    for name in ["devices/coupler.esi_CP-32.eds", "devices/coupler.esi_SV-1.eds"] {
+        assert!(folder.join(name).is_file(), "{name}");
+    }
+}
+
+#[test]
+fn export_notes_are_json_lines_on_request() {
+    let call = ["export", "--format", "eds", COUPLER, "--device", "SV-1", "-A", "warnings", "--message-format"];
+    let json = lexibus(&[&call[..], &["json"]].concat());
+    let lines = err(&json);
+    let lines = lines.lines().map(|line| serde_json::from_str::<serde_json::Value>(line).expect("a JSON line"));
+    let enumeration = lines.into_iter().find(|line| line["name"] == "enumeration").expect("the note");
+    assert_eq!((&enumeration["severity"], &enumeration["count"]), (&"note".into(), &1.into()));
+    assert_eq!(enumeration["first"], "0x2000:01");
+    assert_eq!(code(&lexibus(&[&call[..], &["sarif"]].concat())), 2);
+    assert_eq!(code(&lexibus(&["export", DEMO])), 2, "the format has to be named");
+}
+
+#[test]
+fn what_has_no_objects_is_not_exported() {
+    let folder = folder("no-objects");
+    let modules = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/drive.gsdml.xml");
+    let target = folder.join("drive.eds");
+    let exported = lexibus(&["export", "--format", "eds", modules, "--out", &target.to_string_lossy()]);
+    assert_eq!((code(&exported), target.exists()), (1, false));
+    assert!(err(&exported).contains("no device with objects"), "{}", err(&exported));
 }

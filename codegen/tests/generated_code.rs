@@ -119,3 +119,45 @@ fn optional_implementations_are_gated() {
     compile("gated", &format!("#[allow(unexpected_cfgs)]\nmod inner {{\n{text}\n}}\npub use inner::*;\n"))
         .expect("it compiles");
 }
+
+/// PDOs of a slave whose names are those that generated code uses itself, and entries longer than a word, longer than any
+/// field and longer than any memory.
+#[test]
+fn process_data_of_any_name_and_length_compile() {
+    let entry = |index: u16, bits: u32| {
+        format!(
+            "<Entry><Index>#x{index:04X}</Index><SubIndex>1</SubIndex><BitLen>{bits}</BitLen><Name>data</Name></Entry>"
+        )
+    };
+    let pdo = |index: u16, name: &str, entries: &str| {
+        format!("<TxPdo Sm=\"0\"><Index>#x{index:04X}</Index><Name>{name}</Name>{entries}</TxPdo>")
+    };
+    let names = "Data Bytes Self image bit view at new rt word value LEN unpack pack B b";
+    let pdos: String = names
+        .split(' ')
+        .zip(0..)
+        .map(|(name, number)| pdo(0x1A00 + number, name, &(entry(0x6000, 3) + &entry(0x6001, 65 + u32::from(number)))))
+        .collect();
+    let last = pdo(0x1BFF, "Last", &entry(0x6000, 8));
+    let module = pdo(0x1A00, "Long", &entry(0x6000, 65536));
+    let esi = |long: &str| {
+        format!(
+        "<EtherCATInfo><Vendor><Id>1</Id><Name>V</Name></Vendor><Descriptions><Devices>\
+         <Device Physics=\"YY\"><Type ProductCode=\"1\" RevisionNo=\"1\">D</Type><Name>D</Name>\
+         <Sm StartAddress=\"#x1100\" ControlByte=\"#x20\" Enable=\"1\">Inputs</Sm>{pdos}{long}{last}\
+         <Slots><Slot MinInstances=\"0\" MaxInstances=\"1\"><ModuleIdent>1</ModuleIdent></Slot></Slots></Device></Devices>\
+         <Modules><Module><Type ModuleIdent=\"1\">M</Type><Name>M</Name>{module}</Module></Modules>\
+         </Descriptions></EtherCATInfo>"
+    )
+    };
+    for (lengths, has_image) in [(&[][..], true), (&[65535, 65536], true), (&[u32::MAX, u32::MAX], false)] {
+        let long = lengths.iter().zip(0..);
+        let long: String = long.map(|(&bits, number)| pdo(0x1B00 + number, "Long", &entry(0x6000, bits))).collect();
+        let options = Options { rust: everything(), ..Options::default() };
+        let compilation = check(Source::new("lengths.xml", esi(&long).into_bytes()), &options);
+        let text = compilation.rust(&options.rust).expect("bindings");
+        // An image that no number of bits measures isn't there.
+        assert_eq!(text.contains("pub mod image {"), has_image);
+        compile("lengths", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
+    }
+}

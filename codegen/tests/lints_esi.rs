@@ -71,3 +71,28 @@ fn pdo021_image_too_long() {
     let message = "the PDOs of sync manager 0 have 4 bytes by default, and at most 2 fit";
     assert_eq!(findings(&found), [("PDO021", 3, message.to_owned())]);
 }
+
+#[test]
+fn pdo022_entry_too_long() {
+    const UINT: &str = "<DataType>UINT</DataType>";
+    let long = pdo(0x1601, "Sm=\"0\"", "").replace(">16<", ">65536<").replace(UINT, "");
+    let short = pdo(0x1602, "Sm=\"0\"", "").replace(">16<", ">65535<").replace(UINT, "");
+    let without_limit = OUTPUTS.replace(" MaxSize=\"2\"", "");
+    let found = slave(&without_limit, &[&long, &short]);
+    assert_eq!(findings(&found), [("PDO022", 4, "an entry of the PDO 0x1601 has 65536 bits".to_owned())]);
+    // It is in the descriptor, and keeps its room in the image.
+    let text = found.rust(&Options::default().rust).expect("bindings");
+    assert!(text.contains("rt::MappedEntry::new(0x7000, 0x01, 65536)") && !text.contains("pub struct P1601"));
+    assert!(text.contains("pub o: [u8; 8192],") && text.contains("get_bytes::<8192>(data, 65536)"), "{text}");
+}
+
+#[test]
+fn pdo022_in_a_module() {
+    let pdo = pdo(0x1601, "", "").replace(">16<", ">65536<");
+    let text = format!(
+        "<EtherCATInfo><Vendor><Id>1</Id><Name>x</Name></Vendor><Descriptions><Modules>\n\
+         <Module><Type ModuleIdent=\"1\">M</Type><Name>m</Name>{pdo}</Module></Modules></Descriptions></EtherCATInfo>"
+    );
+    let found = check(Source::new("module.xml", text.into_bytes()), &Options::default());
+    assert!(findings(&found).iter().any(|found| found.0 == "PDO022"), "{:?}", findings(&found));
+}

@@ -49,9 +49,13 @@ use syn::{Attribute, Ident, LitBool, LitStr, Token, Visibility};
 ///         strict: true,                  // repairs of the description are errors
 ///         deny: "EDS049",                // the level of a code; also allow and warn; may be repeated
 ///         node_id_alias: "$MY_NODE_ID",  // another name of $NODEID
+///         profiles: true,                // what CiA 301, CiA 402, CoE and PROFIdrive say of their objects
 ///     }
 /// }
 /// ```
+///
+/// `overlay: "../dictionaries/drive.overlay.toml"` applies a table that corrects the description and adds to it; it may be
+/// repeated.
 ///
 /// Errors of the description appear at the path, with the line that causes them, and so do its warnings, as uses of a
 /// deprecated constant: it is how a macro can warn. In a crate that denies warnings, `#[allow(deprecated)]` on the
@@ -69,6 +73,8 @@ struct Call {
     name: Ident,
     path: LitStr,
     options: Options,
+    /// Tables that correct the description.
+    overlays: Vec<LitStr>,
 }
 
 impl Parse for Call {
@@ -79,20 +85,20 @@ impl Parse for Call {
         let name = input.parse()?;
         input.parse::<Token![=]>()?;
         let path = input.parse()?;
-        let mut options = Options::default();
+        let (mut options, mut overlays) = (Options::default(), Vec::new());
         if input.peek(syn::token::Brace) {
             let content;
             syn::braced!(content in input);
-            parse_options(&content, &mut options)?;
+            parse_options(&content, &mut options, &mut overlays)?;
             input.parse::<Option<Token![;]>>()?;
         } else {
             input.parse::<Token![;]>()?;
         }
-        Ok(Call { attributes, visibility, name, path, options })
+        Ok(Call { attributes, visibility, name, path, options, overlays })
     }
 }
 
-fn parse_options(input: ParseStream<'_>, options: &mut Options) -> syn::Result<()> {
+fn parse_options(input: ParseStream<'_>, options: &mut Options, overlays: &mut Vec<LitStr>) -> syn::Result<()> {
     let mut levels = Vec::new();
     let mut strict = false;
     while !input.is_empty() {
@@ -110,6 +116,14 @@ fn parse_options(input: ParseStream<'_>, options: &mut Options) -> syn::Result<(
                 let parsed = filter.value().parse().map_err(|error| syn::Error::new(filter.span(), error))?;
                 options.select.objects.push(parsed);
             }
+            "option" => {
+                let text = input.parse::<LitStr>()?;
+                let choice = compile::choice(&text.value());
+                let choice = choice.ok_or_else(|| syn::Error::new(text.span(), "write `option: \"NAME=CHOICE\"`"))?;
+                options.choices.push(choice);
+            }
+            "overlay" => overlays.push(input.parse()?),
+            "profiles" => options.no_profiles = !input.parse::<LitBool>()?.value,
             "device_name" => options.rust.device_name = Some(input.parse::<LitStr>()?.value()),
             "runtime" => options.rust.runtime = input.parse::<LitStr>()?.value(),
             "accessors" => options.rust.accessors = input.parse::<LitBool>()?.value,
@@ -126,7 +140,7 @@ fn parse_options(input: ParseStream<'_>, options: &mut Options) -> syn::Result<(
             "deny" => levels.push((input.parse::<LitStr>()?, Level::Deny)),
             other => {
                 let message = format!(
-                    "there is no option `{other}`; there are device, module, objects, device_name, runtime, accessors, pdos, table, debug, \
+                    "there is no option `{other}`; there are device, module, objects, option, overlay, profiles, device_name, runtime, accessors, pdos, table, debug, \
                      partial_eq, defmt, serde, strict, allow, warn, deny and node_id_alias"
                 );
                 return Err(syn::Error::new(key.span(), message));
@@ -154,17 +168,17 @@ fn presence(input: ParseStream<'_>) -> syn::Result<Presence> {
 
 fn expand(call: &Call) -> syn::Result<TokenStream> {
     let fail = |message: String| syn::Error::new(call.path.span(), message);
-    let path = absolute(&call.path.value());
-    let mut source = Source::read(&path).map_err(|error| fail(format!("can't read {}: {error}", path.display())))?;
-    // Diagnostics and the header name the file as the caller does, not where it lies on this machine.
-    let folder = path.parent().map(Path::to_owned).unwrap_or_default();
-    source = Source::new(call.path.value(), source.bytes().into_owned()).in_folder(folder);
-    let compilation = compile::check(source, &call.options);
+    let mut options = call.options.clone();
+    options.overlays = call.overlays.iter().map(read).collect::<syn::Result<_>>()?;
+    let compilation = compile::check(read(&call.path)?, &options);
     let text = compilation.rust(&call.options.rust).ok_or_else(|| fail(errors(&compilation)))?;
     let content: TokenStream = text.parse().map_err(|error| fail(format!("the generated code is no Rust: {error}")))?;
     let warnings = warnings(&compilation, call.path.span());
-    let others = compilation.sources.iter().skip(1).map(Source::name);
-    let tracked = std::iter::once(path.to_string_lossy().into_owned()).chain(others.map(str::to_owned));
+    // Files that the description refers to go by their paths already, and overlays come behind them.
+    let referred = compilation.sources.len().saturating_sub(call.overlays.len());
+    let others = compilation.sources.iter().take(referred).skip(1).map(Source::name);
+    let named = std::iter::once(&call.path).chain(&call.overlays).map(|path| absolute(&path.value()));
+    let tracked = named.map(|path| path.to_string_lossy().into_owned()).chain(others.map(str::to_owned));
     let tracked = tracked.map(|path| LitStr::new(&path, Span::call_site()));
     let (attributes, visibility, name) = (&call.attributes, &call.visibility, &call.name);
     // A module without a doc comment would fail `missing_docs` in the caller's crate.
@@ -180,6 +194,15 @@ fn expand(call: &Call) -> syn::Result<TokenStream> {
             #content
         }
     })
+}
+
+/// Reads a file. Diagnostics and the header name it as the caller does, not by where it lies on this machine.
+fn read(path: &LitStr) -> syn::Result<Source> {
+    let place = absolute(&path.value());
+    let fail = |error| syn::Error::new(path.span(), format!("can't read {}: {error}", place.display()));
+    let source = Source::read(&place).map_err(fail)?;
+    let folder = place.parent().map(Path::to_owned).unwrap_or_default();
+    Ok(Source::new(path.value(), source.bytes().into_owned()).in_folder(folder))
 }
 
 /// A path that isn't absolute is relative to the folder of the calling crate.

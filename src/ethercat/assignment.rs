@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use super::depends_on::Growth;
 use super::pdo::PdoInfo;
 use super::Device;
 use crate::pdo::SdoWrite;
@@ -161,7 +162,8 @@ impl<const N: usize> Assignment<N> {
         let managers = move || self.device.sync_managers.iter().filter(move |own| assigns && own.carries_data());
         let clear = managers().map(|own| SdoWrite::new_u8(own.assignment(), 0, 0));
         let mappings = self.pdos().filter(move |placed| configures && placed.pdo.is_writable());
-        let mappings = mappings.flat_map(|placed| mapping_writes(placed.pdo.index, placed.pdo.mapping, 0));
+        let mappings =
+            mappings.flat_map(|placed| mapping_writes(placed.pdo.index, placed.pdo.mapping, Growth::default()));
         let assign = managers().flat_map(move |own| {
             let placed = move || self.pdos().filter(move |placed| placed.sync_manager == own.number);
             assignment_writes(own.assignment(), move || placed().map(|placed| placed.pdo.index))
@@ -184,15 +186,14 @@ impl super::SyncManager {
     }
 }
 
-/// Clear, entries, count. `shift` is added to the indices of mapped objects.
+/// Clear, entries, count. The indices of mapped objects that depend on the place of their module grow.
 pub(super) fn mapping_writes(
     index: u16,
     mapping: &'static [crate::MappedEntry],
-    shift: u16,
+    growth: Growth,
 ) -> impl Iterator<Item = SdoWrite> {
     let entries = mapping.iter().zip(1..=u8::MAX).map(move |(entry, sub)| {
-        let shift = if entry.index == 0 { 0 } else { shift };
-        let entry = crate::MappedEntry { index: entry.index.wrapping_add(shift), ..*entry };
+        let entry = crate::MappedEntry { index: entry.index.wrapping_add(growth.of(entry.depends_on)), ..*entry };
         SdoWrite::new_u32(index, sub, entry.word())
     });
     let count = SdoWrite::new_u8(index, 0, mapping.len() as u8);

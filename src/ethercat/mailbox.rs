@@ -1,5 +1,7 @@
 //! The mailbox, and what a master sends to it at start-up.
 
+use super::depends_on::DependsOn;
+
 /// A change of state of the slave (ETG.1000.6 6.4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
@@ -23,6 +25,9 @@ pub enum Transition {
 pub struct Transitions(u8);
 
 impl Transitions {
+    /// No change.
+    pub const NONE: Transitions = Transitions(0);
+
     /// The set of these changes.
     #[must_use]
     pub const fn of(list: &[Transition]) -> Self {
@@ -53,8 +58,8 @@ pub struct InitCommand {
     pub sub_index: u8,
     /// Whether all sub-indices are written at once.
     pub complete_access: bool,
-    /// Whether the index grows with the slot of the module.
-    pub depends_on_slot: bool,
+    /// What the index grows with, where a module brings the command along.
+    pub depends_on: DependsOn,
     /// The bytes.
     pub data: &'static [u8],
 }
@@ -104,6 +109,6 @@ mod tests {
     fn sets_of_transitions() {
         const SET: Transitions = Transitions::of(&[Transition::PS, Transition::OS]);
         assert!(SET.contains(Transition::PS) && SET.contains(Transition::OS) && !SET.contains(Transition::IP));
-        assert!(!Transitions::default().contains(Transition::IP));
+        assert!(!Transitions::NONE.contains(Transition::IP));
     }
 }

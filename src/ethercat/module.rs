@@ -1,6 +1,7 @@
 //! Slots of a modular device, and modules.
 
-use super::mailbox::InitCommand;
+use super::depends_on::DependsOn;
+use super::mailbox::{InitCommand, Transitions};
 use super::pdo::PdoInfo;
 
 /// How the slots of a modular device are counted, and what fits into them (ETG.5001.1).
@@ -12,8 +13,8 @@ pub struct Slots {
     pub modules: &'static [&'static Module],
     /// Groups of modules, in the order of the process image; empty = all modules by slot.
     pub pdo_groups: &'static [PdoGroup],
-    /// Whether a master writes the ident numbers of the modules to 0xF030.
-    pub download_idents: bool,
+    /// On which changes of state a master writes the ident numbers of the modules to 0xF030; none where it doesn't.
+    pub download_idents: Transitions,
 }
 
 /// A place for modules.
@@ -29,10 +30,28 @@ pub struct Slot {
     pub fits: &'static [Fit],
     /// Ident number of the module that is there by default.
     pub default: Option<u32>,
-    /// What the index of a module's objects grows by from slot to slot.
-    pub index_increment: u16,
-    /// What the index of a module's PDOs grows by from slot to slot.
-    pub pdo_increment: u16,
+    /// What indices grow by from slot to slot.
+    pub increments: Increments,
+    /// The group that it belongs to, where there is one.
+    pub group: Option<SlotGroup>,
+}
+
+/// The group that a slot belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SlotGroup {
+    /// Its number.
+    pub number: u16,
+    /// What indices grow by from slot group to slot group.
+    pub increments: Increments,
+}
+
+/// What indices grow by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Increments {
+    /// Those of a module's objects.
+    pub index: u16,
+    /// Those of a module's PDOs.
+    pub pdo: u16,
 }
 
 /// What fits into a slot.
@@ -55,7 +74,7 @@ pub struct PdoGroup {
     pub tx_pdo: Option<u16>,
 }
 
-/// A module. Indices that depend on the slot are those of slot 0.
+/// A module. Indices that depend on its place are those of slot 0 and slot group 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Module {
     /// Ident number.
@@ -70,6 +89,52 @@ pub struct Module {
     pub pdos: &'static [PdoInfo],
     /// What a master writes at start-up.
     pub init_commands: &'static [InitCommand],
+    /// Which of its objects grow with its place, by index; all others are the same in every slot.
+    pub objects: &'static [SlotObjects],
+}
+
+/// Objects of a module whose indices grow with its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SlotObjects {
+    /// Index of the first one.
+    pub first: u16,
+    /// Index of the last one.
+    pub last: u16,
+    /// What they grow with.
+    pub depends_on: DependsOn,
+}
+
+impl Increments {
+    /// Of objects and of PDOs.
+    #[must_use]
+    pub const fn new(index: u16, pdo: u16) -> Self {
+        Self { index, pdo }
+    }
+}
+
+impl SlotGroup {
+    /// The group with this number.
+    #[must_use]
+    pub const fn new(number: u16, increments: Increments) -> Self {
+        Self { number, increments }
+    }
+}
+
+impl SlotObjects {
+    /// Those from `first` to `last`.
+    #[must_use]
+    pub const fn new(first: u16, last: u16, depends_on: DependsOn) -> Self {
+        Self { first, last, depends_on }
+    }
+}
+
+impl Module {
+    /// What the index of an object grows with.
+    #[must_use]
+    pub fn depends_on(&self, index: u16) -> DependsOn {
+        let own = self.objects.iter().find(|own| (own.first..=own.last).contains(&index));
+        own.map_or(DependsOn::Nothing, |own| own.depends_on)
+    }
 }
 
 impl Slot {

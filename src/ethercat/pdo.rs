@@ -1,5 +1,6 @@
 //! What a master has to know of a PDO.
 
+use super::depends_on::DependsOn;
 use crate::pdo::MappedEntry;
 
 /// Direction of process data, seen from the master.
@@ -28,11 +29,11 @@ pub struct PdoInfo {
     pub fixed: bool,
     /// Whether it has to be assigned.
     pub mandatory: bool,
-    /// Whether its index grows with the slot of its module.
-    pub depends_on_slot: bool,
+    /// What its index grows with.
+    pub depends_on: DependsOn,
     /// PDOs that can't be assigned together with this one.
     pub excludes: &'static [u16],
-    /// What it carries; the entries that depend on the slot of a module are those of slot 0.
+    /// What it carries. Each entry says itself whether its index grows with the slot.
     pub mapping: &'static [MappedEntry],
 }
 

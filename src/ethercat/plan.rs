@@ -3,8 +3,9 @@
 use core::fmt;
 
 use super::assignment::{assignment_writes, mapping_writes};
+use super::depends_on::Growth;
 use super::mailbox::{InitCommand, Transition};
-use super::module::{Module, Slot};
+use super::module::{Increments, Module, Slot};
 use super::pdo::PdoInfo;
 use super::startup::{StartupCommand, StartupData};
 use super::{Device, SyncManager};
@@ -94,8 +95,8 @@ pub struct Place {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Content {
-    /// A PDO, whose mapped objects are shifted by so much where they depend on the slot.
-    Pdo(&'static PdoInfo, u16),
+    /// A PDO, and what the indices of the objects that it maps grow by where they depend on its place.
+    Pdo(&'static PdoInfo, Growth),
     /// Room in front of a group of modules.
     Gap,
 }
@@ -188,10 +189,12 @@ impl<const N: usize> SlotPlan<N> {
         Ok(())
     }
 
-    /// What the index of a module's objects grows by in a slot, for those that depend on it.
+    /// What the index of an object of the module in a slot grows by there; `index` is the one that the description has.
+    /// `None` where there is no module in the slot.
     #[must_use]
-    pub fn index_offset(&self, slot: u16) -> Option<u16> {
-        self.slot(slot).map(|place| place.index_increment.wrapping_mul(slot))
+    pub fn index_offset(&self, slot: u16, index: u16) -> Option<u16> {
+        let depends_on = self.module(slot)?.depends_on(index);
+        Some(self.objects(slot).of(depends_on))
     }
 
     /// The PDOs of a sync manager, in the order of its data: those of the device, then those of the modules, group by
@@ -201,7 +204,7 @@ impl<const N: usize> SlotPlan<N> {
         let own = manager.into_iter().flat_map(move |manager| {
             let defaults = self.device.default_pdos.iter().filter_map(|&index| self.device.pdo(index));
             let own = defaults.filter(move |pdo| self.device.sync_manager_of(pdo) == Some(manager.number));
-            let own = own.map(move |pdo| (None, pdo.index, Content::Pdo(pdo, 0), pdo.bits));
+            let own = own.map(move |pdo| (None, pdo.index, Content::Pdo(pdo, Growth::default()), pdo.bits));
             own.chain(self.groups().flat_map(move |group| self.group(manager, group)))
         });
         let mut bit: u32 = 0;
@@ -243,19 +246,20 @@ impl<const N: usize> SlotPlan<N> {
         mut visit: impl FnMut(StartupCommand) -> Result<(), E>,
     ) -> Result<(), E> {
         let is_due = |command: &&InitCommand| command.transitions.contains(transition);
-        let setup = transition == Transition::PS;
-        if setup && self.device.slots.is_some_and(|slots| slots.download_idents) {
-            self.idents().map(StartupCommand::of_write).try_for_each(&mut visit)?;
+        let of_write = |write| StartupCommand::of_write(transition, write);
+        if self.device.slots.is_some_and(|slots| slots.download_idents.contains(transition)) {
+            self.idents().map(of_write).try_for_each(&mut visit)?;
         }
         let own = self.device.mailbox.coe.map_or(&[][..], |coe| coe.init_commands);
-        own.iter().filter(is_due).map(|command| startup(command, transition, 0)).try_for_each(&mut visit)?;
+        let due = own.iter().filter(is_due);
+        due.map(|command| startup(command, transition, Growth::default())).try_for_each(&mut visit)?;
         for (module, slot) in self.plugged() {
-            let shift = self.index_offset(slot).unwrap_or(0);
+            let growth = self.objects(slot);
             let due = module.init_commands.iter().filter(is_due);
-            due.map(|command| startup(command, transition, shift)).try_for_each(&mut visit)?;
+            due.map(|command| startup(command, transition, growth)).try_for_each(&mut visit)?;
         }
-        if setup {
-            self.assignment().map(StartupCommand::of_write).try_for_each(&mut visit)?;
+        if transition == Transition::PS {
+            self.assignment().map(of_write).try_for_each(&mut visit)?;
         }
         Ok(())
     }
@@ -325,10 +329,20 @@ impl<const N: usize> SlotPlan<N> {
     }
 
     fn in_slot(&self, pdo: &'static PdoInfo, slot: u16) -> (Option<u16>, u16, Content, u32) {
-        let increment = self.slot(slot).map_or(0, |place| place.pdo_increment);
-        let shift = if pdo.depends_on_slot { increment.wrapping_mul(slot) } else { 0 };
-        let objects = self.index_offset(slot).unwrap_or(0);
-        (Some(slot), pdo.index.wrapping_add(shift), Content::Pdo(pdo, objects), pdo.bits)
+        let shift = self.growth(slot, |increments| increments.pdo).of(pdo.depends_on);
+        (Some(slot), pdo.index.wrapping_add(shift), Content::Pdo(pdo, self.objects(slot)), pdo.bits)
+    }
+
+    /// What the indices of objects grow by in a slot.
+    fn objects(&self, slot: u16) -> Growth {
+        self.growth(slot, |increments| increments.index)
+    }
+
+    /// The number of the slot, and that of its group, times their increments.
+    fn growth(&self, slot: u16, increment: impl Fn(Increments) -> u16) -> Growth {
+        let Some(place) = self.slot(slot) else { return Growth::default() };
+        let group = place.group.map_or(0, |group| increment(group.increments).wrapping_mul(group.number));
+        Growth { slot: increment(place.increments).wrapping_mul(slot), group }
     }
 
     fn idents(&self) -> impl Iterator<Item = SdoWrite> + '_ {
@@ -358,13 +372,13 @@ impl<const N: usize> SlotPlan<N> {
 impl Place {
     /// The writes of its mapping, where that can be changed; a gap's follows from its length.
     fn mapping(&self) -> impl Iterator<Item = SdoWrite> {
-        let (pdo, shift) = match self.content {
-            Content::Pdo(pdo, shift) => (pdo.is_writable().then_some(pdo), shift),
-            Content::Gap => (None, 0),
+        let (index, bits) = (self.index, self.bits);
+        let own = match self.content {
+            Content::Pdo(pdo, growth) => pdo.is_writable().then_some((pdo, growth)),
+            Content::Gap => None,
         };
-        let gap = (self.content == Content::Gap && self.index != 0).then_some(MappedEntry::new(0, 0, self.bits as u16));
-        let (index, shift) = (self.index, if pdo.is_some_and(|pdo| pdo.depends_on_slot) { shift } else { 0 });
-        let own = pdo.into_iter().flat_map(move |pdo| mapping_writes(index, pdo.mapping, shift));
+        let gap = (self.content == Content::Gap && index != 0).then(|| MappedEntry::new(0, 0, bits));
+        let own = own.into_iter().flat_map(move |(pdo, growth)| mapping_writes(index, pdo.mapping, growth));
         let gap = gap.into_iter().flat_map(move |entry| {
             [SdoWrite::new_u8(index, 0, 0), SdoWrite::new_u32(index, 1, entry.word()), SdoWrite::new_u8(index, 0, 1)]
         });
@@ -372,11 +386,11 @@ impl Place {
     }
 }
 
-fn startup(command: &InitCommand, transition: Transition, shift: u16) -> StartupCommand {
-    let shift = if command.depends_on_slot { shift } else { 0 };
+fn startup(command: &InitCommand, transition: Transition, growth: Growth) -> StartupCommand {
+    let index = command.index.wrapping_add(growth.of(command.depends_on));
     StartupCommand {
         transition,
-        object: Object { index: command.index.wrapping_add(shift), sub_index: command.sub_index },
+        object: Object { index, sub_index: command.sub_index },
         complete_access: command.complete_access,
         data: StartupData::Bytes(command.data),
     }
@@ -387,6 +401,7 @@ mod tests {
     use std::vec::Vec;
 
     use super::super::samples::{COUPLER, INPUTS, OUTPUTS, WIDE};
+    use super::super::{Slots, Transitions};
     use super::*;
 
     fn plan() -> SlotPlan<8> {
@@ -412,7 +427,9 @@ mod tests {
         );
         assert_eq!((plan.bytes(2), plan.bytes(3)), (2, 3));
         assert_eq!(plan.place(3, 0x1A00).map(|place| (place.bit, place.index)), Some((16, 0x1A0C)));
-        assert_eq!((plan.index_offset(3), plan.index_offset(8)), (Some(0x30), None));
+        let offsets = [0x6000, 0x8000, 0x9000, 0xA001, 0xF100].map(|index| plan.index_offset(3, index).unwrap());
+        assert_eq!(offsets, [0x30, 0x30, 0x800, 0x830, 0]);
+        assert_eq!((plan.index_offset(2, 0x6000), plan.index_offset(8, 0x6000)), (None, None));
         assert_eq!(plan.check(), Ok(()));
     }
 
@@ -430,6 +447,28 @@ mod tests {
     }
 
     #[test]
+    fn the_list_of_modules_goes_out_when_the_device_wants_it() {
+        static EARLY: Device = {
+            let Some(slots) = COUPLER.slots else { panic!() };
+            let download_idents = Transitions::of(&[Transition::IP, Transition::SO]);
+            Device { slots: Some(Slots { download_idents, ..slots }), ..COUPLER }
+        };
+        let mut plan = SlotPlan::<8>::new(&EARLY).unwrap();
+        plan.plug(0, &OUTPUTS).unwrap();
+        let count = |transition| {
+            let mut count = 0;
+            let visited = plan.try_for_each_command(transition, |command| {
+                assert_eq!(command.transition, transition);
+                count += usize::from(command.object.index == MODULE_IDENTS);
+                Ok::<(), ()>(())
+            });
+            visited.map(|()| count)
+        };
+        let changes = [Transition::IP, Transition::PS, Transition::SO, Transition::OP];
+        assert_eq!(changes.map(count), [Ok(3), Ok(0), Ok(3), Ok(0)]);
+    }
+
+    #[test]
     fn commands_set_up_modules_and_process_data() {
         let mut commands = Vec::new();
         let collected = plan().try_for_each_command(Transition::PS, |command| {
@@ -437,7 +476,7 @@ mod tests {
             Ok::<(), ()>(())
         });
         assert_eq!(collected, Ok(()));
-        let expected: [(u16, u8, &[u8]); 20] = [
+        let expected: [(u16, u8, &[u8]); 28] = [
             (0xF030, 0, &[0]),
             (0xF030, 1, &[2, 0, 0, 0]),
             (0xF030, 2, &[1, 0, 0, 0]),
@@ -453,6 +492,15 @@ mod tests {
             (0x1AF0, 0, &[0]),
             (0x1AF0, 1, &[4, 0, 0, 0]),
             (0x1AF0, 0, &[1]),
+            // What an entry maps grows where the entry says so.
+            (0x1A04, 0, &[0]),
+            (0x1A04, 1, &[7, 1, 0x10, 0x60]),
+            (0x1A04, 2, &[1, 2, 0x00, 0xF1]),
+            (0x1A04, 0, &[2]),
+            (0x1A0C, 0, &[0]),
+            (0x1A0C, 1, &[7, 1, 0x30, 0x60]),
+            (0x1A0C, 2, &[1, 2, 0x00, 0xF1]),
+            (0x1A0C, 0, &[2]),
             (0x1C12, 1, &[0x00, 0x16]),
             (0x1C12, 0, &[1]),
             (0x1C13, 1, &[0xFF, 0x1A]),

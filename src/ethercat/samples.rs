@@ -35,7 +35,7 @@ const fn pdo(index: u16, bits: u32, mapping: &'static [MappedEntry]) -> PdoInfo 
         excluded_sync_managers: &[],
         fixed: true,
         mandatory: false,
-        depends_on_slot: false,
+        depends_on: DependsOn::Nothing,
         excludes: &[],
         mapping,
     }
@@ -72,8 +72,9 @@ pub(crate) static OUTPUTS: Module = Module {
     name: "Outputs",
     class: "do",
     pdo_group: 0,
-    pdos: &[PdoInfo { depends_on_slot: true, ..pdo(0x1600, 12, &[MappedEntry::new(0x7000, 1, 12)]) }],
+    pdos: &[PdoInfo { depends_on: DependsOn::Slot, ..pdo(0x1600, 12, &[MappedEntry::in_slot(0x7000, 1, 12)]) }],
     init_commands: &[],
+    objects: &[SlotObjects::new(0x7000, 0x7000, DependsOn::Slot)],
 };
 
 pub(crate) static INPUTS: Module = Module {
@@ -81,14 +82,19 @@ pub(crate) static INPUTS: Module = Module {
     name: "Inputs",
     class: "di",
     pdo_group: 1,
-    pdos: &[PdoInfo { depends_on_slot: true, ..pdo(0x1A00, 8, &[MappedEntry::new(0x6000, 1, 8)]) }],
+    // It can be changed, and maps an object of the coupler behind its own.
+    pdos: &[PdoInfo {
+        depends_on: DependsOn::Slot,
+        fixed: false,
+        ..pdo(0x1A00, 8, &[MappedEntry::in_slot(0x6000, 1, 7), MappedEntry::new(0xF100, 2, 1)])
+    }],
     init_commands: &[
         InitCommand {
             transitions: Transitions::of(&[Transition::PS]),
             index: 0x8000,
             sub_index: 2,
             complete_access: false,
-            depends_on_slot: true,
+            depends_on: DependsOn::Slot,
             data: &[0x0A, 0],
         },
         InitCommand {
@@ -96,16 +102,21 @@ pub(crate) static INPUTS: Module = Module {
             index: 0x8000,
             sub_index: 3,
             complete_access: false,
-            depends_on_slot: true,
+            depends_on: DependsOn::Slot,
             data: &[1],
         },
+    ],
+    objects: &[
+        SlotObjects::new(0x6000, 0x8000, DependsOn::Slot),
+        SlotObjects::new(0x9000, 0x9000, DependsOn::SlotGroup),
+        SlotObjects::new(0xA000, 0xA001, DependsOn::Both),
     ],
 };
 
 pub(crate) static WIDE: Module =
-    Module { ident: 3, name: "Wide", class: "", pdo_group: 0, pdos: &[], init_commands: &[] };
+    Module { ident: 3, name: "Wide", class: "", pdo_group: 0, pdos: &[], init_commands: &[], objects: &[] };
 
-/// One slot for outputs, and five for anything of the two classes.
+/// One slot for outputs, and five of group 2 for anything of the two classes.
 pub(crate) static COUPLER: Device = Device {
     identity: NOBODY,
     sync_managers: &[manager(2, SyncManagerPurpose::Outputs, None), manager(3, SyncManagerPurpose::Inputs, None)],
@@ -120,8 +131,8 @@ pub(crate) static COUPLER: Device = Device {
                 max: 1,
                 fits: &[Fit::Ident(2)],
                 default: Some(2),
-                index_increment: 0x10,
-                pdo_increment: 4,
+                increments: Increments::new(0x10, 4),
+                group: None,
             },
             Slot {
                 name: "Terminals",
@@ -129,8 +140,8 @@ pub(crate) static COUPLER: Device = Device {
                 max: 5,
                 fits: &[Fit::Class("di"), Fit::Class("do")],
                 default: None,
-                index_increment: 0x10,
-                pdo_increment: 4,
+                increments: Increments::new(0x10, 4),
+                group: Some(SlotGroup::new(2, Increments::new(0x400, 0x20))),
             },
         ],
         modules: &[&OUTPUTS, &INPUTS],
@@ -138,6 +149,6 @@ pub(crate) static COUPLER: Device = Device {
             PdoGroup { alignment: 0, rx_pdo: None, tx_pdo: None },
             PdoGroup { alignment: 1, rx_pdo: Some(0x16F0), tx_pdo: Some(0x1AF0) },
         ],
-        download_idents: true,
+        download_idents: Transitions::of(&[Transition::PS]),
     }),
 };

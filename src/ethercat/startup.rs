@@ -28,15 +28,10 @@ pub enum StartupData {
 }
 
 impl StartupCommand {
-    /// A write of a number on the change from Pre-Operational to Safe-Operational.
+    /// A write of a number.
     #[must_use]
-    pub const fn of_write(write: SdoWrite) -> Self {
-        Self {
-            transition: Transition::PS,
-            object: write.object(),
-            complete_access: false,
-            data: StartupData::Number(write),
-        }
+    pub const fn of_write(transition: Transition, write: SdoWrite) -> Self {
+        Self { transition, object: write.object(), complete_access: false, data: StartupData::Number(write) }
     }
 
     /// The bytes to be written.

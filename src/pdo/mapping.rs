@@ -1,6 +1,7 @@
 //! What a PDO carries.
 
 use crate::bus::Object;
+use crate::ethercat::DependsOn;
 
 /// One entry of a PDO mapping (CiA 301 7.5.2.36 and 7.5.2.38).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -9,27 +10,41 @@ pub struct MappedEntry {
     pub index: u16,
     /// The sub-index of the mapped entry.
     pub sub_index: u8,
+    /// What the index grows with, in a module of an EtherCAT slave.
+    pub depends_on: DependsOn,
     /// How many bits it takes. A mapping object holds at most 255; a fixed mapping may have longer entries.
-    pub bits: u16,
+    pub bits: u32,
 }
 
 impl MappedEntry {
     /// An entry.
     #[must_use]
-    pub const fn new(index: u16, sub_index: u8, bits: u16) -> Self {
-        Self { index, sub_index, bits }
+    pub const fn new(index: u16, sub_index: u8, bits: u32) -> Self {
+        Self::depending_on(index, sub_index, bits, DependsOn::Nothing)
+    }
+
+    /// An entry whose index grows with the slot of its module; `index` is that of slot 0.
+    #[must_use]
+    pub const fn in_slot(index: u16, sub_index: u8, bits: u32) -> Self {
+        Self::depending_on(index, sub_index, bits, DependsOn::Slot)
+    }
+
+    /// An entry whose index grows with the place of its module.
+    #[must_use]
+    pub const fn depending_on(index: u16, sub_index: u8, bits: u32, depends_on: DependsOn) -> Self {
+        Self { index, sub_index, depends_on, bits }
     }
 
     /// The entry as the mapping object holds it: index, sub-index and bits, from the highest byte to the lowest.
     #[must_use]
     pub const fn word(self) -> u32 {
-        (self.index as u32) << 16 | (self.sub_index as u32) << 8 | self.bits as u32 & 0xFF
+        (self.index as u32) << 16 | (self.sub_index as u32) << 8 | self.bits & 0xFF
     }
 
     /// The entry that a mapping object holds.
     #[must_use]
     pub const fn from_word(word: u32) -> Self {
-        Self::new((word >> 16) as u16, (word >> 8) as u8, word as u16 & 0xFF)
+        Self::new((word >> 16) as u16, (word >> 8) as u8, word & 0xFF)
     }
 
     /// The mapped object.
@@ -60,6 +75,7 @@ mod tests {
         let entry = MappedEntry::new(0x6040, 1, 16);
         assert_eq!(entry.word(), 0x6040_0110);
         assert_eq!(MappedEntry::from_word(0x6040_0110), entry);
+        assert_eq!(MappedEntry::in_slot(0x6040, 1, 16), MappedEntry { depends_on: DependsOn::Slot, ..entry });
         assert_eq!(entry.object(), Object { index: 0x6040, sub_index: 1 });
     }
 }

@@ -38,14 +38,19 @@ impl ChannelError {
         help: &'static str,
         extended: &'static [ExtendedError],
     ) -> Self {
-        Self { api: 0, error_type, name, help, extended }
+        Self::of_profile(0, error_type, name, help, extended)
     }
 
-    /// The same as the profile of this application process defines it.
+    /// An error type as the profile of this application process defines it.
     #[must_use]
-    pub const fn of_api(mut self, api: u32) -> Self {
-        self.api = api;
-        self
+    pub const fn of_profile(
+        api: u32,
+        error_type: u16,
+        name: &'static str,
+        help: &'static str,
+        extended: &'static [ExtendedError],
+    ) -> Self {
+        Self { api, error_type, name, help, extended }
     }
 
     /// What this type means in a submodule of this application process: as its profile says, else as the device says of

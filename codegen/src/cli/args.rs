@@ -7,9 +7,11 @@ use clap_complete::Shell;
 
 use super::Failure;
 use crate::backend::rust::{Presence, RustOptions};
-use crate::compile::Options;
+use crate::compile::{self, Options};
 use crate::diagnostics::{Level, Levels};
+use crate::import::{self, Field};
 use crate::selection::{DeviceFilter, Filter, ObjectFilter, Selection};
+use crate::source::Source;
 
 /// The object-dictionary compiler: device descriptions in, typed Rust out.
 #[derive(Debug, Parser)]
@@ -23,12 +25,20 @@ pub(super) struct Arguments {
 pub(super) enum Command {
     /// Generate Rust bindings.
     Generate(Generate),
+    /// Write device descriptions in another format.
+    Export(Export),
     /// Read and check device descriptions.
     Check(Check),
     /// Sum up device descriptions.
     Info(Info),
     /// Print the intermediate representation as JSON.
     Dump(Dump),
+    /// Start a register table.
+    New(New),
+    /// Turn a list of registers (CSV) into a register table.
+    Import(Import),
+    /// Print the JSON Schema of register tables.
+    Schema(Schema),
     /// Explain a diagnostic code; without one, list all of them.
     Explain {
         /// Identifier or name of the code, such as EDS020 or octal-number.
@@ -44,7 +54,7 @@ pub(super) enum Command {
 /// Files to read, and how.
 #[derive(Debug, Args)]
 pub(super) struct Inputs {
-    /// Device descriptions, and folders of them (searched for .eds, .dcf, .xdd, .xdc, .xpd and .xml).
+    /// Device descriptions, and folders of them (searched for .eds, .dcf, .xdd, .xdc, .xpd, .xml and .toml).
     #[arg(required = true, value_name = "FILE")]
     pub paths: Vec<PathBuf>,
     /// Turn every repair of the input into an error.
@@ -65,6 +75,9 @@ pub(super) struct Inputs {
     /// Another name that formulas use for $NODEID.
     #[arg(long, value_name = "NAME")]
     pub node_id_alias: Vec<String>,
+    /// Choose what the manual of a register table leaves open; may be repeated.
+    #[arg(long, value_name = "NAME=CHOICE", value_parser = choice)]
+    pub option: Vec<(String, String)>,
     /// Take this device only (a name, order code or product code, with @REVISION or @latest); may be repeated.
     #[arg(long, value_name = "DEVICE")]
     pub device: Vec<DeviceFilter>,
@@ -74,6 +87,12 @@ pub(super) struct Inputs {
     /// Take these objects only (an index or a range, such as 0x6000..0x67FF); may be repeated.
     #[arg(long, value_name = "OBJECTS")]
     pub objects: Vec<ObjectFilter>,
+    /// Apply this overlay, a table that corrects descriptions and adds to them; may be repeated.
+    #[arg(long, value_name = "FILE")]
+    pub overlay: Vec<PathBuf>,
+    /// Profiles (CiA 301, CiA 402, CoE, PROFIdrive) add nothing to the objects of devices that follow them.
+    #[arg(long)]
+    pub no_profiles: bool,
     /// How findings are printed.
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = MessageFormat::Text)]
     pub message_format: MessageFormat,
@@ -173,6 +192,92 @@ pub(super) struct Generate {
     pub serde: Presence,
 }
 
+#[derive(Debug, Args)]
+pub(super) struct Export {
+    #[command(flatten)]
+    pub inputs: Inputs,
+    /// What to write.
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub format: ExportFormat,
+    /// The file to write (for one device), or the folder to write to; standard output where neither is given.
+    #[arg(short, long, value_name = "PATH")]
+    pub out: Option<PathBuf>,
+    /// Write nothing; fail where the output is missing or isn't what would be written.
+    #[arg(long, requires = "out")]
+    pub check: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ExportFormat {
+    /// CANopen electronic data sheet (CiA 306): what all devices of the type have in common.
+    Eds,
+    /// CANopen device configuration file (CiA 306): also the node-ID and the values of one device.
+    Dcf,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct New {
+    /// Name of the device.
+    pub name: String,
+    /// The file to write, which must not exist; by default, the name with the ending .toml.
+    #[arg(short, long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// The bus that the rows of the table are for.
+    #[arg(long, value_enum, value_name = "BUS", default_value_t = Bus::Modbus)]
+    pub bus: Bus,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Bus {
+    /// Registers and coils.
+    Modbus,
+    /// An object dictionary on CAN.
+    Canopen,
+    /// An object dictionary on EtherCAT.
+    Ethercat,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Import {
+    /// A list of registers with a line of column titles: comma, semicolon or tab between cells.
+    #[arg(value_name = "TABLE.csv")]
+    pub path: PathBuf,
+    /// The file to write, which must not exist; standard output where it isn't given.
+    #[arg(short, long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Which column is what: FIELD=TITLE or FIELD=#NUMBER, such as reg="Start address"; may be repeated.
+    #[arg(long, value_name = "FIELD=COLUMN", value_parser = import::mapping)]
+    pub map: Vec<(Field, String)>,
+    /// What stands between cells: a character, `tab`, `comma` or `semicolon`; by default, what fits.
+    #[arg(long, value_name = "CHARACTER", value_parser = import::delimiter)]
+    pub delimiter: Option<u8>,
+    /// Name of the device; by default, that of the file.
+    #[arg(long, value_name = "NAME")]
+    pub name: Option<String>,
+    /// Turn every cell that can't be read into an error.
+    #[arg(long)]
+    pub strict: bool,
+    /// Don't report this code (an identifier, a name, or `warnings`).
+    #[arg(short = 'A', long = "allow", value_name = "CODE")]
+    pub allow: Vec<String>,
+    /// How findings are printed.
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = MessageFormat::Text)]
+    pub message_format: MessageFormat,
+    /// When to use colours.
+    #[arg(long, value_enum, value_name = "WHEN", default_value_t = Colour::Auto)]
+    pub color: Colour,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Schema {
+    /// The file to write; standard output where it isn't given.
+    #[arg(short, long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Write nothing; fail where the file is missing or isn't what would be written.
+    #[arg(long, requires = "out")]
+    pub check: bool,
+}
+
 fn module_filter(text: &str) -> Result<Filter, std::convert::Infallible> {
     Ok(text.into())
 }
@@ -203,9 +308,11 @@ impl Arguments {
         let mut arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
         let inputs = match &mut arguments.command {
             Command::Generate(generate) => &mut generate.inputs,
+            Command::Export(export) => &mut export.inputs,
             Command::Check(check) => &mut check.inputs,
             Command::Info(info) => &mut info.inputs,
             Command::Dump(dump) => &mut dump.inputs,
+            Command::New(_) | Command::Import(_) | Command::Schema(_) => return arguments,
             Command::Explain { .. } | Command::Completions { .. } => return arguments,
         };
         if let Some((_, matches)) = matches.subcommand() {
@@ -236,10 +343,26 @@ impl Inputs {
         for (code, level) in &self.levels {
             levels.set(code, *level).map_err(|error| Failure::Usage(error.to_string()))?;
         }
+        let overlay = |path: &PathBuf| {
+            Source::read(path).map_err(|error| Failure::Usage(format!("can't read {}: {error}", path.display())))
+        };
+        let overlays: Result<Vec<Source>, Failure> = self.overlay.iter().map(overlay).collect();
         let select =
             Selection { devices: self.device.clone(), modules: self.module.clone(), objects: self.objects.clone() };
-        Ok(Options { levels, node_id_aliases: self.node_id_alias.clone(), select, ..Options::default() })
+        Ok(Options {
+            levels,
+            node_id_aliases: self.node_id_alias.clone(),
+            choices: self.option.clone(),
+            select,
+            overlays: overlays?,
+            no_profiles: self.no_profiles,
+            ..Options::default()
+        })
     }
+}
+
+fn choice(text: &str) -> Result<(String, String), String> {
+    compile::choice(text).ok_or_else(|| "write NAME=CHOICE".to_owned())
 }
 
 impl Generate {

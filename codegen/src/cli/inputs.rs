@@ -134,18 +134,37 @@ fn search(folder: &Path, depth: usize, files: &mut Vec<PathBuf>) {
     }
 }
 
-/// By its ending; an XML file also by its root element, for most of them are something else.
+/// By its ending; an XML or TOML file also by its content, for most of them are something else.
 fn is_description(path: &Path) -> bool {
     let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if extension.eq_ignore_ascii_case("xml") {
         return is_xml_description(path);
     }
+    if extension.eq_ignore_ascii_case("toml") {
+        return is_table_of_device(path);
+    }
     ENDINGS.iter().any(|ending| ending.eq_ignore_ascii_case(extension))
 }
 
 fn is_xml_description(path: &Path) -> bool {
-    let mut head = Vec::new();
-    let read = std::fs::File::open(path).and_then(|file| file.take(detect::LOOK_AHEAD as u64).read_to_end(&mut head));
     // One that can't be read is worth an error.
-    read.is_err() || detect::format(&Source::new(path.to_string_lossy(), head), FileId(0)).is_ok()
+    head(path).is_none_or(|head| detect::format(&head, FileId(0)).is_ok())
+}
+
+/// Whether a TOML file is a register table; overlays and profiles describe no device by themselves.
+fn is_table_of_device(path: &Path) -> bool {
+    head(path).is_none_or(|head| {
+        let mut lines = head.text().lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+        let first = lines.next().unwrap_or_default();
+        first.strip_prefix("lexibus").is_some_and(|rest| rest.trim_start().starts_with('='))
+            && lines.any(|line| line.starts_with("[device]"))
+    })
+}
+
+/// The start of a file.
+fn head(path: &Path) -> Option<Source> {
+    let mut head = Vec::new();
+    let file = std::fs::File::open(path).ok()?;
+    file.take(detect::LOOK_AHEAD as u64).read_to_end(&mut head).ok()?;
+    Some(Source::new(path.to_string_lossy(), head))
 }

@@ -1,11 +1,17 @@
-//! The command line: `lexibus generate`, `check`, `info`, `dump`, `explain`, `completions`.
+//! The command line: `lexibus generate`, `export`, `check`, `info`, `dump`, `new`, `import`, `schema`, `explain`,
+//! `completions`.
 //!
 //! Exit codes: 0 where everything went well, 1 for errors in the input or stale output, 2 for a wrong call.
 
 mod args;
+mod export;
 mod generate;
+mod import;
 mod inputs;
+mod new;
+mod output;
 mod report;
+mod schema;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -65,9 +71,13 @@ impl From<std::io::Error> for Failure {
 fn run(arguments: Arguments) -> Result<bool, Failure> {
     match arguments.command {
         Command::Generate(generate) => generate::run(&generate),
+        Command::Export(export) => export::run(&export),
         Command::Check(check) => check_files(&check.inputs),
         Command::Info(info) => info_files(&info.inputs, info.format),
         Command::Dump(dump) => dump_files(&dump.inputs),
+        Command::New(new) => new::run(&new),
+        Command::Import(import) => import::run(&import),
+        Command::Schema(schema) => schema::run(&schema),
         Command::Explain { code } => explain(code.as_deref()),
         Command::Completions { shell } => {
             let mut script = Vec::new();

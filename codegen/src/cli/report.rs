@@ -3,12 +3,27 @@
 use std::fmt::Write as _;
 use std::io::{IsTerminal, Write};
 
+use serde::Serialize;
+
 use super::args::{Colour, Inputs, MessageFormat};
 use super::Failure;
+use crate::backend::eds;
 use crate::backend::json::{DeviceInfo, Info, ModuleContent, ModuleInfo, PdoInfo, SubmoduleInfo};
 use crate::compile::Compilation;
 use crate::diagnostics::{render, Diagnostic, Severity};
 use crate::source::{FileId, Source, Span};
+
+/// What an export left out, for programs.
+#[derive(Serialize)]
+struct ExportNote<'a> {
+    severity: &'static str,
+    name: &'static str,
+    message: &'static str,
+    file: &'a str,
+    device: &'a str,
+    count: usize,
+    first: &'a str,
+}
 
 /// Collects the findings of all inputs and prints them as the user chose.
 pub(super) struct Reporter {
@@ -26,26 +41,21 @@ pub(super) struct Reporter {
 
 impl Reporter {
     pub(super) fn new(inputs: &Inputs, is_result: bool) -> Self {
-        let to_terminal = if is_result && inputs.message_format != MessageFormat::Text {
+        Reporter::with(inputs.message_format, inputs.color, is_result)
+    }
+
+    pub(super) fn with(format: MessageFormat, colour: Colour, is_result: bool) -> Self {
+        let to_terminal = if is_result && format != MessageFormat::Text {
             std::io::stdout().is_terminal()
         } else {
             std::io::stderr().is_terminal()
         };
-        let colour = match inputs.color {
+        let colour = match colour {
             Colour::Auto => to_terminal && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
             Colour::Always => true,
             Colour::Never => false,
         };
-        Reporter {
-            format: inputs.message_format,
-            colour,
-            is_result,
-            errors: 0,
-            warnings: 0,
-            files: 0,
-            kept: Vec::new(),
-            sources: Vec::new(),
-        }
+        Reporter { format, colour, is_result, errors: 0, warnings: 0, files: 0, kept: Vec::new(), sources: Vec::new() }
     }
 
     /// Takes the findings of one input.
@@ -68,6 +78,31 @@ impl Reporter {
                 self.print(&text)?;
             }
             MessageFormat::Sarif => self.keep(compilation),
+        }
+        Ok(())
+    }
+
+    /// Tells what an export left out or changed, a line a kind.
+    pub(super) fn export_notes(&mut self, source: &str, device: &str, notes: &[eds::Note]) -> Result<(), Failure> {
+        for note in notes {
+            match self.format {
+                MessageFormat::Json => {
+                    let line = ExportNote {
+                        severity: "note",
+                        name: note.kind.name(),
+                        message: note.kind.text(),
+                        file: source,
+                        device,
+                        count: note.count,
+                        first: &note.first,
+                    };
+                    self.print(&(serde_json::to_string(&line).map_err(std::io::Error::other)? + "\n"))?;
+                }
+                _ => {
+                    let whose = if device.is_empty() { String::new() } else { format!("{}: ", printable(device)) };
+                    super::say(&format!("note: {}: {whose}{note}", printable(source)));
+                }
+            }
         }
         Ok(())
     }
@@ -136,7 +171,8 @@ pub(super) fn info_text(info: &Info) -> String {
             number(device.product_code),
             number(device.revision)
         );
-        let _ = writeln!(text, "    {} objects, {} entries", device.objects, device.entries);
+        let registers = device.registers.map(|number| format!(", {number} registers")).unwrap_or_default();
+        let _ = writeln!(text, "    {} objects, {} entries{registers}", device.objects, device.entries);
         for (direction, pdos) in [("RPDO", &device.rx_pdos), ("TPDO", &device.tx_pdos)] {
             let all: Vec<String> = pdos.iter().map(pdo_text).collect();
             if !all.is_empty() {

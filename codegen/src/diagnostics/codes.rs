@@ -646,6 +646,162 @@ codes! {
     PDO021 IMAGE_TOO_LONG "image-too-long" Lint Warn
         "the PDOs by default are longer than their sync manager"
         "MaxSize of a sync manager bounds the process data that it carries. A slave refuses what is longer."
+    PDO022 ENTRY_TOO_LONG "entry-too-long" Lint Warn
+        "an entry of a PDO is longer than 65535 bits"
+        "No frame of EtherCAT carries so much, so that BitLen can't be right. The PDO is described as the file has it, but \
+        generated code has no struct, view or field of an image for it."
+    TAB001 REGISTER_FORMULA "register-formula" Lint Warn
+        "an object isn't the one that its register's rule gives"
+        "A row has the number of a register and an object, and the rule of its space gives another object for the number. \
+        What the row says is used. One of the two is misprinted: look at the neighbours, write the doubt down, and allow \
+        this code on the row."
+    TAB002 TABLE_SYNTAX "table-syntax" Error Deny
+        "a register table isn't TOML"
+        "The file ends in .toml, or begins like a table, and breaks the grammar of TOML 1.1. Nothing of it can be used."
+    TAB003 UNKNOWN_TABLE_KEY "unknown-table-key" Error Deny
+        "the table format has no such key"
+        "The key was left out, and what else stands beside it was read. dictionaries/README.md has all keys, and `lexibus \
+        schema` prints a JSON Schema by which editors complete them."
+    TAB004 TABLE_VALUE "table-value" Error Deny
+        "a value of a table isn't what its key wants"
+        "The message says what is expected. The row, or the part of it, that has the value was left out."
+    TAB005 UNRESOLVED_NAME "unresolved-name" Error Deny
+        "a name leads nowhere"
+        "Rows name units, bit fields, enumerations, spaces, models, options and other items. Nothing of this kind has the \
+        name; the nearest one that exists is suggested."
+    TAB006 TABLE_PLACE "table-place" Error Deny
+        "an address, a range or a number of bits can't be read"
+        "Registers are `63` or `\"63-64\"`, objects `0x6040` or `\"0x1018:1\"`, ranges of objects `\"0x1400..0x1403:1\"`, bits `7` or \
+        `\"3-2\"`."
+    TAB007 TABLE_DUPLICATE "table-duplicate" Error Deny
+        "a name or an address occurs twice"
+        "Names of registers become names of Rust, and an address has one value. Where the manual has one name for two \
+        registers, one of them gets a suffix and a doubt."
+    TAB008 ROW_WITHOUT_ADDRESS "row-without-address" Error Deny
+        "a row has no address"
+        "An item is reached by a register (`reg`), an object (`obj`), a parameter (`param`), a name (`ascii`) or an address in a \
+        slave controller (`esc`), on a bus that the device has."
+    TAB009 REGISTER_SPAN "register-span" Lint Warn
+        "a register has more or fewer numbers than its type needs"
+        "A value of 32 bits takes two registers of 16. The type is used; either it or the printed numbers are wrong."
+    TAB010 ACCESS_NOT_GIVEN "access-not-given" Lint Warn
+        "nothing says how an item may be accessed"
+        "Neither the row nor the defaults of its chapter or file have an `access`. The item is read-only until one does."
+    TAB011 UNKNOWN_UNIT "unknown-unit" Lint Warn
+        "a unit is neither defined nor known"
+        "Units are symbols of the SI and those usual with drives, or names of `[units]`, which give a symbol and a scale. A \
+        symbol that nobody knows is often a name that is misspelt, and then the scale is missing."
+    TAB012 HEX_DIGITS "hex-digits" Lint Warn
+        "a hexadecimal number doesn't have the digits of its type"
+        "A number with more digits than its type has bits for (`0x007FFFFFFF` of 32 bits), one that is filled up with zeros to \
+        another length (`0x0000` of 32 bits), or an index without four digits (`0x20A`). A digit was doubled or lost, or the \
+        type is another."
+    TAB013 BIT_OUTSIDE_TYPE "bit-outside-type" Lint Warn
+        "a bit lies outside of its integer"
+        "The integer has fewer bits than the bit field names. Generated code leaves the field out."
+    TAB014 BITS_OVERLAP "bits-overlap" Lint Warn
+        "two fields share bits"
+        "A bit has one meaning at a time. Meanings that depend on another item, on the firmware or on the model say so in each \
+        of them; of any others, one has the wrong place."
+    TAB015 NAME_OUTSIDE_TYPE "name-outside-type" Lint Warn
+        "an enumeration names a value that its integer can't have"
+        "A negative value of an unsigned integer, or one with more bits than the integer or the field has. Either the type or \
+        the value is wrong."
+    TAB016 NAME_OUTSIDE_LIMITS "name-outside-limits" Lint Warn
+        "a named value or bit lies outside of the item's limits"
+        "What has a name can be meant to be used, and the limits exclude it: generated code refuses to write it. Either a \
+        limit is wrong, or the item has an enumeration of its own with fewer values."
+    TAB017 VALUE_NAMED_TWICE "value-named-twice" Lint Warn
+        "a value or code has two names"
+        "Two entries of an enumeration or of a table of codes are the same number, or a range contains another entry. Generated \
+        code decodes the first. Names that depend on the firmware or the model say so in each of them."
+    TAB018 UNNAMED_VALUE "unnamed-value" Lint Warn
+        "a default, limit or condition is a value that is reserved or has no name"
+        "The value is reserved, or has no name in an enumeration that is closed, or a limit is one off the last value with a \
+        name. For the fields of a bit field the default and the fixed value are looked at, for conditions each value."
+    TAB019 RESERVED_BITS "reserved-bits" Lint Warn
+        "a default, limit or fixed value sets bits without a meaning"
+        "The number sets a bit that is reserved or that nobody named, or lacks one that is always set. A limit is looked at where \
+        it is a pattern of bits, and not all bits up to some place."
+    TAB020 LENGTH_MISMATCH "length-mismatch" Lint Warn
+        "a length isn't that of the type"
+        "The bytes of an address, or of a default text, aren't as many as the type takes."
+    TAB021 SUMMARY_DIFFERS "summary-differs" Lint Warn
+        "another place of the manual says otherwise"
+        "The row's `summary` holds what a table of contents, an overview or the prose says of the same item. The row itself is \
+        used: write the doubt down, and allow this code on the row."
+    TAB022 SAME_VALUE_DIFFERS "same-value-differs" Lint Warn
+        "two names of the same value are described differently"
+        "`same_as` says that two rows are one value, and their types, limits, or the values and bits that have a meaning differ; \
+        or the row of a replacement (`replaced_by`) states another access than the row that it replaces."
+    TAB023 READING_LIMITS "reading-limits" Lint Warn
+        "a signed value that is only read has a lower limit above zero"
+        "What a device measures is signed because it can be negative, and then it can be zero. Such limits are those of a \
+        set-point that was copied, or the type is unsigned."
+    TAB024 ACCESS_CONFLICT "access-conflict" Lint Warn
+        "access, storage and process data contradict each other"
+        "A value that can't be written is saved, comes in an RPDO or has values that may be written; one that can't be read goes \
+        into a TPDO; or one that the device clears by itself is saved."
+    TAB025 MENTIONED_OBJECT "mentioned-object" Lint Warn
+        "a text mentions an object that the table doesn't have"
+        "Documentation, names and effects mention objects by index: 0x6000 to 0x67FF, `object 0x2010`, or with a sub-index, \
+        `0x1003:1`. Either a row is missing, or the index is misprinted."
+    TAB026 FIRMWARE_WINDOW "firmware-window" Lint Warn
+        "firmware windows contradict each other"
+        "`since` is the first firmware that has something, `until` the first that doesn't. A window is empty, or the \
+        replacement of an item exists earlier or later than the item ends."
+    TAB027 VERSION_FORM "version-form" Lint Warn
+        "a firmware version can't be compared"
+        "Versions are numbers with points between them, of which each counts by itself: 6.27 is later than 6.3."
+    TAB028 STATES_OVERLAP "states-overlap" Lint Deny
+        "two states of a machine are told by the same status"
+        "Some values of the status item belong to both states, so that it can't be told in which one the device is."
+    TAB029 COMMANDS_OVERLAP "commands-overlap" Lint Allow
+        "two commands of a machine can be the same value"
+        "Some values of the control item are both commands. Where the state decides which one is meant, as in CiA 402, this is \
+        as it should be, so that this lint is off unless asked for."
+    TAB030 OVERLAY_NO_MATCH "overlay-no-match" Lint Warn
+        "an entry of an overlay matches nothing"
+        "The devices that the overlay is for have no such object or item, or no row of the overlay names the definition. A newer \
+        version of the description may call it otherwise, or have dropped it."
+    TAB031 OVERLAY_NO_CHANGE "overlay-no-change" Lint Warn
+        "an entry of an overlay changes nothing"
+        "The description says already what the overlay says: a newer version of it may have been corrected. Take the row out."
+    TAB032 OVERLAY_NOT_FOR "overlay-not-for" Lint Warn
+        "an overlay is for no device of the description"
+        "`for` in `[overlay]` names a vendor, a product code, a revision, a device or a module, and the description has none that fits, \
+        or none that was selected. Nothing of the overlay was applied."
+    TAB033 STEP_IMPOSSIBLE "step-impossible" Lint Warn
+        "a step of a procedure can't be carried out"
+        "The step writes what can't be written, or a value that the item can't have; waits for what can't be read or never \
+        comes; or gives a PDO the COB-ID of another."
+    TAB034 ASSIGNED_PDO_MISSING "assigned-pdo-missing" Lint Warn
+        "a PDO is assigned that isn't described"
+        "0x1C12 and 0x1C13 hold the indices of PDOs. A default, or a step of a procedure, puts one there that the table doesn't \
+        have."
+    TAB035 MAPPED_NOT_ASSIGNED "mapped-not-assigned" Lint Warn
+        "a procedure maps a PDO and assigns others"
+        "The mapping that the procedure writes has no effect, because the sync manager carries other PDOs."
+    TAB036 UNNAMED_BITS "unnamed-bits" Lint Allow
+        "a bit field says nothing of some bits"
+        "Bits that are neither named nor reserved. Manuals leave them out as often as not, so that this lint is off unless \
+        asked for."
+    TAB037 MODE_WITHOUT_BITS "mode-without-bits" Lint Allow
+        "bits that depend on a mode have no meaning in one of the modes"
+        "Some modes don't use the bits, so that this lint is off unless asked for."
+    TAB038 ONE_LIMIT "one-limit" Lint Allow
+        "a row has one limit only"
+        "A cell of the manual is empty beside one that isn't. Often the limit is that of the type, so that this lint is off \
+        unless asked for."
+    TAB039 PATTERN_OUTSIDE_MASK "pattern-outside-mask" Lint Warn
+        "a state or command wants bits that its mask leaves out"
+        "The value has bits that the mask doesn't have, so that nothing ever matches it."
+    TAB040 NAME_TWICE "name-twice" Lint Warn
+        "two objects, or two sub-entries of an object, have one name"
+        "Often the name was copied from the box above. Generated code tells the two apart by a number."
+    TAB041 BROKEN_NAME "broken-name" Lint Warn
+        "a name has the hyphen of a line break in it"
+        "The column of the manual was too narrow for the name. Its prose often has the whole one."
     MOD001 MODULE_INDEX_CLASH "module-index-clash" Lint Warn
         "a module's fixed object exists in the device already"
         "The fixed objects of a module get an index of their own; the device describes this one itself, so that one \
@@ -654,6 +810,38 @@ codes! {
         "a sub-index extension isn't described as CiA 306 wants"
         "[M<n>SubExt<index>] needs a place in [M<n>SubExtends], Count (a number of sub-indices; or 0, `;` and a number \
         of bits), ObjExtend 0 or 1, and the keywords of a VAR. The object that it extends has sub-indices."
+    CSV001 CSV_NO_COLUMNS "csv-no-columns" Error Deny
+        "a list of registers has no titles of columns"
+        "Columns are recognised by their titles, in English, German or Italian, in any order: an address and at least one more. \
+        Where the titles are others, or there are none, `--map FIELD=TITLE` and `--map FIELD=#NUMBER` say what is what."
+    CSV002 CSV_UNKNOWN_COLUMN "csv-unknown-column" Lint Warn
+        "a column isn't imported"
+        "Nothing is known of a column with this title. `--map FIELD=TITLE` says what it is; `--map doc=TITLE` keeps its text \
+        as documentation."
+    CSV003 CSV_UNREADABLE_CELL "csv-unreadable-cell" Repair Warn
+        "a cell of a list of registers can't be read"
+        "The cell isn't what its column is about, or contradicts another one. It is left out, and the rest of the row is kept; \
+        the label says where something else is done."
+    CSV004 CSV_NO_ROW "csv-no-row" Repair Warn
+        "a line of a list can't become a row"
+        "It has no address, one that can't be read, or one that another line has. The line is written into the table as a \
+        comment, so that a person can decide. Bits of one register share its address: they need a column with the bit."
+    CSV005 CSV_RAGGED_ROW "csv-ragged-row" Repair Warn
+        "a line has more or fewer cells than there are titles"
+        "Often a delimiter stands within a cell that isn't in quotes, and then all cells behind it are in the wrong column."
+    CSV006 CSV_SAME_NAME "csv-same-name" Lint Warn
+        "two lines have the same name"
+        "Names of registers become names of Rust. The second one gets a number."
+    CSV007 CSV_ASSUMPTION "csv-assumption" Lint Warn
+        "the list leaves something open"
+        "Lists of registers use one word for different things, and leave out what everybody is thought to know. The message says \
+        what was assumed; it is told once, and holds for the whole list."
+    CSV008 CSV_UNCLOSED_QUOTE "csv-unclosed-quote" Repair Warn
+        "a quote is never closed"
+        "All that follows, to the end of the file, is one cell."
+    CSV009 CSV_NO_SUCH_COLUMN "csv-no-such-column" Error Deny
+        "a column that `--map` names doesn't exist"
+        "Titles are compared without regard to case and punctuation. A column can also be named by its number: `--map reg=#2`."
 }
 
 #[cfg(test)]

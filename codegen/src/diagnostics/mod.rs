@@ -110,25 +110,58 @@ impl Diagnostic {
     }
 }
 
+/// Whether `inner` lies within `outer`.
+fn contains(outer: Span, inner: Span) -> bool {
+    outer.file == inner.file && outer.start <= inner.start && inner.end <= outer.end
+}
+
 /// The findings of one compilation.
 #[derive(Clone, Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
     levels: Levels,
+    /// Findings that the source itself explains, by the place that they are in.
+    allowed: Vec<(Span, &'static Code)>,
 }
 
 impl Diagnostics {
     /// An empty list under `levels`.
     pub fn new(levels: Levels) -> Self {
-        Diagnostics { list: Vec::new(), levels }
+        Diagnostics { list: Vec::new(), levels, allowed: Vec::new() }
     }
 
     /// Files a finding; one whose level is `allow` is forgotten.
     pub fn push(&mut self, mut diagnostic: Diagnostic) {
+        let is_allowed = |own: &(Span, &'static Code)| contains(own.0, diagnostic.span) && own.1 == diagnostic.code;
+        if self.allowed.iter().any(is_allowed) {
+            return;
+        }
         if let Some(severity) = self.levels.severity(diagnostic.code) {
             diagnostic.severity = severity;
             self.list.push(diagnostic);
         }
+    }
+
+    /// Forgets findings of this kind within `span`, those so far and those to come: the source explains them itself.
+    /// Errors stay.
+    pub fn allow(&mut self, span: Span, code: &'static Code) {
+        if code.class != Class::Error {
+            self.list.retain(|own| own.code != code || !contains(span, own.span));
+            self.allowed.push((span, code));
+        }
+    }
+
+    /// Forgets findings from `first` on that are there already: the same of the same place.
+    pub(crate) fn forget_repeated(&mut self, first: usize) {
+        let mut seen = std::collections::HashSet::new();
+        let tail = self.list.split_off(first.min(self.list.len()));
+        let is_new = |own: &Diagnostic| seen.insert((own.code, own.span, own.message.clone()));
+        self.list.extend(tail.into_iter().filter(is_new));
+    }
+
+    /// Whether any finding within `span` is an error.
+    pub(crate) fn has_error_in(&self, span: Span) -> bool {
+        self.list.iter().any(|own| own.severity == Severity::Error && contains(span, own.span))
     }
 
     /// Whether findings of this kind are wanted: lets a stage skip the work of phrasing one that isn't.

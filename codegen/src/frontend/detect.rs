@@ -21,10 +21,21 @@ pub fn format(source: &Source, file: FileId) -> Result<Format, Box<Diagnostic>> 
     if start.is_empty() {
         return Err(Box::new(unknown(whole, "the file is empty")));
     }
+    if is_table(source.name(), start) {
+        return Ok(Format::Table);
+    }
     if start.starts_with('<') {
         return xml(start, whole);
     }
     ini(source, file)
+}
+
+/// Whether a file is a register table: by its name, or by its first key.
+fn is_table(name: &str, start: &str) -> bool {
+    let by_name = name.rsplit_once('.').is_some_and(|(_, extension)| extension.eq_ignore_ascii_case("toml"));
+    let mut lines = start.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let first = lines.next().unwrap_or_default();
+    by_name || first.strip_prefix("lexibus").is_some_and(|rest| rest.trim_start().starts_with('='))
 }
 
 fn unknown(span: Span, message: &str) -> Diagnostic {

@@ -6,4 +6,5 @@ pub mod detect;
 pub mod eds;
 pub mod esi;
 pub mod gsdml;
+pub mod table;
 pub mod xdd;

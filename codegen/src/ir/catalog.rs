@@ -99,7 +99,8 @@ pub struct LocalText {
 /// A name with its value that the source has and the IR has no field for.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Extension {
-    /// The key, element or attribute, as the source spells it. A comment with content is kept under `;`.
+    /// The key, element or attribute, as the source spells it. A comment with content is kept under `;`. Those of a whole
+    /// EDS have the name of their section before them: `FileInfo/Author`, `Vendor stuff/;`.
     pub key: CompactString,
     /// Its value.
     pub value: CompactString,

@@ -81,9 +81,15 @@ impl Device {
         self.modules.iter().filter_map(|own| modules.get(own.module.0 as usize))
     }
 
-    /// The item at an index and sub-index.
+    /// The item at an index and sub-index: of an object, or a register that is an object too.
     pub fn entry(&self, index: u16, sub_index: u8) -> Option<&super::Item> {
-        self.object(index)?.sub(sub_index)
+        match self.object(index) {
+            Some(object) => object.sub(sub_index),
+            None => {
+                let others = self.groups.iter().take_while(|group| group.index().is_none());
+                others.flat_map(|group| &group.items).find(|item| item.object() == Some((index, sub_index)))
+            }
+        }
     }
 }
 
@@ -230,6 +236,10 @@ pub struct Variant {
     pub identity: Identity,
     /// Constants of the variant, by name (a base of scaled numbers).
     pub constants: Vec<(CompactString, Value)>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+    /// Where it is declared.
+    pub origin: Origin,
 }
 
 /// How the items of further axes follow from those of the first.
@@ -237,6 +247,8 @@ pub struct Variant {
 pub struct AxisRule {
     /// Number of axes.
     pub axes: u8,
+    /// Models that have so many; empty = all.
+    pub models: Vec<CompactString>,
     /// Rules by range of index: the first that contains an item's index holds.
     pub rules: Vec<AxisRange>,
 }

@@ -228,7 +228,7 @@ pub struct SlotRules {
 /// Modules whose process data stand one after the other (`ModulePdoGroup`).
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ModulePdoGroup {
-    /// Alignment of each module's data in bits; 0 and 1 = none.
+    /// Alignment of each module's data in bytes; 0 and 1 = none.
     pub alignment: u16,
     /// Index of the device's RPDO behind which the modules' RPDOs stand, where given.
     pub rx_pdo: Option<u16>,

@@ -36,6 +36,8 @@ pub struct Item {
     pub behaviour: Option<Box<Behaviour>>,
     /// Models, firmware versions and options that have it.
     pub availability: Option<Box<Availability>>,
+    /// Of a device with several axes: whether there is one for all of them.
+    pub shared_by_axes: bool,
     /// ObjFlags of CiA 306: bit 0 refuse write on download, bit 1 refuse read on scan; further bits are kept.
     pub flags: u32,
     /// What the source says about it.
@@ -66,6 +68,7 @@ impl Item {
             quantity: None,
             behaviour: None,
             availability: None,
+            shared_by_axes: false,
             flags: 0,
             documentation: None,
             doubts: Vec::new(),

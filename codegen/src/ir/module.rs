@@ -29,6 +29,10 @@ pub struct Slot {
     pub index_increment: u16,
     /// What to add to the number of a module's PDOs per slot.
     pub pdo_increment: u16,
+    /// What to add to the index of a module's objects per slot group.
+    pub group_index_increment: u16,
+    /// What to add to the number of a module's PDOs per slot group.
+    pub group_pdo_increment: u16,
 }
 
 /// What fits into a slot.

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Documentation, Texts, Value};
+use super::{Availability, CompactString, Documentation, Texts, Value};
 use crate::source::Origin;
 
 /// The type of an item: basic, or the position of a [`TypeDef`] in its device.
@@ -256,6 +256,8 @@ pub struct Field {
 pub struct BitFieldEntry {
     /// Its name.
     pub name: CompactString,
+    /// The name in other languages.
+    pub names: Texts,
     /// Its first bit.
     pub offset: u8,
     /// Its length in bits.
@@ -266,6 +268,8 @@ pub struct BitFieldEntry {
     pub when: Option<Condition>,
     /// Whether the field acts on an edge, clears itself, or toggles.
     pub trigger: Option<Trigger>,
+    /// Models and firmware versions in which the bits mean this.
+    pub availability: Option<Box<Availability>>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
 }
@@ -317,6 +321,8 @@ pub struct EnumValue {
     pub zone: Option<Zone>,
     /// The name in other languages.
     pub names: Texts,
+    /// Models and firmware versions that have it.
+    pub availability: Option<Box<Availability>>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
 }

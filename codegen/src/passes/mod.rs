@@ -3,51 +3,113 @@
 //! [`check`] runs those that every output needs. A pass reports a broken element, leaves it as it is or sets it aside,
 //! and goes on: after the first error come the others.
 
+mod access_checked;
+mod aliases_agree;
+mod bit_fields_checked;
+mod conditions_possible;
+mod declared_pdos_checked;
+mod firmware_comparable;
 mod identity_agrees;
 mod implicit_pdos_exist;
+mod lengths_checked;
+mod limits_named;
 mod mapped_objects_exist;
+mod mentioned_objects_exist;
 mod modules_fit;
+mod names_tell_apart;
 pub mod names_unique;
 mod objects_checked;
+mod owner;
 mod pdo_entries_resolved;
 mod pdo_layout_checked;
+mod procedures_possible;
 mod process_image_checked;
 mod records_checked;
 mod subslots_distinct;
 mod values_checked;
+mod values_named_once;
 
 use crate::diagnostics::Diagnostics;
-use crate::ir::Catalog;
+use crate::ir::{Catalog, Device, Format, Module};
+use owner::Owner;
 
 /// Completes and checks every device of `catalog`.
 pub fn check(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
-    let Catalog { devices, modules, submodules, .. } = catalog;
-    for device in devices {
-        identity_agrees::run(device, diagnostics);
-        objects_checked::run(device, modules, diagnostics);
-        values_checked::run(device.groups.iter(), diagnostics);
-        implicit_pdos_exist::run(device);
-        pdo_layout_checked::run(device, modules, diagnostics);
-        if device.ethercat.is_some() {
-            pdo_entries_resolved::device(device, diagnostics);
-            mapped_objects_exist::device(device);
-            process_image_checked::run(device, diagnostics);
-        }
+    let is_table = catalog.files.iter().any(|file| file.format == Format::Table);
+    for own in &mut catalog.devices {
+        device(own, &catalog.modules, is_table, diagnostics);
     }
-    for module in modules {
-        pdo_entries_resolved::module(module, diagnostics);
-        mapped_objects_exist::module(module);
-        process_image_checked::module(module, diagnostics);
-        values_checked::run(module.fixed_objects.iter().chain(&module.groups), diagnostics);
+    for own in &mut catalog.modules {
+        module(own, diagnostics);
     }
-    for submodule in submodules {
-        values_checked::run(submodule.records.iter(), diagnostics);
+    records(catalog, diagnostics);
+    modules_fit::run(catalog, diagnostics);
+    subslots_distinct::run(catalog, diagnostics);
+}
+
+fn device(device: &mut Device, modules: &[Module], is_table: bool, diagnostics: &mut Diagnostics) {
+    if is_table {
+        declared_pdos_checked::run(device, diagnostics);
+    }
+    identity_agrees::run(device, diagnostics);
+    objects_checked::run(device, modules, diagnostics);
+    values_checked::run(device.groups.iter(), &device.types, diagnostics);
+    implicit_pdos_exist::run(device);
+    pdo_layout_checked::run(device, modules, diagnostics);
+    if device.ethercat.is_some() {
+        pdo_entries_resolved::device(device, diagnostics);
+        mapped_objects_exist::device(device);
+        process_image_checked::run(device, diagnostics);
+    }
+    let groups = [device.groups.as_slice()];
+    meanings(Owner { types: &device.types, groups: &groups }, diagnostics);
+    values_named_once::codes(device.code_tables.iter(), diagnostics);
+    if is_table {
+        table(device, diagnostics);
+    }
+}
+
+fn module(module: &mut Module, diagnostics: &mut Diagnostics) {
+    pdo_layout_checked::module(module, diagnostics);
+    pdo_entries_resolved::module(module, diagnostics);
+    mapped_objects_exist::module(module);
+    process_image_checked::module(module, diagnostics);
+    values_checked::run(module.fixed_objects.iter().chain(&module.groups), &module.types, diagnostics);
+    let groups = [module.fixed_objects.as_slice(), module.groups.as_slice()];
+    meanings(Owner { types: &module.types, groups: &groups }, diagnostics);
+}
+
+/// The parameter records of PROFINET. Their lists of values are shared by parameters of several types and limits.
+fn records(catalog: &Catalog, diagnostics: &mut Diagnostics) {
+    for submodule in &catalog.submodules {
+        values_checked::run(submodule.records.iter(), &catalog.types, diagnostics);
         records_checked::run(submodule.records.iter(), diagnostics);
     }
     let settings = catalog.devices.iter().filter_map(|device| device.profinet.as_ref());
     let blocks = || settings.clone().flat_map(|settings| &settings.vendor_blocks).map(|block| &block.record);
-    values_checked::run(blocks(), diagnostics);
+    values_checked::run(blocks(), &catalog.types, diagnostics);
     records_checked::run(blocks(), diagnostics);
-    modules_fit::run(catalog, diagnostics);
-    subslots_distinct::run(catalog, diagnostics);
+}
+
+/// What bits, values, limits and lengths say was held against each other.
+fn meanings(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
+    bit_fields_checked::run(owner, diagnostics);
+    values_named_once::run(owner, diagnostics);
+    limits_named::run(owner, diagnostics);
+    lengths_checked::run(owner, diagnostics);
+}
+
+/// What only a register table says, and what the authors of other formats don't mind: 52 files of the corpus say that values
+/// which can't be written come in RPDOs.
+fn table(device: &Device, diagnostics: &mut Diagnostics) {
+    let groups = [device.groups.as_slice()];
+    let owner = Owner { types: &device.types, groups: &groups };
+    access_checked::run(owner, diagnostics);
+    limits_named::both_given(owner, diagnostics);
+    conditions_possible::run(owner, diagnostics);
+    names_tell_apart::run(device, diagnostics);
+    firmware_comparable::run(device, diagnostics);
+    aliases_agree::run(device, diagnostics);
+    mentioned_objects_exist::run(device, diagnostics);
+    procedures_possible::run(device, diagnostics);
 }

@@ -1,7 +1,7 @@
 //! After this pass the structure of every object of a CANopen device was held against CiA 301 7.4.3 and reported on.
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Device, Group, Item, Module, ObjectCode, Value};
+use crate::ir::{Device, Group, Item, Module, ObjectCode, Shape, Type, TypeDef, TypeId, Value};
 
 pub(super) fn run(device: &Device, modules: &[Module], diagnostics: &mut Diagnostics) {
     if device.canopen.is_none() {
@@ -17,7 +17,7 @@ pub(super) fn run(device: &Device, modules: &[Module], diagnostics: &mut Diagnos
             sub0_access(group, index, diagnostics);
         }
         if code == ObjectCode::Array {
-            element_types(group, index, diagnostics);
+            element_types(group, index, &device.types, diagnostics);
         }
     }
     mandatory(device, diagnostics);
@@ -87,10 +87,19 @@ fn sub0_access(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     diagnostics.push(Diagnostic::new(&codes::SUB0_ACCESS, span, format!("sub-index 0 of 0x{index:04X} {message}")));
 }
 
-fn element_types(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
+/// The type below an enumeration or a bit field: what the bits mean is no matter of the dictionary.
+fn basic(types: &[TypeDef], ty: Type) -> Type {
+    let Type::Named(TypeId(id)) = ty else { return ty };
+    match types.get(id as usize).map(|def| &def.shape) {
+        Some(Shape::Enumeration { base, .. } | Shape::BitField { base, .. }) => *base,
+        _ => ty,
+    }
+}
+
+fn element_types(group: &Group, index: u16, types: &[TypeDef], diagnostics: &mut Diagnostics) {
     let mut elements = group.items.iter().filter(|item| !matches!(sub_of(item), 0 | 0xFF));
     let Some(first) = elements.next() else { return };
-    if let Some(other) = elements.find(|item| item.ty != first.ty) {
+    if let Some(other) = elements.find(|item| basic(types, item.ty) != basic(types, first.ty)) {
         let message = format!("an element of the array 0x{index:04X} is {}, the first is {}", other.ty, first.ty);
         diagnostics.push(
             Diagnostic::new(&codes::ARRAY_TYPES, other.at.ty.or(other.origin.span), message)

@@ -3,10 +3,12 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::declared_pdos_checked;
+use super::owner::Owner;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{
-    Access, CanOpenSettings, Device, Direction, Group, Item, Mappable, Module, Pdo, PdoCommunication, PdoEntry,
-    PdoEntryKind, Type, Value,
+    Access, CanOpenSettings, Device, Direction, Group, Item, Module, Pdo, PdoCommunication, PdoEntry, PdoEntryKind,
+    ProcessData, Type, Value,
 };
 use crate::source::Span;
 
@@ -16,7 +18,11 @@ const CAN_BITS: u32 = 64;
 /// PDOs of each direction in the dictionary.
 const PDOS: u16 = 512;
 
+/// Greatest length of an entry that generated code makes a field of.
+const MAX_ENTRY: u32 = u16::MAX as u32;
+
 pub(super) fn run(device: &mut Device, modules: &[Module], diagnostics: &mut Diagnostics) {
+    lengths(&device.process_data, diagnostics);
     let Some(canopen) = device.canopen.take() else { return };
     let modules = OfModules::new(device, modules);
     let mut pdos = Vec::new();
@@ -37,6 +43,22 @@ pub(super) fn run(device: &mut Device, modules: &[Module], diagnostics: &mut Dia
     }
     device.process_data.pdos.extend(pdos);
     device.canopen = Some(canopen);
+}
+
+/// Of a module: nothing but the lengths of its entries.
+pub(super) fn module(module: &Module, diagnostics: &mut Diagnostics) {
+    lengths(&module.process_data, diagnostics);
+}
+
+/// Those of CANopen are at most 255 bits long, and padding gets no field.
+fn lengths(data: &ProcessData, diagnostics: &mut Diagnostics) {
+    for pdo in &data.pdos {
+        for entry in pdo.entries.iter().filter(|entry| entry.index != 0 && entry.bits > MAX_ENTRY) {
+            let message = format!("an entry of the PDO 0x{:04X} has {} bits", pdo.mapping_index, entry.bits);
+            let found = Diagnostic::new(&codes::ENTRY_TOO_LONG, entry.origin.span, message);
+            diagnostics.push(found.label("the PDO gets no struct"));
+        }
+    }
 }
 
 /// Index of the first communication object.
@@ -213,12 +235,8 @@ impl<'a> Layout<'a> {
         if !item.mappable.any() {
             self.mapped_report(item, &codes::NOT_MAPPABLE, span, format!("{object} is mapped, but not mappable"));
         }
-        let by_access = Mappable::by_access(item.access);
-        let fits = match self.direction {
-            Direction::Receive => by_access.rpdo,
-            Direction::Transmit => by_access.tpdo,
-        };
-        if item.access == Access::ReadWrite {
+        let fits = declared_pdos_checked::goes(item, self.direction);
+        if item.access == Access::ReadWrite && item.mappable.rpdo == item.mappable.tpdo {
             let message = format!("{object} is rw, which doesn't say that it goes into {}", self.pdo_name());
             self.mapped_report(item, &codes::UNCLEAR_DIRECTION, span, message);
         }
@@ -227,9 +245,13 @@ impl<'a> Layout<'a> {
             let message = format!("{object} is {access} and can't be mapped into {pdo}");
             self.mapped_report(item, &codes::WRONG_DIRECTION, span, message);
         }
-        match item.ty.bits() {
+        // Bit fields and enumerations are as long as their integer.
+        let owner = Owner { types: &self.device.types, groups: &[] };
+        let is_own = self.device.entry(entry.index, entry.sub_index).is_some();
+        let ty = if is_own { owner.basic(item.ty) } else { item.ty };
+        match ty.bits() {
             Some(bits) if bits != entry.bits => {
-                let message = format!("{object} is mapped with {} bits, but {} has {bits}", entry.bits, item.ty);
+                let message = format!("{object} is mapped with {} bits, but {ty} has {bits}", entry.bits);
                 self.mapped_report(item, &codes::MAPPED_LENGTH, span, message);
             }
             None if !matches!(item.ty, Type::Opaque(_) | Type::Named(_)) => {

@@ -2,17 +2,35 @@
 
 use std::cmp::Ordering;
 
+use super::owner::Owner;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Group, Item, Value};
+use crate::ir::{Group, Item, Type, TypeDef, Value};
 use crate::source::Span;
 
-pub(super) fn run<'a>(groups: impl Iterator<Item = &'a Group>, diagnostics: &mut Diagnostics) {
+pub(super) fn run<'a>(groups: impl Iterator<Item = &'a Group>, types: &[TypeDef], diagnostics: &mut Diagnostics) {
+    let owner = Owner { types, groups: &[] };
     for group in groups {
         for item in &group.items {
             if !item.limits.is_empty() {
-                limits(item, diagnostics);
+                limits(owner, item, diagnostics);
             }
         }
+    }
+}
+
+/// What limits that are swapped were meant to be: those of the other integer of the same length.
+fn with_other_sign(ty: Type, low: &Value, high: &Value) -> Option<String> {
+    let (low, high) = (low.as_int()?, high.as_int()?);
+    match ty {
+        Type::Unsigned(bits @ 1..=64) if low >> (bits - 1) == 1 => {
+            let signed = low - (1i128 << bits);
+            (signed <= high).then(|| format!("as INTEGER{bits}, {low:#X} is {signed}: is the type signed?"))
+        }
+        Type::Integer(bits @ 1..=64) if low >= 0 && high < 0 => {
+            let unsigned = high + (1i128 << bits);
+            Some(format!("as UNSIGNED{bits}, {unsigned:#X} is {unsigned}: is the type unsigned?"))
+        }
+        _ => None,
     }
 }
 
@@ -24,15 +42,17 @@ fn compare(left: &Value, right: &Value) -> Option<Ordering> {
     }
 }
 
-fn limits(item: &Item, diagnostics: &mut Diagnostics) {
+fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     let (low, high) = (item.limits.low.as_ref(), item.limits.high.as_ref());
     if let (Some(low), Some(high)) = (low, high) {
         if compare(low, high) == Some(Ordering::Greater) {
             let message = format!("the lower limit {low} is greater than the upper limit {high}");
-            diagnostics.push(
-                Diagnostic::new(&codes::LIMITS_SWAPPED, item.at.low.or(item.origin.span), message)
-                    .label("the limits are kept, and not checked by generated code"),
-            );
+            let found = Diagnostic::new(&codes::LIMITS_SWAPPED, item.at.low.or(item.origin.span), message)
+                .label("the limits are kept, and not checked by generated code");
+            diagnostics.push(match with_other_sign(owner.basic(item.ty), low, high) {
+                Some(help) => found.help(help),
+                None => found,
+            });
             return;
         }
     }

@@ -18,7 +18,7 @@ use std::sync::OnceLock;
 use sha2::{Digest, Sha256};
 
 /// One input file, decoded to UTF-8 with its byte order mark removed.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Source {
     name: String,
     text: String,

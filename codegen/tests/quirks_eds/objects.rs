@@ -184,7 +184,7 @@ fn e48_other_access() {
             assert_eq!(checked.places("EDS033"), [(4, 12)], "{text}");
         }
         if text.contains("both") {
-            assert_eq!(value_of(&checked.item(0x2000, 0).extensions, ";"), Some("both ways"), "{text}");
+            assert_eq!(value_of(&checked.group(0x2000).extensions, ";"), Some("both ways"), "{text}");
         }
     }
     let empty = read("[2000]\nParameterName=Speed\nDataType=0x0005\nAccessType=\n");

@@ -37,7 +37,7 @@ fn e59_comments() {
         assert_eq!(checked.codes(), [""; 0], "{entries}");
     }
     let other = read("[Comments]\nLines=0\nAuthor=me\n");
-    assert_eq!(other.extension("Author"), Some("me"), "nothing is lost");
+    assert_eq!(other.extension("Comments/Author"), Some("me"), "nothing is lost");
 }
 
 #[test]
@@ -128,7 +128,10 @@ fn e65_unknown_keys() {
     assert_eq!(value_of(extensions, "Unit"), Some("rpm"));
     assert_eq!(value_of(extensions, "Factor"), Some("0.5"));
     assert_eq!(value_of(extensions, ";"), Some("SEVCONFIELD a, b"));
-    assert_eq!((checked.extension("NG_Slave"), checked.extension("1_Sub0")), (Some("1"), Some("7")));
+    assert_eq!(
+        (checked.extension("DeviceInfo/NG_Slave"), checked.extension("DeviceInfo/1_Sub0")),
+        (Some("1"), Some("7"))
+    );
     assert_eq!(checked.extension(";"), Some("made by hand"), "comments above the first section are kept, too");
     assert_eq!(checked.codes(), [""; 0]);
     let asked = read_with(&vector, &["unknown-key"]);
@@ -287,7 +290,7 @@ fn e71_connected_modules() {
     let checked = read_dcf("[ConnectedModules]\nNrOfEntries=2\n1=4\n2=7\nSlots=3\n");
     let own = checked.device().commissioning.as_ref().unwrap();
     assert_eq!(own.connected_modules, [4, 7]);
-    assert_eq!(checked.extension("Slots"), Some("3"));
+    assert_eq!(checked.extension("ConnectedModules/Slots"), Some("3"));
     assert_eq!(checked.codes(), [""; 0]);
 }
 

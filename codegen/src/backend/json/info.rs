@@ -17,7 +17,7 @@ use crate::source::{FileId, Origin};
 pub struct Info {
     /// Its name.
     pub file: String,
-    /// Its format: `eds`, `dcf`, `xdd`, `esi`, `gsdml`; null where it wasn't recognised.
+    /// Its format: `eds`, `dcf`, `xdd`, `esi`, `gsdml`, `table`; null where it wasn't recognised.
     pub format: Option<&'static str>,
     /// How its bytes were decoded.
     pub encoding: &'static str,
@@ -58,6 +58,9 @@ pub struct DeviceInfo {
     pub objects: usize,
     /// Number of addressable sub-entries that the file declares, sub-index 0 included.
     pub entries: usize,
+    /// For register tables: number of registers, which are items of chapters.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub registers: Option<usize>,
     /// RPDOs whose mapping the file describes.
     pub rx_pdos: Vec<PdoInfo>,
     /// TPDOs whose mapping the file describes.
@@ -169,6 +172,7 @@ pub fn info(compilation: &Compilation) -> Info {
     let nothing = Catalog::default();
     let catalog = compilation.catalog.as_ref().unwrap_or(&nothing);
     let is_gsdml = compilation.format == Some(Format::Gsdml);
+    let is_table = compilation.format == Some(Format::Table);
     let is_modular = is_gsdml || compilation.format == Some(Format::Esi);
     let own_devices = || catalog.devices.iter().filter(|device| is_own(device.origin));
     let own_modules = || catalog.modules.iter().filter(|module| is_own(module.origin));
@@ -176,7 +180,10 @@ pub fn info(compilation: &Compilation) -> Info {
         file: source.map(|source| source.name().to_owned()).unwrap_or_default(),
         format: compilation.format.map(|format| format.name()),
         encoding: source.map_or("utf-8", |source| source.encoding().name()),
-        devices: own_devices().filter(|device| !device.dictionary_only).map(device).collect(),
+        devices: own_devices()
+            .filter(|device| !device.dictionary_only)
+            .map(|own| DeviceInfo { registers: is_table.then(|| registers(own)), ..device(own) })
+            .collect(),
         dictionary: own_devices().find(|device| device.dictionary_only).map(dictionary),
         daps: is_gsdml.then(|| catalog.devices.iter().map(|device| dap(device, catalog)).collect()),
         modules: is_modular.then(|| own_modules().map(|one| module(one, catalog, is_gsdml)).collect()),
@@ -218,9 +225,16 @@ fn device(device: &Device) -> DeviceInfo {
         order_code: device.identity.order_code.to_string(),
         objects,
         entries,
+        registers: None,
         rx_pdos: pdos(&device.process_data, Direction::Receive),
         tx_pdos: pdos(&device.process_data, Direction::Transmit),
     }
+}
+
+/// Number of items in chapters.
+fn registers(device: &Device) -> usize {
+    let chapters = device.groups.iter().filter(|group| matches!(group.kind, GroupKind::Chapter));
+    chapters.map(|group| group.items.len()).sum()
 }
 
 fn dictionary(device: &Device) -> DictionaryInfo {

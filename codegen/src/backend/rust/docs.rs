@@ -3,9 +3,12 @@
 use std::fmt::Write;
 
 use super::literal;
+use super::manual::{self, Manual};
+use super::place::Place;
+use super::quantity;
 use super::scope::Scope;
 use super::value_type;
-use crate::ir::{Item, Limits, Type, Value};
+use crate::ir::{Behaviour, Documentation, Item, Limits, Storage, Type, TypeDef, Value};
 
 /// Text as one line of Markdown without any markup.
 pub(super) fn escape(text: &str) -> String {
@@ -36,8 +39,8 @@ pub(super) fn escape(text: &str) -> String {
     escaped
 }
 
-/// The lines about an item: its name, then its address, type, access and values.
-pub(super) fn item(item: &Item, name: &str, scope: &Scope<'_>) -> Vec<String> {
+/// The lines about an item: its name, then its address, type, access and values, then what else is known.
+pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope<'_>) -> Vec<String> {
     let mut lines = Vec::with_capacity(4);
     if !name.trim().is_empty() {
         lines.push(sentence(&escape(name)));
@@ -45,14 +48,84 @@ pub(super) fn item(item: &Item, name: &str, scope: &Scope<'_>) -> Vec<String> {
     }
     lines.push(facts(item, scope));
     documentation(item, &mut lines);
+    let mut paragraphs = Vec::new();
+    if let Some(quantity) = &item.quantity {
+        paragraphs.extend(quantity::notes(quantity));
+    }
+    if let Some(behaviour) = &item.behaviour {
+        self::behaviour(behaviour, &mut paragraphs);
+    }
+    if let Some(availability) = &item.availability {
+        paragraphs.push(manual::availability(availability));
+    }
+    let place = scope.manual.place(item.documentation.as_deref(), &item.names);
+    let chapter = chapter.filter(|chapter| !chapter.trim().is_empty());
+    let chapter = chapter.map(|chapter| format!("Chapter {}", sentence(&escape(chapter))));
+    paragraphs.push(chapter.into_iter().chain(place).collect::<Vec<_>>().join(" "));
+    paragraphs.extend(item.doubts.iter().map(manual::doubt));
+    for paragraph in paragraphs.into_iter().filter(|paragraph| !paragraph.is_empty()) {
+        lines.extend([String::new(), paragraph]);
+    }
     lines
+}
+
+/// What is known of storage, side effects and conditions of writing.
+fn behaviour(behaviour: &Behaviour, paragraphs: &mut Vec<String>) {
+    let mut sentences = Vec::new();
+    match &behaviour.storage {
+        Storage::Unknown => {}
+        Storage::Volatile => sentences.push("Lost at power-off.".to_owned()),
+        Storage::Immediate => sentences.push("Kept over power-off.".to_owned()),
+        Storage::OnCommand(command) => {
+            sentences.push(format!("Kept over power-off once {} was given.", escape(command)));
+        }
+    }
+    if let Some(effective) = &behaviour.effective {
+        sentences.push(format!("Takes effect at: {}", sentence(&escape(effective))));
+    }
+    for condition in &behaviour.write_when {
+        let values = list(&condition.values);
+        sentences.push(format!("Can be written only while {} is {values}.", escape(&condition.item)));
+    }
+    if !behaviour.writable_values.is_empty() {
+        sentences.push(format!("Only {} can be written.", list(&behaviour.writable_values)));
+    }
+    if behaviour.self_clearing {
+        sentences.push("The device clears it by itself.".to_owned());
+    }
+    if behaviour.write_once {
+        sentences.push("Can be written only once.".to_owned());
+    }
+    sentences.extend(behaviour.side_effects.iter().map(|effect| sentence(&escape(effect))));
+    paragraphs.push(sentences.join(" "));
+}
+
+fn list(values: &[Value]) -> String {
+    values.iter().map(value).collect::<Vec<_>>().join(" or ")
+}
+
+/// The words of a description, as sentences.
+pub(super) fn words(documentation: Option<&Documentation>, sentences: &mut Vec<String>) {
+    let lines = documentation.into_iter().flat_map(|documentation| documentation.text.lines());
+    sentences.extend(lines.map(escape).filter(|line| !line.is_empty()).map(|line| sentence(&line)));
+}
+
+/// The lines about a type behind its name.
+pub(super) fn definition(definition: &TypeDef, manual: &Manual, lines: &mut Vec<String>) {
+    let mut sentences = Vec::new();
+    words(definition.documentation.as_deref(), &mut sentences);
+    sentences.extend(manual.place(definition.documentation.as_deref(), &[]));
+    for sentence in sentences {
+        lines.extend([String::new(), sentence]);
+    }
 }
 
 fn facts(item: &Item, scope: &Scope<'_>) -> String {
     let base = scope.base(item.ty);
     let mut line = String::with_capacity(64);
-    if let Some((index, sub)) = item.object() {
-        let _ = write!(line, "0x{index:04X}:{sub:02X}, ");
+    let place = Place::of(scope, item).facts();
+    if !place.is_empty() {
+        let _ = write!(line, "{}, ", capital(&place));
     }
     let _ = write!(line, "{base}, {}", item.access.name());
     match (item.mappable.rpdo, item.mappable.tpdo) {
@@ -66,9 +139,12 @@ fn facts(item: &Item, scope: &Scope<'_>) -> String {
     }
     if let Some(range) = limits(&item.limits) {
         let _ = write!(line, ", {range}");
+        if let Some(physical) = quantity::limits(item) {
+            let _ = write!(line, " ({physical})");
+        }
     }
-    if let Some(quantity) = item.quantity.as_ref().filter(|quantity| !quantity.unit.is_empty()) {
-        let _ = write!(line, ", in {}", escape(&quantity.unit));
+    if let Some(quantity) = &item.quantity {
+        line.push_str(&quantity::facts(quantity));
     }
     if let Some(configured) = item.configured.as_ref().and_then(|configured| configured.value.as_ref()) {
         let _ = write!(line, ", configured to {}", typed(configured, base));
@@ -84,7 +160,7 @@ fn typed(shown: &Value, ty: Type) -> String {
     }
 }
 
-fn value(value: &Value) -> String {
+pub(super) fn value(value: &Value) -> String {
     const SHOWN: usize = 60;
     let text = value.to_string();
     match text.char_indices().nth(SHOWN) {
@@ -116,6 +192,12 @@ fn documentation(item: &Item, lines: &mut Vec<String>) {
         lines.push(String::new());
         lines.push(escape(paragraph));
     }
+}
+
+/// `text` as the start of a sentence.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }
 
 /// `text` with a full stop, where it has none.

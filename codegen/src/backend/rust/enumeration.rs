@@ -3,10 +3,11 @@
 use std::collections::HashSet;
 
 use super::docs;
+use super::manual::{self, Manual};
 use super::options::RustOptions;
 use super::scope::Scope;
 use super::value_type::{self, ValueType};
-use crate::ir::{EnumValue, Shape, Type};
+use crate::ir::{EnumValue, Shape, Type, Zone};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// An enumeration, ready to be written.
@@ -22,6 +23,8 @@ pub(super) struct EnumerationModel {
     pub ty: Type,
     /// Length in bits.
     pub bits: u32,
+    /// The bits of its numbers, where each number of so many bits has a name.
+    pub complete: Option<String>,
     pub variants: Vec<VariantModel>,
 }
 
@@ -32,44 +35,21 @@ pub(super) struct VariantModel {
     pub value: String,
 }
 
+/// The most bits of an enumeration that may name every number.
+const COMPLETE: u32 = 6;
+
 /// Variants of every enumeration, and what its code names.
 const RESERVED: [&str; 2] = ["Self", "Unknown"];
 
-/// Types of the prelude that generated code names, and traits that it derives.
-const RESERVED_TYPES: [&str; 4] = ["Self", "Option", "Result", "Unknown"];
-
-/// The enumerations that items and PDO entries of `scope` have, with the positions of their types.
-pub(super) fn models(scope: &Scope<'_>, options: &RustOptions) -> Vec<(u32, EnumerationModel)> {
-    let items = scope.groups.iter().flat_map(|group| &group.items).map(|item| item.ty);
-    let entries = scope.pdos.iter().flat_map(|pdo| &pdo.entries).map(|entry| entry.ty);
-    let mut seen = HashSet::new();
-    let mut used: Vec<u32> = Vec::new();
-    for ty in items.chain(entries) {
-        let Some((position, definition)) = scope.resolve(ty).1 else { continue };
-        if matches!(definition.shape, Shape::Enumeration { .. }) && seen.insert(position) {
-            used.push(position);
-        }
-    }
-    used.sort_unstable();
-    let mut models: Vec<(u32, EnumerationModel)> =
-        used.into_iter().filter_map(|position| Some((position, model(scope, position, options)?))).collect();
-    let wishes: Vec<Wish<'_>> = models
-        .iter()
-        .map(|(position, _)| Wish {
-            name: &scope.types[*position as usize].name,
-            fallback: format!("enumeration {position}"),
-            suffix: position.to_string(),
-        })
-        .collect();
-    let names = names_unique::unique(&wishes, &RESERVED_TYPES, Case::Pascal);
-    for ((_, model), name) in models.iter_mut().zip(names) {
-        model.name = name;
-    }
-    models
-}
-
 /// The enumeration at this position, as yet without a name; `None` where it has no value that its integer has.
-fn model(scope: &Scope<'_>, position: u32, options: &RustOptions) -> Option<EnumerationModel> {
+///
+/// One `in_field` that names every number of so many bits has no variant for others.
+pub(super) fn model(
+    scope: &Scope<'_>,
+    position: u32,
+    in_field: bool,
+    options: &RustOptions,
+) -> Option<EnumerationModel> {
     let definition = scope.types.get(position as usize)?;
     let Shape::Enumeration { base, values, .. } = &definition.shape else { return None };
     // A truth value with names for its values is a number of one bit.
@@ -87,19 +67,24 @@ fn model(scope: &Scope<'_>, position: u32, options: &RustOptions) -> Option<Enum
     if values.is_empty() {
         return None;
     }
+    let bits = base.bits()?;
+    let complete = in_field && bits <= COMPLETE && values.len() == 1 << bits;
+    let mut docs = vec![docs::sentence(&docs::escape(&definition.name))];
+    docs::definition(definition, &scope.manual, &mut docs);
     Some(EnumerationModel {
-        docs: vec![docs::sentence(&docs::escape(&definition.name))],
+        docs,
         derives: options.derives(true),
         base: path,
         native,
         ty: base,
-        bits: base.bits()?,
-        variants: variants(&values),
+        bits,
+        complete: complete.then(|| format!("{:#X}", (1_u32 << bits) - 1).replacen("0X", "0x", 1)),
+        variants: variants(&values, &scope.manual),
         name: String::new(),
     })
 }
 
-fn variants(values: &[&EnumValue]) -> Vec<VariantModel> {
+fn variants(values: &[&EnumValue], manual: &Manual) -> Vec<VariantModel> {
     let wishes: Vec<Wish<'_>> = values
         .iter()
         .map(|value| {
@@ -111,16 +96,29 @@ fn variants(values: &[&EnumValue]) -> Vec<VariantModel> {
     let variant = |(value, name): (&&EnumValue, String)| {
         let number = value_type::number(value.value, value.value > 0);
         let title = docs::escape(&value.name);
-        let docs =
+        let mut docs =
             if title.is_empty() { format!("{number}.") } else { format!("{number}: {}", docs::sentence(&title)) };
+        for more in about(value, manual) {
+            docs.push(' ');
+            docs.push_str(&more);
+        }
         VariantModel { name, docs, value: number }
     };
     values.iter().zip(names).map(variant).collect()
 }
 
-impl EnumerationModel {
-    /// Whether its numbers have a sign.
-    pub(super) fn is_signed(&self) -> bool {
-        self.native.starts_with('i')
+/// What else is known of a value.
+fn about(value: &EnumValue, manual: &Manual) -> Vec<String> {
+    let mut sentences = Vec::new();
+    match value.zone {
+        Some(Zone::Reserved) => sentences.push("Must not be used.".to_owned()),
+        Some(Zone::Vendor) => sentences.push("Left to the vendor.".to_owned()),
+        None => {}
     }
+    docs::words(value.documentation.as_deref(), &mut sentences);
+    if let Some(availability) = &value.availability {
+        sentences.push(manual::availability(availability));
+    }
+    sentences.extend(manual.place(value.documentation.as_deref(), &value.names));
+    sentences
 }

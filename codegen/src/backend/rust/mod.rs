@@ -4,18 +4,25 @@
 //! The template is the shape of the output; `layout` then breaks the lines that are too long, where and how
 //! `prettyplease` would.
 
+mod bit_field;
 mod catalog;
+mod code_table;
 mod data;
 mod docs;
 mod enumeration;
 mod ethercat;
 mod layout;
 mod literal;
+mod machine;
+mod manual;
 mod model;
+mod named;
 mod nested;
 mod options;
 mod pdo;
+mod place;
 mod profinet;
+mod quantity;
 mod scope;
 mod value_type;
 

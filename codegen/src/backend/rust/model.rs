@@ -2,16 +2,19 @@
 
 use std::collections::BTreeMap;
 
+use super::code_table::{self, CodeTableModel};
 use super::docs;
-use super::enumeration::EnumerationModel;
 use super::ethercat::{self, EtherCatModel, ModulePaths};
 use super::literal;
+use super::named::Types;
 use super::options::{Presence, RustOptions};
 use super::pdo::{self, PdoModel};
+use super::place::{Buses, Place as Address};
+use super::quantity;
 use super::scope::{ObjectBus, Scope};
 use super::value_type::ValueType;
 use super::INTERFACE_VERSION;
-use crate::ir::{Access, Device, FileInfo, Group, Item, Module, ObjectCode, Type, Value};
+use crate::ir::{Access, Device, FileInfo, Group, GroupKind, Item, Module, ObjectCode, Type, Value};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// Where a device's code stands.
@@ -33,16 +36,21 @@ pub(super) struct Model<'a> {
     pub identity: Option<IdentityModel>,
     /// Whether there is a type of the device with accessor methods.
     pub has_accessors: bool,
-    /// The type of the handles' location.
-    pub location: &'static str,
-    pub enumerations: Vec<EnumerationModel>,
+    /// The type of the handles' location; of several, the one with all buses.
+    pub location: String,
+    /// Whether handles have several types of locations.
+    pub has_locations: bool,
+    /// What the handles are of, and what one of them is of at the start of a sentence and within it.
+    pub handles: [&'static str; 3],
+    pub types: Types,
+    pub code_tables: Vec<CodeTableModel>,
     pub node_id: Option<u8>,
     pub accessor_derives: Vec<String>,
     /// Lints that a name of the dictionary would trip over.
     pub method_allow: Option<String>,
     pub objects: Vec<ObjectModel>,
     pub aliases: Vec<Alias>,
-    /// Private names of the types of handles: name, access and value.
+    /// Private names of the types of handles: name, access and arguments.
     pub handle_types: Vec<(String, &'static str, String)>,
     pub pdos: Vec<PdoModel>,
     /// Whether there are views of PDOs within a process image.
@@ -76,7 +84,7 @@ pub(super) struct ObjectModel {
 impl ObjectModel {
     /// Whether its items need the runtime's name.
     pub(super) fn names_runtime(&self) -> bool {
-        self.items.iter().any(|item| item.value.contains("rt::") || item.constructor.contains("rt::"))
+        self.items.iter().any(|item| item.arguments.contains("rt::") || item.constructor.contains("rt::"))
     }
 }
 
@@ -87,9 +95,10 @@ pub(super) struct ItemModel {
     pub docs: Vec<String>,
     pub heading: String,
     pub access: &'static str,
-    /// The type of the value, as the handle's place names it, and as the device's does.
-    pub value: String,
-    pub value_at_top: String,
+    /// The type of the value and, where there are others, that of the location, as the handle's place names them, and as
+    /// the device's does.
+    pub arguments: String,
+    pub arguments_at_top: String,
     /// The private name of the handle's type: one without parameters, so that `rustc` has nothing to infer.
     pub alias: String,
     /// The call that makes the handle, without its type.
@@ -171,28 +180,31 @@ const RESERVED_IN_OBJECT: [&str; 4] = ["self", "super", "crate", "rt"];
 impl<'a> Model<'a> {
     /// A device.
     pub(super) fn new(device: &'a Device, file: &'a FileInfo, options: &'a RustOptions, place: &Place) -> Self {
-        let scope = Scope::of_device(device, options);
-        let mut model = Model::of_scope(scope, options);
+        let (scope, types) = Scope::of_device(device, options);
+        let mut model = Model::of_scope(scope, types, options);
         let title = title(device);
         model.device_name = device_name(device, file, options.device_name.as_deref());
         model.title = docs::escape(&title);
         model.identity = (!device.dictionary_only).then(|| IdentityModel::new(device));
         model.has_accessors = options.accessors && !model.objects.is_empty() && has_object_access(device);
         model.ethercat = EtherCatModel::new(device, &model.pdos, &place.modules, place.nest);
+        model.code_tables = code_table::models(&device.code_tables);
         model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);
         model
     }
 
     /// A module of a modular device.
     pub(super) fn of_module(module: &'a Module, options: &'a RustOptions, nest: usize) -> Self {
-        let mut model = Model::of_scope(Scope::of_module(module, options), options);
+        let (scope, types) = Scope::of_module(module, options);
+        let mut model = Model::of_scope(scope, types, options);
         model.title = docs::escape(&module.name);
         model.module = Some(ethercat::module(module, &model.pdos, nest));
         model
     }
 
-    fn of_scope(scope: Scope<'a>, options: &'a RustOptions) -> Self {
-        let objects = objects(&scope);
+    fn of_scope(scope: Scope<'a>, types: Types, options: &'a RustOptions) -> Self {
+        let locations = Locations::of(&scope);
+        let objects = objects(&scope, &locations);
         let aliases = ALIASES.iter().filter(|alias| uses(&objects, alias.name)).copied().collect();
         let handle_types = handle_types(&objects);
         let pdos = if options.pdos { pdo::models(&scope, options) } else { Vec::new() };
@@ -204,7 +216,11 @@ impl<'a> Model<'a> {
             title: String::new(),
             identity: None,
             has_accessors: false,
-            location: scope.bus.location(),
+            location: locations.all.path(),
+            has_locations: locations.several,
+            handles: handles(&scope),
+            types,
+            code_tables: Vec::new(),
             node_id: None,
             accessor_derives: options.derives(false),
             method_allow: method_allow(objects.iter().map(|object| object.name.as_str())),
@@ -219,7 +235,6 @@ impl<'a> Model<'a> {
             },
             objects,
             aliases,
-            enumerations: scope.enumerations.into_iter().map(|(_, model)| model).collect(),
         }
     }
 
@@ -329,11 +344,11 @@ fn handle_types(objects: &[ObjectModel]) -> Vec<(String, &'static str, String)> 
     let all = objects.iter().flat_map(|object| &object.items);
     let names: BTreeMap<&str, &ItemModel> = all.map(|item| (item.alias.as_str(), item)).collect();
     // They stand beside the modules of objects, one level below the device.
-    let value = |item: &ItemModel| match item.value_at_top.starts_with("types::") {
-        true => format!("super::{}", item.value_at_top),
-        false => item.value_at_top.clone(),
+    let arguments = |item: &ItemModel| match item.arguments_at_top.starts_with("types::") {
+        true => format!("super::{}", item.arguments_at_top),
+        false => item.arguments_at_top.clone(),
     };
-    names.into_iter().map(|(name, item)| (name.to_owned(), item.access, value(item))).collect()
+    names.into_iter().map(|(name, item)| (name.to_owned(), item.access, arguments(item))).collect()
 }
 
 fn uses(objects: &[ObjectModel], alias: &str) -> bool {
@@ -349,32 +364,100 @@ pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = &'a Gro
     })
 }
 
-fn objects(scope: &Scope<'_>) -> Vec<ObjectModel> {
+/// The chapters' items that a client can reach, with the titles of their chapters.
+fn registers<'a>(scope: &Scope<'a>) -> Vec<(&'a str, &'a Item)> {
+    let chapters = scope.groups.iter().filter(|group| group.kind == GroupKind::Chapter);
+    let items = chapters.flat_map(|group| group.items.iter().map(|item| (group.name.as_str(), item)));
+    items.filter(|(_, item)| !Address::of(scope, item).buses().is_empty()).collect()
+}
+
+/// The buses on which items are found.
+struct Locations {
+    /// All of them.
+    all: Buses,
+    /// Whether not every item is on all of them.
+    several: bool,
+}
+
+impl Locations {
+    fn of(scope: &Scope<'_>) -> Self {
+        let objects = addressable(scope).flat_map(|group| &group.items);
+        let items = objects.chain(registers(scope).into_iter().map(|(_, item)| item));
+        let buses: Vec<Buses> = items.map(|item| Address::of(scope, item).buses()).collect();
+        let all = buses.iter().fold(Buses::default(), |all, own| all.union(*own));
+        Locations { several: buses.iter().any(|own| *own != all), all }
+    }
+
+    /// What follows the type of a value where handles of several locations exist.
+    fn argument(&self, buses: Buses) -> String {
+        if buses == self.all {
+            String::new()
+        } else {
+            format!("¦ {}", buses.path())
+        }
+    }
+}
+
+fn handles(scope: &Scope<'_>) -> [&'static str; 3] {
+    let has_objects = addressable(scope).next().is_some();
+    match (registers(scope).is_empty(), has_objects) {
+        (true, _) => ["entry of the object dictionary", "An entry", "an entry"],
+        (false, true) => {
+            ["register and every entry of the object dictionary", "A register or an entry", "a register or an entry"]
+        }
+        (false, false) => ["register", "A register", "a register"],
+    }
+}
+
+/// The registers of the chapters, and then the objects.
+fn objects(scope: &Scope<'_>, locations: &Locations) -> Vec<ObjectModel> {
+    let registers = registers(scope);
     let groups: Vec<&Group> = addressable(scope).collect();
-    let wishes: Vec<Wish<'_>> = groups
+    let register_wish = |(_, item): &(&'_ str, &'_ Item)| (item.name.clone(), Address::of(scope, item).suffix());
+    let named: Vec<_> = registers.iter().map(register_wish).collect();
+    let mut wishes: Vec<Wish<'_>> = named
         .iter()
-        .map(|group| {
-            let index = group.index().unwrap_or(0);
-            Wish { name: &group.name, fallback: format!("object {index:04X}"), suffix: format!("{index:04X}") }
-        })
+        .map(|(name, suffix)| Wish { name, fallback: format!("register {suffix}"), suffix: suffix.clone() })
         .collect();
-    let names = names_unique::unique(&wishes, &RESERVED, Case::Snake);
-    groups.iter().zip(names).map(|(group, name)| object(scope, group, name)).collect()
+    wishes.extend(groups.iter().map(|group| {
+        let index = group.index().unwrap_or(0);
+        Wish { name: &group.name, fallback: format!("object {index:04X}"), suffix: format!("{index:04X}") }
+    }));
+    let mut names = names_unique::unique(&wishes, &RESERVED, Case::Snake).into_iter();
+    let mut models = Vec::with_capacity(wishes.len());
+    for ((chapter, own), name) in registers.iter().zip(&mut names) {
+        models.push(register(scope, locations, chapter, own, &name));
+    }
+    models.extend(groups.iter().zip(names).map(|(group, name)| object(scope, locations, group, name)));
+    models
+}
+
+fn register(scope: &Scope<'_>, locations: &Locations, chapter: &str, own: &Item, name: &str) -> ObjectModel {
+    let mut model = item(scope, locations, own, name, &own.name, "super::");
+    model.docs = docs::item(own, &own.name, Some(chapter), scope);
+    ObjectModel {
+        docs: Vec::new(),
+        heading: model.heading.clone(),
+        method_allow: None,
+        name: names_unique::escaped(name),
+        items: vec![model],
+        is_module: false,
+    }
 }
 
 fn is_module(group: &Group) -> bool {
     group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
 }
 
-fn object(scope: &Scope<'_>, group: &Group, name: String) -> ObjectModel {
+fn object(scope: &Scope<'_>, locations: &Locations, group: &Group, name: String) -> ObjectModel {
     let index = group.index().unwrap_or(0);
     let address = format!("0x{index:04X}");
     let title = if group.name.trim().is_empty() { address.clone() } else { docs::escape(&group.name) };
     let is_module = is_module(group);
     let items = if is_module {
-        sub_items(scope, group)
+        sub_items(scope, locations, group)
     } else {
-        let only = group.items.iter().map(|only| item(scope, only, &name, &group.name, "super::"));
+        let only = group.items.iter().map(|only| item(scope, locations, only, &name, &group.name, "super::"));
         only.collect()
     };
     let code = group.object_code().map_or("", ObjectCode::name);
@@ -388,7 +471,7 @@ fn object(scope: &Scope<'_>, group: &Group, name: String) -> ObjectModel {
     }
 }
 
-fn sub_items(scope: &Scope<'_>, group: &Group) -> Vec<ItemModel> {
+fn sub_items(scope: &Scope<'_>, locations: &Locations, group: &Group) -> Vec<ItemModel> {
     let wishes: Vec<Wish<'_>> = group
         .items
         .iter()
@@ -399,7 +482,7 @@ fn sub_items(scope: &Scope<'_>, group: &Group) -> Vec<ItemModel> {
         .collect();
     let names = names_unique::unique(&wishes, &RESERVED_IN_OBJECT, Case::Snake);
     let items = group.items.iter().zip(names);
-    items.map(|(sub, name)| item(scope, sub, &name, &sub.name, "super::super::")).collect()
+    items.map(|(sub, name)| item(scope, locations, sub, &name, &sub.name, "super::super::")).collect()
 }
 
 fn heading(name: &str, address: &str) -> String {
@@ -410,36 +493,44 @@ fn heading(name: &str, address: &str) -> String {
 }
 
 /// `outer` leads from the handle's place to the device's.
-fn item(scope: &Scope<'_>, item: &Item, name: &str, original: &str, outer: &str) -> ItemModel {
-    let (index, sub) = item.object().unwrap_or((0, 0));
+fn item(scope: &Scope<'_>, locations: &Locations, item: &Item, name: &str, original: &str, outer: &str) -> ItemModel {
+    let address = Address::of(scope, item);
     let named = scope.enumeration(item.ty);
     // The number below an enumeration may be a truth value, which its code writes as one bit.
     let ty = named.map_or_else(|| scope.value_type(item.ty), |named| ValueType::of(named.ty));
     let named = named.map(|named| named.name.as_str());
-    let path = |outer: &str| match named {
-        Some(name) => format!("{outer}types::{name}"),
-        None => ty.path().to_owned(),
+    let scaled = if named.is_none() { quantity::of(scope, item) } else { None };
+    let path = |outer: &str| match (named, &scaled) {
+        (Some(name), _) => format!("{outer}types::{name}"),
+        (None, Some(scaled)) => scaled.path.clone(),
+        (None, None) => ty.path().to_owned(),
     };
+    let word = match (named, &scaled) {
+        (Some(name), _) => format!("Named{name}"),
+        (None, Some(scaled)) => scaled.word.clone(),
+        (None, None) => ty.word(),
+    };
+    let argument = locations.argument(address.buses());
+    let on = if argument.is_empty() { String::new() } else { address.buses().word() };
     ItemModel {
         constant: name.to_ascii_uppercase(),
         method: names_unique::escaped(name),
-        docs: docs::item(item, original, scope),
-        heading: heading(original, &format!("0x{index:04X}:{sub:02X}")),
+        docs: docs::item(item, original, None, scope),
+        heading: heading(original, &address.heading()),
         access: alias(item.access),
-        value: path(outer),
-        value_at_top: path(""),
-        alias: format!("{}{}", alias(item.access), named.map_or_else(|| ty.word(), |name| format!("Named{name}"))),
-        constructor: constructor(scope, item, ty, &literal::string(original), named.map(|_| path(outer))),
+        arguments: format!("{}{argument}", path(outer)),
+        arguments_at_top: format!("{}{argument}", path("")),
+        alias: format!("{}{word}{on}", alias(item.access)),
+        constructor: constructor(&address, item, ty, &literal::string(original), named.map(|_| path(outer))),
         real: ty.is_real() && (item.default.is_some() || !item.limits.is_empty()),
     }
 }
 
 /// The shortest call that says everything: every argument costs `rustc` a tenth of what the rest of the handle does.
-fn constructor(scope: &Scope<'_>, item: &Item, ty: ValueType, name: &str, named: Option<String>) -> String {
-    let (index, sub) = item.object().unwrap_or((0, 0));
+fn constructor(address: &Address<'_>, item: &Item, ty: ValueType, name: &str, named: Option<String>) -> String {
     let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
     let wrap = |literal: String| match &named {
-        Some(path) => format!("{path}::from_raw({literal})"),
+        Some(path) => format!("{path}::from_raw(«{literal}»)"),
         None => literal,
     };
     let (range, flags) = (ty.range_as(&item.limits, &wrap), flags(item));
@@ -451,20 +542,27 @@ fn constructor(scope: &Scope<'_>, item: &Item, ty: ValueType, name: &str, named:
     let literal = default.and_then(|value| ty.literal(value));
     let literal = literal.filter(|_| !matches!(ty, ValueType::Bytes(_))).map(wrap);
     let is_plain = range == "rt::Range::Full" && unit.is_empty();
-    let address = format!("0x{index:04X}¦ 0x{sub:02X}¦ {name}");
     let is_flagged = flags != "rt::Flags::NONE";
-    let object = if scope.bus == ObjectBus::CoE { "coe_object" } else { "object" };
-    match literal {
-        None if is_plain && initial == "rt::Initial::Unknown" && !is_flagged => format!("{object}(«{address}»)"),
-        None if is_plain && initial == "rt::Initial::Unknown" => format!("flagged_{object}(«{address}¦ {flags}»)"),
-        Some(literal) if is_plain && !is_flagged => format!("{object}_with_default(«{address}¦ {literal}»)"),
-        Some(literal) if is_plain => format!("flagged_{object}_with_default(«{address}¦ {flags}¦ {literal}»)"),
-        _ => format!(
-            "new(«{}(0x{index:04X}, 0x{sub:02X})¦ {name}¦ {range}¦ {initial}¦ {}¦ {flags}»)",
-            scope.bus.address(),
-            literal::string(unit),
-        ),
+    if let Some((object, index, sub)) = address.only_object().filter(|_| is_plain) {
+        let place = format!("0x{index:04X}¦ 0x{sub:02X}¦ {name}");
+        match literal {
+            None if initial == "rt::Initial::Unknown" && !is_flagged => return format!("{object}(«{place}»)"),
+            None if initial == "rt::Initial::Unknown" => return format!("flagged_{object}(«{place}¦ {flags}»)"),
+            Some(literal) if !is_flagged => return format!("{object}_with_default(«{place}¦ {literal}»)"),
+            Some(literal) => return format!("flagged_{object}_with_default(«{place}¦ {flags}¦ {literal}»)"),
+            None => {}
+        }
     }
+    if let Some(place) = address.with_register().filter(|_| initial == "rt::Initial::Unknown") {
+        return match is_plain {
+            true => format!("register(«{place}¦ {name}¦ {flags}»)"),
+            false => {
+                let unit = literal::string(unit);
+                format!("register_within(«{place}¦ {name}¦ {range}¦ {unit}¦ {flags}»)")
+            }
+        };
+    }
+    format!("new(«{}¦ {name}¦ {range}¦ {initial}¦ {}¦ {flags}»)", address.code(), literal::string(unit))
 }
 
 fn flags(item: &Item) -> &'static str {
@@ -503,6 +601,8 @@ fn table(scope: &Scope<'_>) -> Vec<EntryModel> {
             rows.push(entry(scope, item, name));
         }
     }
+    let registers = registers(scope).into_iter().map(|(_, item)| item).filter(|item| item.object().is_some());
+    rows.extend(registers.map(|item| entry(scope, item, &item.name)));
     rows.sort_by_key(|row: &EntryModel| (row.index, row.sub_index));
     rows
 }

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::docs;
-use super::ethercat::beside;
+use super::ethercat::{beside, depends_on};
 use super::model::addressable;
 use super::options::RustOptions;
 use super::scope::{ObjectBus, Scope};
@@ -15,6 +15,9 @@ const MAX_FIELD_NAME: usize = 30;
 
 /// Bits of a word.
 const WORD: u32 = 64;
+
+/// The longest entry that gets a field: `PDO022` tells of longer ones.
+const MAX_ENTRY: u32 = u16::MAX as u32;
 
 /// A PDO, ready to be written.
 pub(super) struct PdoModel {
@@ -53,7 +56,7 @@ pub(super) struct FieldModel {
     pub decode: String,
     pub offset: u32,
     pub bits: u32,
-    /// A field of more than a word: copied as bytes.
+    /// A field of more than a word: copied as bytes, the unused bits of the last one 0.
     pub long: bool,
 }
 
@@ -82,8 +85,9 @@ fn names(scope: &Scope<'_>) -> Vec<String> {
     names_unique::unique(&wishes, &RESERVED, Case::Pascal)
 }
 
-/// Names that the code of PDOs uses itself.
-const RESERVED: [&str; 10] = ["Self", "Result", "Ok", "Err", "Option", "Some", "None", "AsRef", "AsMut", "B"];
+/// Names that the code of PDOs uses itself, and those of its constructors, which must not be that of the type.
+const RESERVED: [&str; 13] =
+    ["Self", "Result", "Ok", "Err", "Option", "Some", "None", "AsRef", "AsMut", "B", "At", "New", "Unpack"];
 
 fn prefix(direction: Direction) -> &'static str {
     match direction {
@@ -94,8 +98,7 @@ fn prefix(direction: Direction) -> &'static str {
 
 fn model(scope: &Scope<'_>, pdo: &Pdo, struct_name: String, options: &RustOptions) -> Option<PdoModel> {
     let mapped: Vec<&PdoEntry> = pdo.entries.iter().filter(|entry| is_field(entry)).collect();
-    let has_odd_bytes = mapped.iter().any(|entry| entry.bits > WORD && !entry.bits.is_multiple_of(8));
-    if mapped.is_empty() || has_odd_bytes {
+    if mapped.is_empty() || mapped.iter().any(|entry| entry.bits > MAX_ENTRY) {
         return None;
     }
     let fields = fields(scope, &mapped);
@@ -123,7 +126,7 @@ fn model(scope: &Scope<'_>, pdo: &Pdo, struct_name: String, options: &RustOption
         constant: if is_constant && word { "const " } else { "" },
         covered: covered(scope, &mapped),
         fields,
-        mapping: pdo.entries.iter().map(mapping_entry).collect(),
+        mapping: pdo.entries.iter().map(mapping_line).collect(),
         word,
         cob_id: cob_id(pdo),
         configuration: configuration(scope, pdo),
@@ -149,8 +152,26 @@ fn covered(scope: &Scope<'_>, mapped: &[&PdoEntry]) -> String {
     format!("{covered:#X}").replace("0X", "0x")
 }
 
-pub(super) fn mapping_entry(entry: &PdoEntry) -> String {
-    format!("rt::MappedEntry::new(0x{:04X}, 0x{:02X}, {})", entry.index, entry.sub_index, entry.bits)
+/// The constructor of an entry, the shortest that there is, and its arguments.
+pub(super) fn mapping_entry(entry: &PdoEntry) -> (&'static str, Vec<String>) {
+    let mut arguments =
+        vec![format!("0x{:04X}", entry.index), format!("0x{:02X}", entry.sub_index), entry.bits.to_string()];
+    // Padding is padding in every slot.
+    let is_object = entry.index != 0;
+    let path = match (entry.depends_on_slot && is_object, entry.depends_on_slot_group && is_object) {
+        (false, false) => "rt::MappedEntry::new",
+        (true, false) => "rt::MappedEntry::in_slot",
+        (slot, group) => {
+            arguments.push(depends_on(slot, group).to_owned());
+            "rt::MappedEntry::depending_on"
+        }
+    };
+    (path, arguments)
+}
+
+fn mapping_line(entry: &PdoEntry) -> String {
+    let (path, arguments) = mapping_entry(entry);
+    format!("{path}(«{}»)", arguments.join("¦ "))
 }
 
 fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry]) -> Vec<FieldModel> {
@@ -238,7 +259,7 @@ fn field_type(scope: &Scope<'_>, entry: &PdoEntry) -> FieldType {
         {
             FieldType::Bytes(bits / 8)
         }
-        _ if bits > WORD => FieldType::Bytes(bits / 8),
+        _ if bits > WORD => FieldType::Bytes(bits.div_ceil(8)),
         _ => integer(false, bits),
     }
 }
@@ -353,7 +374,7 @@ impl FieldModel {
     /// The field from `data`, for PDOs of more than a word.
     pub(super) fn unpack_data(&self) -> String {
         if self.long {
-            return format!("rt::bits::get_bytes(«data¦ {}»)", self.offset);
+            return self.get_bytes("data", &self.offset.to_string());
         }
         let bits = format!("rt::bits::get(«data¦ {}¦ {}»)", self.offset, self.bits);
         self.decode_marked(&bits)
@@ -376,12 +397,25 @@ impl FieldModel {
         }
     }
 
-    /// The first bit within a process image in which the PDO starts at `BIT`.
+    /// The expression that copies the field from the bit `at` of `data`.
+    fn get_bytes(&self, data: &str, at: &str) -> String {
+        match self.odd_bits() {
+            Some(bits) => format!("rt::bits::get_bits(«{data}¦ {at}¦ {bits}»)"),
+            None => format!("rt::bits::get_bytes(«{data}¦ {at}»)"),
+        }
+    }
+
+    /// The length of a field that doesn't end with a byte.
+    fn odd_bits(&self) -> Option<u32> {
+        (!self.bits.is_multiple_of(8)).then_some(self.bits)
+    }
+
+    /// The first bit within a process image.
     fn bit(&self) -> String {
         if self.offset == 0 {
-            "BIT".to_owned()
+            "self.bit".to_owned()
         } else {
-            format!("BIT + {}", self.offset)
+            format!("self.bit + {}", self.offset)
         }
     }
 
@@ -389,7 +423,7 @@ impl FieldModel {
     pub(super) fn get_in_image(&self) -> String {
         let at = self.bit();
         if self.long {
-            return format!("rt::bits::get_bytes(«self.data.as_ref()¦ {at}»)");
+            return self.get_bytes("self.data.as_ref()", &at);
         }
         self.decode_marked(&format!("rt::bits::get(«self.data.as_ref()¦ {at}¦ {}»)", self.bits))
     }
@@ -398,7 +432,10 @@ impl FieldModel {
     pub(super) fn set_in_image(&self) -> String {
         let at = self.bit();
         if self.long {
-            return format!("rt::bits::set_bytes(«self.data.as_mut()¦ {at}¦ &value»);");
+            return match self.odd_bits() {
+                Some(bits) => format!("rt::bits::set_bits(«self.data.as_mut()¦ {at}¦ {bits}¦ &value»);"),
+                None => format!("rt::bits::set_bytes(«self.data.as_mut()¦ {at}¦ &value»);"),
+            };
         }
         let own = format!("self.{}", self.name);
         let value = self.encode.replace(&own, "value");
@@ -408,7 +445,11 @@ impl FieldModel {
     /// The statement that puts the field into `data`, for PDOs of more than a word.
     pub(super) fn pack_data(&self) -> String {
         if self.long {
-            return format!("data = rt::bits::put_bytes(data, {}, &self.{});", self.offset, self.name);
+            let (offset, name) = (self.offset, &self.name);
+            return match self.odd_bits() {
+                Some(bits) => format!("data = rt::bits::put_bits(data, {offset}, {bits}, &self.{name});"),
+                None => format!("data = rt::bits::put_bytes(data, {offset}, &self.{name});"),
+            };
         }
         format!("data = rt::bits::put(data, {}, {}, bits);", self.offset, self.bits)
     }

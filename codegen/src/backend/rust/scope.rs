@@ -1,9 +1,10 @@
 //! What has objects and PDOs of its own: a device, or a module of a modular one.
 
-use super::enumeration::{self, EnumerationModel};
+use super::manual::Manual;
+use super::named::{self, NamedType, Types};
 use super::options::RustOptions;
 use super::value_type::ValueType;
-use crate::ir::{Device, Group, Module, Pdo, Shape, Type, TypeDef};
+use crate::ir::{Device, Group, Item, Module, Pdo, Shape, StateMachine, Type, TypeDef};
 
 /// The bus on which objects are addressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,48 +13,41 @@ pub(super) enum ObjectBus {
     CoE,
 }
 
-impl ObjectBus {
-    /// The type of the location.
-    pub fn location(self) -> &'static str {
-        match self {
-            ObjectBus::CanOpen => "rt::OnCanOpen",
-            ObjectBus::CoE => "rt::OnCoE",
-        }
-    }
-
-    /// The call that makes a location, without its arguments.
-    pub fn address(self) -> &'static str {
-        match self {
-            ObjectBus::CanOpen => "rt::OnCanOpen::canopen",
-            ObjectBus::CoE => "rt::OnCoE::coe",
-        }
-    }
-}
-
-/// A device or a module, with its enumerations ready to be written.
+/// A device or a module, with the types that it defines.
 pub(super) struct Scope<'a> {
     pub bus: ObjectBus,
     pub groups: &'a [Group],
     pub types: &'a [TypeDef],
     pub pdos: &'a [Pdo],
-    /// The enumerations that an item or a PDO has, by the position of their types.
-    pub enumerations: Vec<(u32, EnumerationModel)>,
+    /// What is known of the manual that the description was taken from.
+    pub manual: Manual,
+    /// The enumerations and bit fields that an item, a PDO or a bit field has, by the position of their types.
+    pub named: Vec<(u32, NamedType)>,
 }
 
 impl<'a> Scope<'a> {
-    pub fn of_device(device: &'a Device, options: &RustOptions) -> Self {
+    /// A device, and its types ready to be written.
+    pub fn of_device(device: &'a Device, options: &RustOptions) -> (Self, Types) {
         let bus = if device.ethercat.is_some() || device.dictionary_only { ObjectBus::CoE } else { ObjectBus::CanOpen };
-        Scope::new(bus, &device.groups, &device.types, &device.process_data.pdos, options)
+        let mut scope = Scope::new(bus, &device.groups, &device.types, &device.process_data.pdos);
+        scope.manual = Manual::of(device);
+        scope.with_types(&device.machines, options)
     }
 
-    pub fn of_module(module: &'a Module, options: &RustOptions) -> Self {
-        Scope::new(ObjectBus::CoE, &module.groups, &module.types, &module.process_data.pdos, options)
+    /// A module, and its types ready to be written.
+    pub fn of_module(module: &'a Module, options: &RustOptions) -> (Self, Types) {
+        let scope = Scope::new(ObjectBus::CoE, &module.groups, &module.types, &module.process_data.pdos);
+        scope.with_types(&[], options)
     }
 
-    fn new(bus: ObjectBus, groups: &'a [Group], types: &'a [TypeDef], pdos: &'a [Pdo], options: &RustOptions) -> Self {
-        let mut scope = Scope { bus, groups, types, pdos, enumerations: Vec::new() };
-        scope.enumerations = enumeration::models(&scope, options);
-        scope
+    fn new(bus: ObjectBus, groups: &'a [Group], types: &'a [TypeDef], pdos: &'a [Pdo]) -> Self {
+        Scope { bus, groups, types, pdos, manual: Manual::default(), named: Vec::new() }
+    }
+
+    fn with_types(mut self, machines: &[StateMachine], options: &RustOptions) -> (Self, Types) {
+        let types = named::types(&self, machines, options);
+        self.named = types.named();
+        (self, types)
     }
 
     /// The object with this index.
@@ -95,10 +89,20 @@ impl<'a> Scope<'a> {
         ValueType::of(self.base(ty))
     }
 
-    /// The enumeration of a type that is one.
-    pub fn enumeration(&self, ty: Type) -> Option<&EnumerationModel> {
-        let (_, definition) = self.resolve(ty);
-        let (position, _) = definition?;
-        self.enumerations.iter().find(|(own, _)| *own == position).map(|(_, model)| model)
+    /// The enumeration or the bit field of a type that is one.
+    pub fn enumeration(&self, ty: Type) -> Option<&NamedType> {
+        let (position, _) = self.resolve(ty).1?;
+        self.named.iter().find(|(own, _)| *own == position).map(|(_, named)| named)
+    }
+
+    /// The item that other elements of the description call so: by its name, its object's name, or its address.
+    pub fn item(&self, name: &str) -> Option<&'a Item> {
+        let mut items = self.groups.iter().flat_map(|group| &group.items);
+        let by_group = || self.groups.iter().find(|group| group.name == name && group.index().is_some());
+        items.find(|item| item.name == name).or_else(|| by_group()?.items.first()).or_else(|| {
+            let (index, sub) = name.split_once(':').unwrap_or((name, "0"));
+            let index = u16::from_str_radix(index.trim().strip_prefix("0x")?, 16).ok()?;
+            self.object(index)?.sub(sub.trim().parse().ok()?)
+        })
     }
 }

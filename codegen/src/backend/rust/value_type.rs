@@ -134,7 +134,7 @@ impl ValueType {
         if let Some(offset) = value.and_then(|value| self.formula(value)) {
             // A negative number in hexadecimal would be its two's complement.
             let offset = if offset < 0 { offset.to_string() } else { format!("{offset:#x}") };
-            return format!("rt::Initial::NodeId({offset})");
+            return format!("rt::Initial::NodeId(«{}»)", wrap(offset));
         }
         match value.and_then(|value| self.literal(value)) {
             Some(literal) if matches!(self, ValueType::Bytes(_)) => format!("rt::Initial::bytes(«{literal}»)"),
@@ -162,9 +162,9 @@ impl ValueType {
         };
         match (low.map(wrap), high.map(wrap)) {
             (None, None) => FULL.to_owned(),
-            (Some(low), None) => format!("rt::Range::From({low})"),
-            (None, Some(high)) => format!("rt::Range::To({high})"),
-            (Some(low), Some(high)) => format!("rt::Range::Between({low}, {high})"),
+            (Some(low), None) => format!("rt::Range::From(«{low}»)"),
+            (None, Some(high)) => format!("rt::Range::To(«{high}»)"),
+            (Some(low), Some(high)) => format!("rt::Range::Between(«{low}¦ {high}»)"),
         }
     }
 
@@ -233,16 +233,16 @@ mod tests {
     fn limits_are_clamped_and_impossible_ones_are_not_checked() {
         let u16 = ValueType::of(Type::Unsigned(16));
         assert_eq!(u16.range_as(&limits(0, 65536), &same), "rt::Range::Full");
-        assert_eq!(u16.range_as(&limits(5, 65536), &same), "rt::Range::From(5)");
+        assert_eq!(u16.range_as(&limits(5, 65536), &same), "rt::Range::From(«5»)");
         assert_eq!(u16.range_as(&limits(5, 4), &same), "rt::Range::Full");
-        assert_eq!(ValueType::of(Type::Integer(24)).range_as(&limits(-8_388_608, 5), &same), "rt::Range::To(5)");
-        assert_eq!(ValueType::of(Type::Real32).range_as(&limits(0, 5), &same), "rt::Range::Between(0.0, 5.0)");
+        assert_eq!(ValueType::of(Type::Integer(24)).range_as(&limits(-8_388_608, 5), &same), "rt::Range::To(«5»)");
+        assert_eq!(ValueType::of(Type::Real32).range_as(&limits(0, 5), &same), "rt::Range::Between(«0.0¦ 5.0»)");
     }
 
     #[test]
     fn initial_values() {
         let u32 = ValueType::of(Type::Unsigned(32));
-        assert_eq!(u32.initial_as(Some(&Value::NodeId(0x180)), &same), "rt::Initial::NodeId(0x180)");
+        assert_eq!(u32.initial_as(Some(&Value::NodeId(0x180)), &same), "rt::Initial::NodeId(«0x180»)");
         assert_eq!(u32.initial_as(Some(&Value::Int(-1)), &same), "rt::Initial::Unknown");
         assert_eq!(u32.initial_as(Some(&Value::Int(7)), &same), "rt::Initial::Value(«7»)");
         assert_eq!(ValueType::of(Type::Boolean).initial_as(Some(&Value::Int(2)), &same), "rt::Initial::Unknown");

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::lists::{self, Lists};
+use super::object::in_order_of_file;
 use super::reader::{Fixed, Reader};
 use super::sections::{Kind, List};
 use crate::diagnostics::{codes, Diagnostic};
@@ -17,6 +18,7 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, header: &[(Kind, Section)], devi
     let mut lists = Lists::default();
     let mut canopen = CanOpenSettings::default();
     for (kind, section) in header {
+        let kept_before = device.extensions.len();
         match kind {
             Kind::FileInfo => file_info(reader, section, device),
             Kind::DeviceInfo => device_info(reader, section, device, &mut canopen),
@@ -30,10 +32,19 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, header: &[(Kind, Section)], devi
             _ => {}
         }
         reader.take_comments(&mut device.extensions);
+        name_section(*kind, &mut device.extensions[kept_before..]);
     }
     device.name = device.identity.product_name.clone();
     device.canopen = Some(Box::new(canopen));
     lists
+}
+
+/// Puts the name of their section before the keys of extensions, as `section/key`, and them in the order of the file.
+fn name_section(kind: Kind, extensions: &mut [Extension]) {
+    for extension in extensions.iter_mut() {
+        extension.key = compact_str::format_compact!("{}/{}", kind.name(), extension.key);
+    }
+    in_order_of_file(extensions);
 }
 
 fn report_repeated(reader: &mut Reader<'_, '_>, header: &[(Kind, Section)]) {

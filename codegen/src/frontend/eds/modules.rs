@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::header;
 use super::lists;
-use super::object::{Key, ObjectSections, Raw};
+use super::object::{in_order_of_file, Key, ObjectSections, Raw};
 use super::reader::{Fixed, Reader};
 use super::sections::ModulePart;
 use crate::diagnostics::{codes, Diagnostic};
@@ -85,7 +85,7 @@ fn module(reader: &mut Reader<'_, '_>, number: u32, mut parts: Parts, device: &D
     let section_name = |index| format!("[M{number}SubExt{index:04X}]");
     missing(reader, &extends, |index| parts.extensions.contains_key(&index), section_name);
     for (&index, sections) in &parts.extensions {
-        let extension = sub_extension(reader, index, sections, &mut module);
+        let extension = sub_extension(reader, index, sections);
         let origin = extension.template.origin.span;
         if !extends.contains_key(&index) {
             let message = format!("0x{index:04X} isn't in [M{number}SubExtends]");
@@ -176,15 +176,16 @@ fn clash(reader: &mut Reader<'_, '_>, group: &Group, device: &Device) {
     );
 }
 
-fn sub_extension(reader: &mut Reader<'_, '_>, index: u16, sections: &[Section], module: &mut Module) -> SubExtension {
+fn sub_extension(reader: &mut Reader<'_, '_>, index: u16, sections: &[Section]) -> SubExtension {
     reader.duplicate_sections(sections);
     let mut raw = reader.raw_with(sections, &["Count", "ObjExtend"]);
     let mut template = reader.item(index, 1, &raw, ObjectCode::Var);
     reader.name(raw.get(Key::ParameterName), &mut template.name, &mut template.at.name);
-    module.extensions.append(&mut raw.extensions);
+    template.extensions.append(&mut raw.extensions);
     let (count, per) = sub_count(reader, &raw);
     let extends_object = raw.more[1].is_some_and(|entry| obj_extend(reader, &entry));
     reader.take_comments(&mut template.extensions);
+    in_order_of_file(&mut template.extensions);
     SubExtension { index, count, per, extends_object, template }
 }
 

@@ -180,6 +180,7 @@ impl<'a> Reader<'a, '_> {
         self.take_comments(&mut group.extensions);
         self.fill(&mut group, index, code, raw, sections, compact);
         self.links(&mut group, &sections.links);
+        in_order_of_file(&mut group.extensions);
         Some(group)
     }
 
@@ -213,6 +214,8 @@ impl<'a> Reader<'a, '_> {
             let mut item = self.item(index, 0, &raw, code);
             item.name = group.name.clone();
             item.at.name = group.name_at;
+            // The section is the object's, and so is what stands in it beside the value.
+            group.extensions.append(&mut item.extensions);
             group.items.push(item);
         }
         self.duplicate_refinements(&sections.refinements);
@@ -278,6 +281,7 @@ impl<'a> Reader<'a, '_> {
             self.name(raw.get(Key::ParameterName), &mut item.name, &mut item.at.name);
             self.unused(&raw, &OF_MANY_VALUES, &mut item.extensions);
             item.extensions.append(&mut raw.extensions);
+            in_order_of_file(&mut item.extensions);
             group.items.push(item);
             rest = &rest[count..];
         }
@@ -573,6 +577,11 @@ impl<'a> Reader<'a, '_> {
             self.orphan_sections.push(*section);
         }
     }
+}
+
+/// Extensions are collected by what they are; the IR has them as they stand in the file.
+pub(super) fn in_order_of_file(extensions: &mut [Extension]) {
+    extensions.sort_by_key(|extension| extension.span.start);
 }
 
 #[cfg(test)]

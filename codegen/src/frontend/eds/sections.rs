@@ -70,6 +70,13 @@ const NAMED: [(&str, Kind); 13] = [
     ("Tools", Kind::Unknown),
 ];
 
+impl Kind {
+    /// The name of a section that there is once; empty for all others.
+    pub(super) fn name(self) -> &'static str {
+        NAMED.iter().find(|(_, kind)| *kind == self && self != Kind::Unknown).map_or("", |(name, _)| name)
+    }
+}
+
 /// The meaning of `name`, and whether the name keeps to the grammar.
 pub(super) fn classify(name: &str) -> (Kind, bool) {
     if let Some(found) = classify_object(name) {

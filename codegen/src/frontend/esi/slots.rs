@@ -29,10 +29,12 @@ pub(super) fn read<'a>(
         }
     }
     let mut number = slots.get(..first).and_then(<[Slot]>::last).map_or(0, after);
-    for (slot, (index, pdo)) in slots.iter_mut().skip(first).zip(own) {
+    for (slot, [index, pdo, group_index, group_pdo]) in slots.iter_mut().skip(first).zip(own) {
         slot.number = number;
         slot.index_increment = index.unwrap_or(rules.index_increment);
         slot.pdo_increment = pdo.unwrap_or(rules.pdo_increment);
+        slot.group_index_increment = group_index.unwrap_or(rules.group_index_increment);
+        slot.group_pdo_increment = group_pdo.unwrap_or(rules.group_pdo_increment);
         number = after(slot);
     }
     Ok(rules)
@@ -78,8 +80,8 @@ fn increment(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<u16> {
     reader.int(given, "increment of an index")
 }
 
-/// A slot, and the increments for indices of objects and of PDOs that it gives itself.
-type Increments = (Option<u16>, Option<u16>);
+/// The increments that a slot gives itself: for indices of objects and of PDOs, from slot to slot and from group to group.
+type Increments = [Option<u16>; 4];
 
 fn slot<'a>(
     reader: &mut Reader<'a, '_>,
@@ -100,14 +102,8 @@ fn slot<'a>(
     ];
     let fields = reader.fields(parent, &NAMES, extensions)?;
     let [min, max, group, index, pdo, group_index, group_pdo, default, fallback, view] = &fields;
-    for (key, given) in [
-        ("Slot@SlotGroupIndexIncrement", group_index),
-        ("Slot@SlotGroupPdoIncrement", group_pdo),
-        ("Slot@Fallback", fallback),
-        ("Slot@TreeView", view),
-    ] {
-        note(key, given, extensions);
-    }
+    note("Slot@Fallback", fallback, extensions);
+    note("Slot@TreeView", view, extensions);
     let least = reader.int(min, "number of modules").unwrap_or(0);
     let mut slot = Slot {
         instances: (least, reader.int(max, "number of modules").unwrap_or(least.max(1))),
@@ -115,7 +111,7 @@ fn slot<'a>(
         default: reader.int(default, "ident number of a module").map(Fit::Ident),
         ..Slot::default()
     };
-    let increments = (increment(reader, index), increment(reader, pdo));
+    let increments = [index, pdo, group_index, group_pdo].map(|given| increment(reader, given));
     let mut names = Names::default();
     while let Some(tag) = reader.cursor.child(parent)? {
         match tag.name {
@@ -197,7 +193,7 @@ fn pdo_group<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Ve
     let fields = reader.fields(tag, &["Alignment", "RxPdo", "TxPdo"], extensions)?;
     let [alignment, receive, transmit] = &fields;
     let group = ModulePdoGroup {
-        alignment: reader.int(alignment, "alignment in bits").unwrap_or(0),
+        alignment: reader.int(alignment, "alignment in bytes").unwrap_or(0),
         rx_pdo: reader.int(receive, "index"),
         tx_pdo: reader.int(transmit, "index"),
     };

@@ -531,11 +531,13 @@ fn dimensions(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, element: Option<u32
 fn bit_array(width: u8) -> Shape {
     let bit = |offset| BitFieldEntry {
         name: format_compact!("Bit {offset}"),
+        names: Default::default(),
         offset,
         bits: 1,
         meaning: BitMeaning::Flag { inverted: false },
         when: None,
         trigger: None,
+        availability: None,
         documentation: None,
     };
     Shape::BitField { base: Type::Unsigned(width), fields: (0..width).map(bit).collect() }

@@ -190,7 +190,15 @@ impl<'a> Reader<'a, '_> {
             super::reader::note("Assign@Content", Some(&content), rest);
             return Ok(());
         };
-        values.push(EnumValue { name, value, last, zone: None, names: Texts::default(), documentation: None });
+        values.push(EnumValue {
+            name,
+            value,
+            last,
+            zone: None,
+            names: Texts::default(),
+            availability: None,
+            documentation: None,
+        });
         Ok(())
     }
 }

@@ -201,7 +201,7 @@ fn enumeration<'a>(
 pub(super) fn enum_value(value: i128, texts: &Texts) -> EnumValue {
     let name = texts.label();
     let (names, documentation) = (texts.names(&name), texts.documentation());
-    EnumValue { name, value, last: None, zone: None, names, documentation }
+    EnumValue { name, value, last: None, zone: None, names, availability: None, documentation }
 }
 
 fn derived<'a>(

@@ -1,12 +1,12 @@
 //! `DEVICE` and `MODULE`: the description of a slave as the runtime wants it.
 
-use super::{Assigned, ModulePaths};
+use super::{depends_on, Assigned, ModulePaths, NOTHING};
 use crate::backend::rust::data::Data;
 use crate::backend::rust::literal;
-use crate::backend::rust::pdo::PdoModel;
+use crate::backend::rust::pdo::{mapping_entry, PdoModel};
 use crate::ir::{
-    Coe, Device, Direction, EtherCatSettings, Fit, InitCommand, Mailbox, Module, ModulePdoGroup, Pdo, Slot, SlotRules,
-    SyncManager, SyncManagerPurpose,
+    Coe, CompactString, Device, Direction, EtherCatSettings, Fit, Group, InitCommand, Mailbox, Module, ModulePdoGroup,
+    Pdo, Slot, SlotRules, SyncManager, SyncManagerPurpose,
 };
 
 /// Changes of state that the runtime knows.
@@ -43,8 +43,25 @@ pub(super) fn module(module: &Module, pdos: &[PdoModel]) -> Data {
             ("pdo_group", Data::text(module.pdo_group.unwrap_or(0).to_string())),
             ("pdos", pdo_list(&module.process_data.pdos, pdos)),
             ("init_commands", Data::Slice(module.init_commands.iter().map(init_command).collect())),
+            ("objects", Data::Slice(slot_objects(&module.groups))),
         ],
     )
+}
+
+/// Objects in a row that depend on the same.
+fn slot_objects(groups: &[Group]) -> Vec<Data> {
+    let known = groups.iter().filter_map(|group| Some((group.index()?, group)));
+    let known = known.map(|(index, group)| (index, depends_on(group.depends_on_slot, group.depends_on_slot_group)));
+    let mut rows: Vec<(u16, u16, &str)> = Vec::new();
+    for (index, depends_on) in known {
+        match rows.last_mut() {
+            Some(row) if row.2 == depends_on && row.1 < index => row.1 = index,
+            _ => rows.push((index, index, depends_on)),
+        }
+    }
+    rows.retain(|&(.., depends_on)| depends_on != NOTHING);
+    let data = |(first, last, depends_on)| vec![Data::index(first), Data::index(last), Data::text(depends_on)];
+    rows.into_iter().map(|row| Data::Call("rt::ethercat::SlotObjects::new", data(row))).collect()
 }
 
 fn sync_manager(own: &SyncManager) -> Data {
@@ -93,7 +110,7 @@ fn pdo_info(pdo: &Pdo, models: &[PdoModel]) -> Data {
             ("excluded_sync_managers", numbers(pdo.excluded_sync_managers.iter().map(u8::to_string).collect())),
             ("fixed", Data::flag(pdo.fixed)),
             ("mandatory", Data::flag(pdo.mandatory)),
-            ("depends_on_slot", Data::flag(pdo.depends_on_slot)),
+            ("depends_on", Data::text(depends_on(pdo.depends_on_slot, pdo.depends_on_slot_group))),
             ("excludes", numbers(pdo.excludes.iter().map(|index| format!("0x{index:04X}")).collect())),
             ("mapping", mapping(pdo, models)),
         ],
@@ -106,7 +123,10 @@ fn mapping(pdo: &Pdo, models: &[PdoModel]) -> Data {
     match model {
         Some(model) => Data::text(format!("<pdo::{} as rt::Pdo>::MAPPING", model.name)),
         None => {
-            Data::Slice(pdo.entries.iter().map(|entry| Data::text(super::super::pdo::mapping_entry(entry))).collect())
+            let entry = |(path, arguments): (&'static str, Vec<String>)| {
+                Data::Call(path, arguments.into_iter().map(Data::Text).collect())
+            };
+            Data::Slice(pdo.entries.iter().map(mapping_entry).map(entry).collect())
         }
     }
 }
@@ -141,19 +161,38 @@ fn coe(coe: &Coe) -> Data {
 }
 
 fn init_command(command: &InitCommand) -> Data {
-    let known = TRANSITIONS.iter().filter(|name| command.transitions.iter().any(|own| own == **name));
-    let transitions = known.map(|name| Data::text(format!("rt::ethercat::Transition::{name}"))).collect();
     Data::Struct(
         "rt::ethercat::InitCommand",
         vec![
-            ("transitions", Data::Call("rt::ethercat::Transitions::of", vec![Data::Slice(transitions)])),
+            ("transitions", transitions(known_transitions(command.transitions.iter().map(CompactString::as_str)))),
             ("index", Data::index(command.index)),
             ("sub_index", Data::text(format!("0x{:02X}", command.sub_index))),
             ("complete_access", Data::flag(command.complete_access)),
-            ("depends_on_slot", Data::flag(command.depends_on_slot)),
+            ("depends_on", Data::text(depends_on(command.depends_on_slot, command.depends_on_slot_group))),
             ("data", Data::text(literal::bytes(&command.data))),
         ],
     )
+}
+
+/// Those of `names` that the runtime knows.
+fn known_transitions<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'static str> {
+    let names: Vec<&str> = names.collect();
+    TRANSITIONS.into_iter().filter(|known| names.contains(known)).collect()
+}
+
+fn transitions(names: Vec<&str>) -> Data {
+    let list = names.into_iter().map(|name| Data::text(format!("rt::ethercat::Transition::{name}"))).collect();
+    Data::Call("rt::ethercat::Transitions::of", vec![Data::Slice(list)])
+}
+
+/// When the list of modules goes out: on PS where the description doesn't say anything that the runtime knows.
+fn download(rules: &SlotRules) -> Data {
+    if !rules.download_idents {
+        return Data::text("rt::ethercat::Transitions::NONE");
+    }
+    let names = rules.download_transition.split(|letter: char| !letter.is_ascii_alphabetic());
+    let known = known_transitions(names);
+    transitions(if known.is_empty() { vec!["PS"] } else { known })
 }
 
 fn slots(device: &Device, rules: &SlotRules, modules: &ModulePaths) -> Data {
@@ -164,7 +203,7 @@ fn slots(device: &Device, rules: &SlotRules, modules: &ModulePaths) -> Data {
             ("slots", Data::Slice(device.slots.iter().map(slot).collect())),
             ("modules", Data::Slice(known.map(|path| Data::text(format!("&{path}"))).collect())),
             ("pdo_groups", Data::Slice(rules.pdo_groups.iter().map(pdo_group).collect())),
-            ("download_idents", Data::flag(rules.download_idents)),
+            ("download_idents", download(rules)),
         ],
     )
 }
@@ -188,10 +227,21 @@ fn slot(slot: &Slot) -> Data {
             ("max", Data::text(slot.instances.1.to_string())),
             ("fits", Data::Slice(slot.fits.iter().map(fit).collect())),
             ("default", Data::option(default)),
-            ("index_increment", Data::text(format!("0x{:X}", slot.index_increment))),
-            ("pdo_increment", Data::text(format!("0x{:X}", slot.pdo_increment))),
+            ("increments", increments(slot.index_increment, slot.pdo_increment)),
+            ("group", slot.group.map_or_else(|| Data::text("None"), |number| slot_group(number, slot))),
         ],
     )
+}
+
+fn increments(index: u16, pdo: u16) -> Data {
+    let numbers = [index, pdo].map(|number| Data::text(format!("0x{number:X}")));
+    Data::Call("rt::ethercat::Increments::new", numbers.into())
+}
+
+fn slot_group(number: u16, slot: &Slot) -> Data {
+    let own = increments(slot.group_index_increment, slot.group_pdo_increment);
+    let group = Data::Call("rt::ethercat::SlotGroup::new", vec![Data::text(number.to_string()), own]);
+    Data::Call("Some", vec![group])
 }
 
 fn pdo_group(group: &ModulePdoGroup) -> Data {

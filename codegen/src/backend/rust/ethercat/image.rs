@@ -17,21 +17,6 @@ pub(in super::super) struct ImageModel {
     pub fields: Vec<ImageField>,
 }
 
-impl ImageModel {
-    /// The struct literal that unpacking ends with.
-    pub(in super::super) fn names(&self) -> String {
-        let names: Vec<&str> = self.fields.iter().map(|field| field.name.as_str()).collect();
-        let short = format!("Self {{ {} }}", names.join(", "));
-        /// A struct literal that is longer than this up to its closing brace gets a line a field.
-        const SHORT: usize = 34;
-        if short.len() - 1 <= SHORT {
-            return short;
-        }
-        let lines: String = names.iter().map(|name| format!("                {name},\n")).collect();
-        format!("Self {{\n{lines}            }}")
-    }
-}
-
 /// A PDO of an image.
 pub(in super::super) struct ImageField {
     pub name: String,

@@ -56,9 +56,12 @@ fn error((api, code): Key, row: Option<&CodeRow>, extended: &BTreeMap<u16, &Code
             format!("rt::profinet::ExtendedError::new(«0x{code:04X}¦ {name}¦ {help}»)")
         })
         .collect();
-    let of_api = if api == 0 { String::new() } else { format!(".of_api(0x{api:04X})") };
     let extended = extended.join("¦ ");
-    format!("rt::profinet::ChannelError::new(«0x{code:04X}¦ {name}¦ {help}¦ &[«{extended}»]»){of_api}")
+    let constructor = match api {
+        0 => format!("new(«0x{code:04X}"),
+        _ => format!("of_profile(«0x{api:04X}¦ 0x{code:04X}"),
+    };
+    format!("rt::profinet::ChannelError::{constructor}¦ {name}¦ {help}¦ &[«{extended}»]»)")
 }
 
 fn texts(row: &CodeRow) -> (String, String) {

@@ -1,0 +1,12 @@
+//! Any bytes, given as a list of registers; the table that it becomes is read again.
+#![no_main]
+
+use lexibus_codegen::import::{import, Options};
+use lexibus_codegen::source::Source;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    let made = import(Source::new("fuzz.csv", bytes.to_vec()), &Options::default());
+    if let Some(table) = made.table {
+        lexibus_codegen_fuzz::everything("fuzz.toml", table.as_bytes());
+    }
+});

@@ -1,0 +1,449 @@
+//! Bit fields: integers whose bits have names.
+
+use super::docs;
+use super::enumeration::EnumerationModel;
+use super::ethercat::beside;
+use super::literal;
+use super::manual;
+use super::model::method_allow;
+use super::options::{Presence, RustOptions};
+use super::scope::Scope;
+use super::value_type::{native, ValueType};
+use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Trigger, Type, Value};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// A bit field, ready to be written.
+pub(super) struct BitFieldModel {
+    pub name: String,
+    pub docs: Vec<String>,
+    pub derives: Vec<String>,
+    /// `Debug`, where it is wanted.
+    pub debug: Option<DebugModel>,
+    /// The type of the value below, in terms of the runtime.
+    pub base: &'static str,
+    /// The type of its numbers.
+    pub native: &'static str,
+    /// The integer below.
+    pub ty: Type,
+    /// Length in bits.
+    pub bits: u32,
+    /// What a new value is: reserved bits that have to be 1.
+    pub initial: String,
+    /// The number that `raw` stands for, where its type has more bits.
+    pub cut: String,
+    /// What is written, where reserved bits have to be 0 or 1.
+    pub written: Option<String>,
+    pub allow: Option<String>,
+    pub fields: Vec<FieldModel>,
+    pub views: Vec<ViewModel>,
+}
+
+/// How a bit field is printed.
+pub(super) struct DebugModel {
+    /// The attribute in front of it.
+    pub gate: Option<String>,
+    pub title: String,
+    pub raw: String,
+    pub calls: Vec<String>,
+}
+
+/// A flag or a field of several bits.
+pub(super) struct FieldModel {
+    pub docs: String,
+    pub getter: String,
+    /// The getter as documentation names it.
+    pub title: String,
+    pub setter: String,
+    pub ty: String,
+    /// Its value, from `self.0`.
+    pub get: String,
+    /// All bits with `value` in its place.
+    pub set: String,
+    /// How `Debug` prints it.
+    debug: String,
+}
+
+/// The bits that have their meaning under one condition.
+pub(super) struct ViewModel {
+    pub name: String,
+    pub title: String,
+    /// The method that gives the view.
+    pub method: String,
+    /// The method that gives all bits again.
+    pub back: String,
+    pub fields: Vec<FieldModel>,
+    pub allow: Option<String>,
+}
+
+/// A condition under which some bits have a meaning.
+pub(super) struct View {
+    condition: Condition,
+    /// `in profile position`.
+    pub words: String,
+    title: String,
+}
+
+/// Names that methods of a bit field itself have, and those that clippy takes for methods of traits.
+const RESERVED: [&str; 14] = [
+    "self",
+    "super",
+    "crate",
+    "new",
+    "raw",
+    "from_raw",
+    "clone",
+    "default",
+    "drop",
+    "eq",
+    "fmt",
+    "into_iter",
+    "neg",
+    "not",
+];
+
+/// The bits of an integer's numbers.
+fn mask(bits: u32) -> u64 {
+    u64::MAX.checked_shr(64 - bits.min(64)).unwrap_or(0)
+}
+
+/// Whether any bit has a name of its own: a fallback such as "Bit 3" says nothing.
+pub(super) fn is_named(fields: &[BitFieldEntry]) -> bool {
+    fields.iter().any(|field| match field.meaning {
+        BitMeaning::Reserved { .. } => false,
+        BitMeaning::Flag { .. } => field.name.as_str() != format!("Bit {}", field.offset),
+        _ => true,
+    })
+}
+
+/// Whether the integer at this position is one that Rust has a type for.
+pub(super) fn is_possible(scope: &Scope<'_>, position: u32) -> bool {
+    let Shape::BitField { base, .. } = &scope.types[position as usize].shape else { return false };
+    integer(scope.base(*base)).is_some()
+}
+
+/// Bits have no sign.
+fn integer(base: Type) -> Option<(Type, &'static str, &'static str)> {
+    let ty = Type::Unsigned(u8::try_from(base.bits()?).ok()?);
+    let (path, native) = ValueType::of(ty).number()?;
+    Some((ty, path, native))
+}
+
+/// The conditions under which bits of the type at this position have a meaning.
+pub(super) fn views(scope: &Scope<'_>, position: u32) -> Vec<View> {
+    let Shape::BitField { fields, .. } = &scope.types[position as usize].shape else { return Vec::new() };
+    let mut views: Vec<View> = Vec::new();
+    for field in fields.iter().filter(|field| !matches!(field.meaning, BitMeaning::Reserved { .. })) {
+        let Some(condition) = &field.when else { continue };
+        if !views.iter().any(|view| view.condition == *condition) {
+            views.push(view(scope, condition));
+        }
+    }
+    views
+}
+
+fn view(scope: &Scope<'_>, condition: &Condition) -> View {
+    let item = scope.item(&condition.item);
+    let definition = item.and_then(|item| scope.resolve(item.ty).1).map(|(_, definition)| definition);
+    let named = |value: &Value| {
+        let Shape::Enumeration { values, .. } = &definition?.shape else { return None };
+        let number = value.as_int()?;
+        values.iter().find(|own| own.value == number && own.last.is_none()).map(|own| own.name.to_string())
+    };
+    let names: Option<Vec<String>> = condition.values.iter().map(named).collect();
+    let numbers = condition.values.iter().map(Value::to_string).collect::<Vec<_>>().join(" or ");
+    let words = match &names {
+        Some(names) => format!("in {}", names.join(" or ")),
+        None => format!("in {} {numbers}", condition.item),
+    };
+    let what = docs::escape(&condition.item);
+    let title = match &names {
+        Some(names) => format!("while {what} is {} ({numbers})", docs::escape(&names.join(" or "))),
+        None => format!("while {what} is {}", docs::escape(&numbers)),
+    };
+    View { condition: condition.clone(), words, title }
+}
+
+/// The bit field at this position, which [`is_possible`], under these names.
+pub(super) fn model(
+    scope: &Scope<'_>,
+    position: u32,
+    name: String,
+    (views, view_names): (&[View], Vec<String>),
+    enumerations: &[(u32, EnumerationModel)],
+    machine_methods: &[String],
+    options: &RustOptions,
+) -> BitFieldModel {
+    let definition = &scope.types[position as usize];
+    let (base, entries) = match &definition.shape {
+        Shape::BitField { base, fields } => (scope.base(*base), fields.as_slice()),
+        _ => (Type::Unsigned(8), [].as_slice()),
+    };
+    let (ty, path, native) = integer(base).unwrap_or((Type::Unsigned(8), "u8", "u8"));
+    let bits = ty.bits().unwrap_or(8);
+    let fits = |entry: &&BitFieldEntry| entry.bits > 0 && u32::from(entry.offset) + u32::from(entry.bits) <= bits;
+    let entries: Vec<&BitFieldEntry> = entries.iter().filter(fits).collect();
+    let with = Context { scope, native, bits, enumerations };
+
+    let mut taken: Vec<&str> = RESERVED.to_vec();
+    taken.extend(machine_methods.iter().map(String::as_str));
+    let methods = view_methods(views, &taken);
+    let back = beside(&methods, snake(&name));
+    taken.extend(methods.iter().map(String::as_str));
+    let fields = with.fields(&entries, None, &taken);
+    let (zeros, ones) = reserved(&entries);
+    let mut docs = vec![docs::sentence(&docs::escape(&definition.name))];
+    docs::definition(definition, &scope.manual, &mut docs);
+    for (bits, number) in [(zeros, 0), (ones, 1)] {
+        if bits != 0 {
+            docs.extend([String::new(), format!("Bits {} are written as {number}.", hexadecimal(bits))]);
+        }
+    }
+    let views = views.iter().zip(view_names).zip(&methods).map(|((view, view_name), method)| {
+        let fields = with.fields(&entries, Some(&view.condition), &[&RESERVED[..], &[back.as_str()]].concat());
+        ViewModel {
+            allow: method_allow(fields.iter().map(|field| field.getter.as_str())),
+            name: view_name,
+            title: view.title.clone(),
+            method: names_unique::escaped(method),
+            back: names_unique::escaped(&back),
+            fields,
+        }
+    });
+    BitFieldModel {
+        docs,
+        derives: RustOptions { debug: Presence::Never, ..options.clone() }.derives(true),
+        debug: debug(&name, native, &fields, options),
+        base: path,
+        native,
+        ty,
+        bits,
+        initial: hexadecimal_or_zero(ones),
+        cut: if mask(bits) == mask(with.native_bits()) {
+            "raw".into()
+        } else {
+            format!("raw & {}", hexadecimal(mask(bits)))
+        },
+        written: written(zeros, ones),
+        allow: method_allow(fields.iter().map(|field| field.getter.as_str())),
+        views: views.collect(),
+        fields,
+        name,
+    }
+}
+
+fn view_methods(views: &[View], taken: &[&str]) -> Vec<String> {
+    let words = views.iter().map(|view| view.words.as_str());
+    let wishes: Vec<Wish<'_>> = words
+        .enumerate()
+        .map(|(number, name)| Wish { name, fallback: format!("view {number}"), suffix: number.to_string() })
+        .collect();
+    names_unique::unique(&wishes, taken, Case::Snake)
+}
+
+/// The name of a type as that of a method.
+fn snake(name: &str) -> String {
+    let wish = Wish { name, fallback: "bits".to_owned(), suffix: "bits".to_owned() };
+    names_unique::unique(&[wish], &RESERVED, Case::Snake).remove(0)
+}
+
+/// Bits that have to be written as 0, and those as 1.
+fn reserved(entries: &[&BitFieldEntry]) -> (u64, u64) {
+    let place = |entry: &BitFieldEntry| mask(entry.bits.into()) << entry.offset;
+    let (mut zeros, mut ones, mut used) = (0, 0, 0);
+    for entry in entries {
+        match entry.meaning {
+            BitMeaning::Reserved { write: Some(false) } if entry.when.is_none() => zeros |= place(entry),
+            BitMeaning::Reserved { write: Some(true) } if entry.when.is_none() => ones |= place(entry),
+            _ => used |= place(entry),
+        }
+    }
+    (zeros & !used, ones & !used)
+}
+
+fn written(zeros: u64, ones: u64) -> Option<String> {
+    match (zeros, ones) {
+        (0, 0) => None,
+        (zeros, 0) => Some(format!("self.0 & !{}", hexadecimal(zeros))),
+        (0, ones) => Some(format!("self.0 | {}", hexadecimal(ones))),
+        (zeros, ones) => Some(format!("(self.0 & !{}) | {}", hexadecimal(zeros), hexadecimal(ones))),
+    }
+}
+
+fn hexadecimal(number: u64) -> String {
+    format!("{number:#X}").replacen("0X", "0x", 1)
+}
+
+fn hexadecimal_or_zero(number: u64) -> String {
+    if number == 0 {
+        "0".to_owned()
+    } else {
+        hexadecimal(number)
+    }
+}
+
+fn debug(name: &str, native: &str, fields: &[FieldModel], options: &RustOptions) -> Option<DebugModel> {
+    let gate = match &options.debug {
+        Presence::Never => return None,
+        Presence::Always => None,
+        Presence::Feature(feature) => Some(format!("#[cfg(feature = {})]", literal::string(feature))),
+    };
+    Some(DebugModel {
+        gate,
+        title: literal::string(name),
+        raw: if native == "u64" { "self.0".into() } else { "self.0 as u64".into() },
+        calls: fields.iter().map(|field| field.debug.clone()).collect(),
+    })
+}
+
+/// What the code of every field depends on.
+struct Context<'c, 's> {
+    scope: &'c Scope<'s>,
+    native: &'static str,
+    bits: u32,
+    enumerations: &'c [(u32, EnumerationModel)],
+}
+
+impl Context<'_, '_> {
+    fn native_bits(&self) -> u32 {
+        self.native[1..].parse().unwrap_or(64)
+    }
+
+    /// The fields that have their meaning under `condition`.
+    fn fields(&self, all: &[&BitFieldEntry], condition: Option<&Condition>, reserved: &[&str]) -> Vec<FieldModel> {
+        let is_field = |entry: &&&BitFieldEntry| {
+            !matches!(entry.meaning, BitMeaning::Reserved { .. }) && entry.when.as_ref() == condition
+        };
+        let entries: Vec<&BitFieldEntry> = all.iter().filter(is_field).copied().collect();
+        // One name for one bit twice: two versions of the firmware mean different things by it.
+        let is_again = |position: usize, entry: &BitFieldEntry| {
+            entries[..position].iter().any(|own| own.name == entry.name && own.offset == entry.offset)
+        };
+        let wishes: Vec<Wish<'_>> = entries
+            .iter()
+            .enumerate()
+            .map(|(position, entry)| {
+                let place = if is_again(position, entry) { format!("_{position}") } else { String::new() };
+                let suffix = format!("{}{place}", entry.offset);
+                Wish { name: &entry.name, fallback: format!("bit {suffix}"), suffix }
+            })
+            .collect();
+        let names = names_unique::unique(&wishes, reserved, Case::Snake);
+        let mut taken = names.clone();
+        let fields = entries.iter().zip(&names).map(|(entry, name)| {
+            let setter = beside(&taken, format!("with_{}", name.trim_start_matches('_')));
+            taken.push(setter.clone());
+            self.field(entry, name, setter)
+        });
+        fields.collect()
+    }
+
+    fn field(&self, entry: &BitFieldEntry, name: &str, setter: String) -> FieldModel {
+        let code = self.code(entry);
+        let getter = names_unique::escaped(name);
+        let (text, place) = (literal::string(name), hexadecimal(mask(entry.bits.into()) << entry.offset));
+        let debug = match entry.meaning {
+            BitMeaning::Flag { inverted: false } if entry.bits == 1 => format!("flag(«bits¦ {text}¦ {place}»)"),
+            BitMeaning::Flag { inverted: true } if entry.bits == 1 => format!("inverted(«bits¦ {text}¦ {place}»)"),
+            _ => format!("field(«bits¦ {text}¦ {place}¦ &self.{getter}()»)"),
+        };
+        let title = match getter.starts_with("r#") {
+            true => format!("`{name}`"),
+            false => format!("[`{name}`](Self::{name})"),
+        };
+        let (docs, Code { ty, get, set }) = (self.docs(entry), code);
+        FieldModel { docs, getter, title, setter, ty, get, set, debug }
+    }
+
+    fn code(&self, entry: &BitFieldEntry) -> Code {
+        let (offset, bits) = (u32::from(entry.offset), u32::from(entry.bits));
+        if let (BitMeaning::Flag { inverted }, 1) = (&entry.meaning, bits) {
+            let (is, not) = if *inverted { ("==", "!") } else { ("!=", "") };
+            let place = hexadecimal(1 << offset);
+            return Code {
+                ty: "bool".to_owned(),
+                get: format!("self.0 & {place} {is} 0"),
+                set: self.joined(&place, &shifted_left(&format!("({not}value as {})", self.native), offset)),
+            };
+        }
+        let number = native(false, bits);
+        let named = match entry.meaning {
+            BitMeaning::Enumeration(id) => {
+                let own = self.enumerations.iter().find(|(position, _)| *position == id.0).map(|(_, own)| own);
+                own.filter(|own| own.bits == bits && own.native == number)
+            }
+            _ => None,
+        };
+        let all = bits == self.bits && bits == self.native_bits();
+        let shifted = if offset == 0 { "self.0".to_owned() } else { format!("(self.0 >> {offset})") };
+        let cut = if all { shifted } else { format!("{shifted} & {}", hexadecimal(mask(bits))) };
+        let cast = match (number == self.native, all) {
+            (true, _) => cut,
+            (false, _) => format!("({cut}) as {number}"),
+        };
+        let value = if named.is_some() { "value.raw()" } else { "value" };
+        let widened = if number == self.native { value.to_owned() } else { format!("({value} as {})", self.native) };
+        let set = if all {
+            format!("Self({value})")
+        } else {
+            let place = hexadecimal(mask(bits) << offset);
+            let moved = shifted_left(&widened, offset);
+            let is_cut = native_bits(number) > bits;
+            self.joined(&place, &if is_cut { format!("({moved} & {place})") } else { moved })
+        };
+        match named {
+            Some(named) => Code { ty: named.name.clone(), get: format!("{}::from_raw(«{cast}»)", named.name), set },
+            None => Code { ty: number.to_owned(), get: cast, set },
+        }
+    }
+
+    /// All bits with others in one place.
+    fn joined(&self, place: &str, bits: &str) -> String {
+        format!("Self((self.0 & !{place}) | {bits})")
+    }
+
+    fn docs(&self, entry: &BitFieldEntry) -> String {
+        let place = match (entry.offset, entry.bits) {
+            (offset, 1) => format!("Bit {offset}"),
+            (offset, bits) => format!("Bits {} to {offset}", offset + bits - 1),
+        };
+        let mut sentences = vec![match entry.name.is_empty() {
+            true => format!("{place}."),
+            false => format!("{place}: {}", docs::sentence(&docs::escape(&entry.name))),
+        }];
+        if let BitMeaning::Flag { inverted: true } = entry.meaning {
+            sentences.push("Holds while the bit is 0.".to_owned());
+        }
+        let trigger = entry.trigger.map(|trigger| match trigger {
+            Trigger::Rising => "Acts on the change from 0 to 1.",
+            Trigger::Falling => "Acts on the change from 1 to 0.",
+            Trigger::Toggle => "Each change of the bit counts.",
+            Trigger::SelfClearing => "The device clears it by itself.",
+        });
+        sentences.extend(trigger.map(str::to_owned));
+        docs::words(entry.documentation.as_deref(), &mut sentences);
+        if let Some(availability) = &entry.availability {
+            sentences.push(manual::availability(availability));
+        }
+        sentences.extend(self.scope.manual.place(entry.documentation.as_deref(), &entry.names));
+        sentences.join(" ")
+    }
+}
+
+/// The code of a field.
+struct Code {
+    ty: String,
+    get: String,
+    set: String,
+}
+
+fn shifted_left(value: &str, offset: u32) -> String {
+    if offset == 0 {
+        value.to_owned()
+    } else {
+        format!("({value} << {offset})")
+    }
+}
+
+fn native_bits(native: &str) -> u32 {
+    native[1..].parse().unwrap_or(64)
+}

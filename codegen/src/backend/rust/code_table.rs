@@ -1,0 +1,58 @@
+//! Tables of codes: alarms, emergency codes, abort codes.
+
+use super::docs;
+use super::literal;
+use crate::ir::{CodeRow, CodeTable, Value};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// A table, ready to be written.
+pub(super) struct CodeTableModel {
+    pub name: String,
+    pub docs: Vec<String>,
+    pub rows: Vec<String>,
+}
+
+pub(super) fn models(tables: &[CodeTable]) -> Vec<CodeTableModel> {
+    let wish = |(number, table)| {
+        let table: &CodeTable = table;
+        Wish { name: &table.name, fallback: format!("codes {number}"), suffix: format!("{number}") }
+    };
+    let wishes: Vec<Wish<'_>> = tables.iter().enumerate().map(wish).collect();
+    let names = names_unique::unique(&wishes, &[], Case::Snake);
+    let tables = tables.iter().zip(names).filter(|(table, _)| !table.rows.is_empty());
+    tables.map(|(table, name)| model(table, name.to_ascii_uppercase())).collect()
+}
+
+fn model(table: &CodeTable, name: String) -> CodeTableModel {
+    let mut docs = vec![docs::sentence(&docs::escape(&table.name))];
+    if !table.columns.is_empty() {
+        let columns: Vec<String> = table.columns.iter().map(|column| docs::escape(column)).collect();
+        docs.extend([String::new(), format!("Further columns: {}.", columns.join(", "))]);
+    }
+    let rows = table.rows.iter().filter_map(|own| row(own, table.columns.len())).collect();
+    CodeTableModel { name, docs, rows }
+}
+
+/// `None` for a code beyond 64 bits.
+fn row(row: &CodeRow, columns: usize) -> Option<String> {
+    let (first, last) = (i64::try_from(row.code).ok()?, i64::try_from(row.last.unwrap_or(row.code)).ok()?);
+    let code = |code: i64| if code > 9 { format!("{code:#X}").replacen("0X", "0x", 1) } else { code.to_string() };
+    let text = row.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
+    let mut cells: Vec<String> = row.cells.iter().take(columns.max(row.cells.len())).map(cell).collect();
+    cells.resize(columns.max(cells.len()), "rt::codes::Cell::Empty".to_owned());
+    let cells = if cells.is_empty() { "&[]".to_owned() } else { format!("&[«{}»]", cells.join("¦ ")) };
+    let (name, text) = (literal::string(&row.name), literal::string(text));
+    Some(format!("rt::codes::Code::new(«{}¦ {}¦ {name}¦ {text}¦ {cells}»)", code(first), code(last)))
+}
+
+fn cell(value: &Value) -> String {
+    let text = |text: &str| format!("rt::codes::Cell::Text(«{}»)", literal::string(text));
+    match value {
+        Value::Real(real) if real.is_finite() => format!("rt::codes::Cell::Real({real:?})"),
+        Value::Text(own) => text(own),
+        other => match other.as_int().and_then(|number| i64::try_from(number).ok()) {
+            Some(number) => format!("rt::codes::Cell::Number({number})"),
+            None => text(&other.to_string()),
+        },
+    }
+}

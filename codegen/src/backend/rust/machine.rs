@@ -1,0 +1,158 @@
+//! State machines: the states that a status tells, and the commands that a control word gives.
+
+use super::bit_field::BitFieldModel;
+use super::docs;
+use super::options::RustOptions;
+use super::scope::Scope;
+use crate::ir::{CompactString, StateMachine, Type};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// A state machine, ready to be written.
+pub(super) struct MachineModel {
+    pub states: Option<PatternsModel>,
+    pub commands: Option<PatternsModel>,
+}
+
+/// States or commands.
+pub(super) struct PatternsModel {
+    pub name: String,
+    pub docs: Vec<String>,
+    pub derives: Vec<String>,
+    /// The type of the numbers that have the bits.
+    pub native: &'static str,
+    pub patterns: Vec<PatternModel>,
+    /// The bit field that has the bits, and its method.
+    pub bits: Option<(String, String)>,
+}
+
+/// A state or a command.
+pub(super) struct PatternModel {
+    pub name: String,
+    pub docs: String,
+    pub mask: String,
+    pub value: String,
+}
+
+/// What the types of states and of commands are to be called: simply so, where there is one machine and no other type of
+/// that name.
+pub(super) fn names(machines: &[StateMachine], is_taken: &dyn Fn(&str) -> bool) -> Vec<[String; 2]> {
+    let is_simple = |name: &str| machines.len() == 1 && !is_taken(name);
+    let name = |machine: &StateMachine, simple: &str, kind: &str| match is_simple(simple) {
+        true => simple.to_owned(),
+        false => format!("{} {kind}", machine.name),
+    };
+    machines.iter().map(|own| [name(own, "State", "state"), name(own, "Command", "command")]).collect()
+}
+
+/// The methods that bit fields get, those of commands without their `with_`.
+pub(super) fn methods(machines: &[StateMachine]) -> Vec<[String; 2]> {
+    let names = names(machines, &|_| false);
+    let wishes: Vec<Wish<'_>> = names
+        .iter()
+        .flatten()
+        .map(|name| Wish { name, fallback: "machine".to_owned(), suffix: "machine".to_owned() })
+        .collect();
+    let mut methods = names_unique::unique(&wishes, &[], Case::Snake).into_iter();
+    machines.iter().map(|_| [methods.next().unwrap_or_default(), methods.next().unwrap_or_default()]).collect()
+}
+
+pub(super) fn models(
+    scope: &Scope<'_>,
+    machines: &[StateMachine],
+    names: Vec<[String; 2]>,
+    bit_fields: &[(u32, BitFieldModel)],
+    options: &RustOptions,
+) -> Vec<MachineModel> {
+    let model = |((machine, [states, commands]), [state, command]): ((&StateMachine, [String; 2]), [String; 2])| {
+        let about = |what: &str, item: &str| {
+            let text = format!("{what} of {}, as {} tells them.", docs::escape(&machine.name), docs::escape(item));
+            vec![text]
+        };
+        let state_docs = about("States", &machine.status_item);
+        let mut command_docs = vec![format!(
+            "Commands of {}, as {} takes them.",
+            docs::escape(&machine.name),
+            docs::escape(&machine.control_item)
+        )];
+        command_docs.extend(transitions(machine));
+        let patterns = |name, docs, list, item: &str, method| {
+            patterns(scope, (name, docs), list, (item, method), bit_fields, options)
+        };
+        MachineModel {
+            states: patterns(states, state_docs, &machine.states, &machine.status_item, state),
+            commands: patterns(
+                commands,
+                command_docs,
+                &machine.commands,
+                &machine.control_item,
+                format!("with_{command}"),
+            ),
+        }
+    };
+    machines.iter().zip(names).zip(methods(machines)).map(model).collect()
+}
+
+/// The transitions as a list.
+fn transitions(machine: &StateMachine) -> Vec<String> {
+    let mut lines = Vec::new();
+    for (number, from, to, command) in &machine.transitions {
+        let from = if from.is_empty() { "any state".to_owned() } else { docs::escape(from) };
+        let cause = command.as_ref().map_or_else(|| "by itself".to_owned(), |own| format!("on {}", docs::escape(own)));
+        lines.push(format!("- {number}: {from} to {}, {cause}", docs::escape(to)));
+    }
+    if !lines.is_empty() {
+        lines.splice(0..0, [String::new(), "Transitions:".to_owned(), String::new()]);
+    }
+    lines
+}
+
+fn patterns(
+    scope: &Scope<'_>,
+    (name, docs): (String, Vec<String>),
+    list: &[(CompactString, u32, u32)],
+    (item, method): (&str, String),
+    bit_fields: &[(u32, BitFieldModel)],
+    options: &RustOptions,
+) -> Option<PatternsModel> {
+    let ty = scope.item(item).map(|item| item.ty);
+    let position = ty.and_then(|ty| scope.resolve(ty).1).map(|(position, _)| position);
+    let bits = bit_fields.iter().find(|(own, _)| Some(*own) == position).map(|(_, own)| own);
+    let native = match (bits, ty.map(|ty| scope.base(ty))) {
+        (Some(own), _) => own.native,
+        (None, Some(Type::Unsigned(8) | Type::Integer(8))) => "u8",
+        (None, Some(Type::Unsigned(16) | Type::Integer(16))) => "u16",
+        _ => "u32",
+    };
+    let most: u64 = match native {
+        "u8" => u8::MAX.into(),
+        "u16" => u16::MAX.into(),
+        _ => u32::MAX.into(),
+    };
+    let is_possible = |mask: u32, value: u32| mask != 0 && u64::from(mask) <= most && value & !mask == 0;
+    let list: Vec<&(CompactString, u32, u32)> =
+        list.iter().filter(|(_, mask, value)| is_possible(*mask, *value)).collect();
+    if list.is_empty() {
+        return None;
+    }
+    let wishes: Vec<Wish<'_>> = list
+        .iter()
+        .enumerate()
+        .map(|(number, (name, _, _))| Wish { name, fallback: format!("pattern {number}"), suffix: number.to_string() })
+        .collect();
+    let names = names_unique::unique(&wishes, &["Self"], Case::Pascal);
+    let hexadecimal =
+        |number: u32| if number == 0 { "0".to_owned() } else { format!("{number:#X}").replacen("0X", "0x", 1) };
+    let pattern = |((text, mask, value), name): (&&(CompactString, u32, u32), String)| {
+        let (mask, value) = (hexadecimal(*mask), hexadecimal(*value));
+        let title = docs::escape(&text.replace('_', " "));
+        PatternModel { docs: format!("{title}: {value} of the bits {mask}."), name, mask, value }
+    };
+    Some(PatternsModel {
+        patterns: list.iter().zip(names).map(pattern).collect(),
+        name,
+        docs,
+        derives: options.derives(true),
+        native,
+        bits: bits.map(|own| (own.name.clone(), method)),
+    })
+}

@@ -1,0 +1,220 @@
+//! Units and scales: the types of numbers that stand for physical ones, and what documentation says of them.
+
+use super::docs;
+use super::scope::Scope;
+use crate::ir::{Item, Quantity, Scale, Value};
+
+/// The type of a quantity.
+pub(super) struct QuantityType {
+    /// Its path, in terms of the runtime.
+    pub path: String,
+    /// Its name as a part of another one.
+    pub word: String,
+}
+
+/// The type of an item's value, where it isn't just the number that it stands for; `None` as well where the scale is
+/// nothing that fractions of integers express.
+pub(super) fn of(scope: &Scope<'_>, item: &Item) -> Option<QuantityType> {
+    let quantity = item.quantity.as_ref()?;
+    let ty = scope.value_type(item.ty);
+    if !ty.is_real() {
+        ty.number()?;
+    }
+    let sentinels = if ty.is_real() { Vec::new() } else { sentinels(quantity) };
+    let (base, word) = (ty.path(), ty.word());
+    let mut own = match &quantity.scale {
+        None if sentinels.is_empty() => return None,
+        None => linear(base, &word, 1.0, 0.0)?,
+        Some(Scale::Linear { factor, offset }) => linear(base, &word, *factor, *offset)?,
+        Some(Scale::Reciprocal { numerator }) => by_fraction("Reciprocal", base, &word, *numerator)?,
+        Some(Scale::ByItem { factor, .. }) => by_fraction("PerItem", base, &word, *factor)?,
+        Some(Scale::Fraction { bits, .. }) => {
+            QuantityType { path: format!("rt::Fraction<«{base}¦ {bits}»>"), word: format!("Fraction{bits}Of{word}") }
+        }
+        Some(Scale::Exponent { .. }) => {
+            QuantityType { path: format!("rt::Exponential<«{base}»>"), word: format!("Exponential{word}") }
+        }
+    };
+    for (raw, _) in sentinels {
+        own = QuantityType {
+            path: format!("rt::OrNone<«{}¦ {raw}»>", own.path),
+            word: format!("{}OrNone{}", own.word, spelled(raw)),
+        };
+    }
+    Some(own)
+}
+
+/// Raw numbers that mean something else, each once.
+fn sentinels(quantity: &Quantity) -> Vec<(i128, &str)> {
+    let mut list: Vec<(i128, &str)> = Vec::new();
+    for (value, name) in &quantity.sentinels {
+        if let Some(raw) = value.as_int().filter(|raw| !list.iter().any(|(own, _)| own == raw)) {
+            list.push((raw, name));
+        }
+    }
+    list
+}
+
+fn linear(base: &str, word: &str, factor: f64, offset: f64) -> Option<QuantityType> {
+    let (num, den, offset) = common(factor, offset)?;
+    let arguments = match (den, offset) {
+        (1, 0) => num.to_string(),
+        (_, 0) => format!("{num}¦ {den}"),
+        _ => format!("{num}¦ {den}¦ {offset}"),
+    };
+    let plus = if offset == 0 { String::new() } else { format!("Plus{}", spelled(offset.into())) };
+    Some(QuantityType {
+        path: format!("rt::Scaled<«{base}¦ {arguments}»>"),
+        word: format!("{word}Times{}Per{den}{plus}", spelled(num.into())),
+    })
+}
+
+fn by_fraction(name: &str, base: &str, word: &str, factor: f64) -> Option<QuantityType> {
+    let (num, den) = rational(factor)?;
+    let arguments = if den == 1 { num.to_string() } else { format!("{num}¦ {den}") };
+    Some(QuantityType {
+        path: format!("rt::{name}<«{base}¦ {arguments}»>"),
+        word: format!("{name}{word}Times{}Per{den}", spelled(num.into())),
+    })
+}
+
+fn spelled(number: i128) -> String {
+    if number < 0 {
+        format!("Minus{}", number.unsigned_abs())
+    } else {
+        number.to_string()
+    }
+}
+
+/// Numerator, denominator, and the numerator of the offset.
+fn common(factor: f64, offset: f64) -> Option<(i64, i64, i64)> {
+    let (num, den) = rational(factor)?;
+    if offset == 0.0 {
+        return Some((num, den, 0));
+    }
+    let (shift, parts) = rational(offset)?;
+    let both = i128::from(den) / i128::from(gcd(den, parts)) * i128::from(parts);
+    let of = |num: i64, den: i64| i64::try_from(i128::from(num).checked_mul(both / i128::from(den))?).ok();
+    Some((of(num, den)?, i64::try_from(both).ok()?, of(shift, parts)?))
+}
+
+fn gcd(a: i64, b: i64) -> i64 {
+    if b == 0 {
+        a
+    } else {
+        gcd(b, a % b)
+    }
+}
+
+/// The simplest fraction that is `real` to its last bit: 0.01 is 1/100. `None` for 0, for numbers that are none, and
+/// for those that take more than 64 bits.
+fn rational(real: f64) -> Option<(i64, i64)> {
+    if !real.is_normal() {
+        return None;
+    }
+    let bits = real.abs().to_bits();
+    let exponent = (bits >> 52) as i32 - 1075;
+    let mantissa = i128::from(bits & ((1 << 52) - 1) | 1 << 52);
+    let (mut p, mut q) = match exponent {
+        0..=62 => (mantissa << exponent, 1),
+        -126..=-1 => (mantissa, 1_i128 << -exponent),
+        _ => return None,
+    };
+    // Continued fractions: each step is the best one with so small a denominator.
+    let ((mut num, mut den), mut last) = ((1_i128, 0_i128), (0_i128, 1_i128));
+    loop {
+        let whole = p / q;
+        let next = (whole.checked_mul(num)?.checked_add(last.0)?, whole.checked_mul(den)?.checked_add(last.1)?);
+        (last, (num, den)) = ((num, den), next);
+        let (small, parts) = (i64::try_from(num).ok()?, i64::try_from(den).ok()?);
+        if num as f64 / den as f64 == real.abs() {
+            return Some((if real < 0.0 { -small } else { small }, parts));
+        }
+        (p, q) = (q, p - whole * q);
+        if q == 0 {
+            return None;
+        }
+    }
+}
+
+/// `, in 0.01 rev/s`: unit and scale as a part of a sentence.
+pub(super) fn facts(quantity: &Quantity) -> String {
+    let unit = docs::escape(&quantity.unit);
+    let behind = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    match &quantity.scale {
+        None if unit.is_empty() => String::new(),
+        None => format!(", in {unit}"),
+        Some(Scale::Linear { factor, offset }) if *offset == 0.0 => format!(", in {factor}{behind}"),
+        Some(Scale::Linear { factor, offset }) => {
+            let sign = if *offset < 0.0 { '−' } else { '+' };
+            format!(", stands for raw × {factor} {sign} {}{behind}", offset.abs())
+        }
+        Some(Scale::Reciprocal { numerator }) => format!(", stands for {numerator} / raw{behind}"),
+        Some(Scale::Fraction { bits, base }) => {
+            format!(", stands for raw / 2^{bits} × {}{behind}", docs::escape(base))
+        }
+        Some(Scale::Exponent { exponent }) => format!(", stands for raw × 10^{}{behind}", docs::escape(exponent)),
+        Some(Scale::ByItem { item, factor }) => {
+            let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
+            format!(", stands for raw{factor} / {}{behind}", docs::escape(item))
+        }
+    }
+}
+
+/// Limits of a scaled number in its unit.
+pub(super) fn limits(item: &Item) -> Option<String> {
+    let quantity = item.quantity.as_ref()?;
+    let Some(Scale::Linear { factor, offset }) = quantity.scale else { return None };
+    let (num, den, offset) = common(factor, offset)?;
+    let physical = |value: &Value| value.as_real().map(|raw| (raw * num as f64 + offset as f64) / den as f64);
+    let (low, high) = (physical(item.limits.low.as_ref()?)?, physical(item.limits.high.as_ref()?)?);
+    let unit = docs::escape(&quantity.unit);
+    Some(format!("{low} to {high} {unit}").trim_end().to_owned())
+}
+
+/// What else is known: numbers that are none, and steps.
+pub(super) fn notes(quantity: &Quantity) -> Vec<String> {
+    let mut notes: Vec<String> = quantity
+        .sentinels
+        .iter()
+        .map(|(value, name)| format!("{} means: {}", docs::value(value), docs::sentence(&docs::escape(name))))
+        .collect();
+    if let Some(step) = &quantity.step {
+        notes.push(format!("The device rounds to steps of {}.", docs::value(step)));
+    }
+    notes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn simplest_fractions() {
+        for (real, fraction) in [
+            (0.01, (1, 100)),
+            (0.08, (2, 25)),
+            (-0.1, (-1, 10)),
+            (25e6, (25_000_000, 1)),
+            (1.0 / 3.0, (1, 3)),
+            (0.000_030_517_578_125, (1, 32_768)),
+            (1e-9, (1, 1_000_000_000)),
+            (4.8828125e-4, (1, 2048)),
+        ] {
+            assert_eq!(rational(real), Some(fraction), "{real}");
+        }
+        for real in [0.0, f64::NAN, f64::INFINITY, 1e-300, 1e300, 1e19] {
+            assert_eq!(rational(real), None, "{real}");
+        }
+        let odd = 9.587_379_924_285_257e-5;
+        let (num, den) = rational(odd).expect("two numbers");
+        assert_eq!(num as f64 / den as f64, odd);
+    }
+
+    #[test]
+    fn offsets_share_the_denominator() {
+        assert_eq!(common(0.1, -40.0), Some((1, 10, -400)));
+        assert_eq!(common(0.5, 273.15), Some((10, 20, 5463)));
+        assert_eq!(common(1.0, 0.0), Some((1, 1, 0)));
+    }
+}

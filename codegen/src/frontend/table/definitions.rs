@@ -1,0 +1,362 @@
+//! Units, enumerations and bit fields that rows refer to by name.
+
+use std::collections::HashMap;
+
+use compact_str::{format_compact, CompactString};
+
+use super::at::{At, Entries, OneOrMany, TextOr};
+use super::format::{
+    BitEntries, BitTable, BitsTable, EnumTable, NumberOrText, Scaling, UnitTable, ValueEntries, ValueTable,
+};
+use super::tree::{cited, Reader};
+use super::{place, types, value};
+use crate::diagnostics::codes;
+use crate::ir::{
+    Availability, BitFieldEntry, BitMeaning, Condition, Doubt, EnumValue, Scale, Shape, Trigger, Type, TypeDef, TypeId,
+    Zone,
+};
+use crate::source::Origin;
+use crate::text::brief;
+
+/// What a name may stand for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Kind {
+    Enumeration,
+    Bits,
+}
+
+/// The definitions of a table.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Definitions {
+    pub enums: Vec<(At<String>, EnumTable)>,
+    pub bits: Vec<(At<String>, BitsTable)>,
+    pub units: Vec<(At<String>, UnitTable)>,
+    /// The types made so far.
+    pub types: Vec<TypeDef>,
+    /// Contradictions of definitions.
+    pub doubts: Vec<Doubt>,
+    pub made: HashMap<(Kind, String, Type), TypeId>,
+    /// Names of items that conditions refer to, with their places.
+    pub mentioned: Vec<At<String>>,
+}
+
+/// What is said of a definition as a whole.
+struct About<'t> {
+    name: CompactString,
+    doc: Option<&'t str>,
+    cite: Option<String>,
+    origin: Origin,
+}
+
+impl Definitions {
+    /// The type of this name over the integer `base`. A name that isn't defined is reported.
+    pub fn named(&mut self, reader: &mut Reader<'_, '_>, kind: Kind, name: &At<String>, base: Type) -> Option<Type> {
+        let key = (kind, name.value.clone(), base);
+        if let Some(&id) = self.made.get(&key) {
+            return Some(Type::Named(id));
+        }
+        let id = match kind {
+            Kind::Enumeration => {
+                let Some((place, table)) = self.enums.iter().find(|(own, _)| own.value == name.value).cloned() else {
+                    let known = self.enums.iter().map(|(own, _)| own.value.as_str());
+                    reader.unresolved("enumeration", &name.value, reader.span(name), known);
+                    return None;
+                };
+                let about = self.about(reader, &place, (&table.doc, &table.cite), [&table.doubt, &table.doubts]);
+                self.enumeration(reader, about, base, table.closed, &table.values)
+            }
+            Kind::Bits => {
+                let Some((place, table)) = self.bits.iter().find(|(own, _)| own.value == name.value).cloned() else {
+                    let known = self.bits.iter().map(|(own, _)| own.value.as_str());
+                    reader.unresolved("bit field", &name.value, reader.span(name), known);
+                    return None;
+                };
+                let about = self.about(reader, &place, (&table.doc, &table.cite), [&table.doubt, &table.doubts]);
+                self.bit_field(reader, about, base, &table.at)
+            }
+        };
+        self.made.insert(key, id);
+        Some(Type::Named(id))
+    }
+
+    /// The integer that a definition names as its base.
+    pub fn base(&self, reader: &mut Reader<'_, '_>, kind: Kind, name: &str) -> Option<Type> {
+        let base = match kind {
+            Kind::Enumeration => {
+                self.enums.iter().find(|(own, _)| own.value == name).and_then(|(_, t)| t.base.as_ref())
+            }
+            Kind::Bits => self.bits.iter().find(|(own, _)| own.value == name).and_then(|(_, t)| t.base.as_ref()),
+        }?;
+        integer(reader, base)
+    }
+
+    /// Makes the definitions that no row uses, so that their mistakes are found and they are part of the output.
+    pub fn make_unused(&mut self, reader: &mut Reader<'_, '_>) {
+        let unused = |made: &HashMap<(Kind, String, Type), TypeId>, kind, name: &str| {
+            !made.keys().any(|(own, other, _)| *own == kind && other == name)
+        };
+        let enums = self.enums.iter().map(|(name, _)| (Kind::Enumeration, name.clone()));
+        let all: Vec<_> = enums.chain(self.bits.iter().map(|(name, _)| (Kind::Bits, name.clone()))).collect();
+        for (kind, name) in all {
+            if unused(&self.made, kind, &name.value) {
+                let base = self.base(reader, kind, &name.value).unwrap_or(Type::Unsigned(16));
+                self.named(reader, kind, &name, base);
+            }
+        }
+    }
+
+    fn about<'t>(
+        &mut self,
+        reader: &Reader<'_, '_>,
+        place: &At<String>,
+        (doc, cite): (&'t Option<String>, &Option<OneOrMany<NumberOrText>>),
+        doubts: [&Option<OneOrMany<super::format::DoubtTable>>; 2],
+    ) -> About<'t> {
+        let (origin, cite) = (reader.origin(place), cite.as_ref().map(cited));
+        self.doubts.extend(reader.doubts(doubts.map(Option::as_ref), origin, cite.as_deref()));
+        About { name: place.value.as_str().into(), doc: doc.as_deref(), cite, origin }
+    }
+
+    /// An enumeration that is written in its row.
+    pub fn inline_values(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        (name, origin): (&str, Origin),
+        base: Type,
+        values: &ValueEntries,
+    ) -> Type {
+        let about = About { name: name.into(), doc: None, cite: None, origin };
+        Type::Named(self.enumeration(reader, about, base, false, values))
+    }
+
+    /// A bit field that is written in its row.
+    pub fn inline_bits(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        (name, origin): (&str, Origin),
+        base: Type,
+        bits: &BitEntries,
+    ) -> Type {
+        let about = About { name: name.into(), doc: None, cite: None, origin };
+        Type::Named(self.bit_field(reader, about, base, bits))
+    }
+
+    fn push(&mut self, reader: &Reader<'_, '_>, about: About<'_>, base: Type, shape: Shape) -> TypeId {
+        let id = TypeId(self.types.len() as u32);
+        self.types.push(TypeDef {
+            name: about.name,
+            code: None,
+            shape,
+            bits: base.bits(),
+            documentation: reader.documentation(about.doc, about.cite),
+            origin: about.origin,
+        });
+        id
+    }
+
+    fn enumeration(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        about: About<'_>,
+        base: Type,
+        closed: bool,
+        entries: &ValueEntries,
+    ) -> TypeId {
+        let mut values = Vec::with_capacity(entries.0.len());
+        for (key, entry) in entries.iter() {
+            let Some((first, last)) = place::range(&key.value).filter(|(first, last)| first <= last) else {
+                let message = format!("`{}` is no value: write `3`, `0x10`, `-1` or `\"3..7\"`", brief(&key.value));
+                reader.report(&codes::TABLE_PLACE, reader.span(key), message);
+                continue;
+            };
+            let text = ValueTable::default();
+            let (name, more) = match &entry.value {
+                TextOr::Text(name) => (Some(name.as_str()), &text),
+                TextOr::Table(table) => (table.name.as_deref(), &**table),
+            };
+            let zones = [("reserved", Zone::Reserved), ("vendor", Zone::Vendor)];
+            let zone = more.zone.as_ref().and_then(|zone| reader.word(zone, "zone", &zones));
+            let cite = more.cite.as_ref().map(cited);
+            let origin = reader.origin(key);
+            self.doubts.extend(reader.doubts([more.doubt.as_ref(), more.doubts.as_ref()], origin, cite.as_deref()));
+            let unnamed = || zone.map_or_else(|| format_compact!("value {first}"), |zone| zone_name(zone).into());
+            values.push(EnumValue {
+                name: name.map_or_else(unnamed, CompactString::from),
+                value: first,
+                last: (last > first).then_some(last),
+                zone,
+                names: reader.original(more.orig.as_deref()),
+                availability: availability(&more.models, &more.since, &more.until),
+                documentation: reader.documentation(more.doc.as_deref(), cite),
+            });
+        }
+        self.push(reader, about, base, Shape::Enumeration { base, values, closed })
+    }
+
+    fn bit_field(&mut self, reader: &mut Reader<'_, '_>, about: About<'_>, base: Type, entries: &BitEntries) -> TypeId {
+        let mut fields = Vec::new();
+        for (key, meanings) in entries.iter() {
+            let Some((offset, bits)) = place::bits(&key.value) else {
+                let message = format!("`{}` are no bits: write `7` or `\"3-2\"`", brief(&key.value));
+                reader.report(&codes::TABLE_PLACE, reader.span(key), message);
+                continue;
+            };
+            for meaning in &meanings.value.0 {
+                let plain = BitTable::default();
+                let (name, table) = match meaning {
+                    TextOr::Text(name) => (Some(name.as_str()), &plain),
+                    TextOr::Table(table) => (table.name.as_deref(), &**table),
+                };
+                fields.push(self.field(reader, (&about.name, key), (offset, bits), name, table));
+            }
+        }
+        fields.sort_by_key(|field| field.offset);
+        self.push(reader, about, base, Shape::BitField { base, fields })
+    }
+
+    fn field(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        (owner, key): (&str, &At<String>),
+        (offset, bits): (u8, u8),
+        name: Option<&str>,
+        table: &BitTable,
+    ) -> BitFieldEntry {
+        let (origin, cite) = (reader.origin(key), table.cite.as_ref().map(cited));
+        self.doubts.extend(reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()));
+        let name = name.map_or_else(|| format_compact!("bit {}", key.value), CompactString::from);
+        let meaning = self.meaning(reader, (owner, &name, key), bits, table);
+        let triggers = [
+            ("rising", Trigger::Rising),
+            ("falling", Trigger::Falling),
+            ("toggle", Trigger::Toggle),
+            ("self_clearing", Trigger::SelfClearing),
+        ];
+        BitFieldEntry {
+            name: if matches!(meaning, BitMeaning::Reserved { .. }) { CompactString::default() } else { name },
+            names: reader.original(table.orig.as_deref()),
+            offset,
+            bits,
+            meaning,
+            when: self.condition(reader, table.when.as_ref()),
+            trigger: table.trigger.as_ref().and_then(|trigger| reader.word(trigger, "trigger", &triggers)),
+            availability: availability(&table.models, &table.since, &table.until),
+            documentation: reader.documentation(table.doc.as_deref(), cite),
+        }
+    }
+
+    fn meaning(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        (owner, name, key): (&str, &str, &At<String>),
+        bits: u8,
+        table: &BitTable,
+    ) -> BitMeaning {
+        if let Some(reserved) = &table.reserved {
+            let write = match reserved {
+                NumberOrText::Number(0) => Some(false),
+                NumberOrText::Number(1) => Some(true),
+                NumberOrText::Text(text) if text == "keep" => None,
+                _ => {
+                    let message = "reserved bits are written as 0, 1 or \"keep\"";
+                    reader.report(&codes::TABLE_VALUE, reader.span(key), message);
+                    None
+                }
+            };
+            return BitMeaning::Reserved { write };
+        }
+        let base = Type::Unsigned(bits);
+        if let Some(named) = &table.enumeration {
+            return match self.named(reader, Kind::Enumeration, named, base) {
+                Some(Type::Named(id)) => BitMeaning::Enumeration(id),
+                _ => BitMeaning::Number,
+            };
+        }
+        if let Some(values) = &table.values {
+            let about =
+                About { name: format_compact!("{owner} {name}"), doc: None, cite: None, origin: reader.origin(key) };
+            return BitMeaning::Enumeration(self.enumeration(reader, about, base, false, values));
+        }
+        match bits {
+            1 if !table.number => BitMeaning::Flag { inverted: table.inverted },
+            _ => BitMeaning::Number,
+        }
+    }
+
+    /// "While the item has one of these values."
+    pub fn condition(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        when: Option<&Entries<OneOrMany<super::at::Literal>>>,
+    ) -> Option<Condition> {
+        let (item, values) = when?.0.first()?;
+        if let Some((second, _)) = when?.0.get(1) {
+            let message = "bits depend on one other item at most";
+            reader.report(&codes::TABLE_VALUE, reader.span(second), message);
+        }
+        self.mentioned.push(item.clone());
+        let values = values.value.0.iter();
+        let values = values.filter_map(|literal| value::convert(literal, Type::Opaque(None), false)).collect();
+        Some(Condition { item: item.value.as_str().into(), values })
+    }
+}
+
+fn zone_name(zone: Zone) -> &'static str {
+    match zone {
+        Zone::Reserved => "reserved",
+        Zone::Vendor => "vendor",
+    }
+}
+
+/// Models and firmware.
+pub(super) fn availability(
+    models: &Option<Vec<String>>,
+    since: &Option<String>,
+    until: &Option<String>,
+) -> Option<Box<Availability>> {
+    if models.is_none() && since.is_none() && until.is_none() {
+        return None;
+    }
+    Some(Box::new(Availability {
+        models: models.iter().flatten().map(|model| model.as_str().into()).collect(),
+        since: since.as_deref().map(CompactString::from),
+        until: until.as_deref().map(CompactString::from),
+        ..Availability::default()
+    }))
+}
+
+/// An integer type by its name; anything else is reported.
+pub(super) fn integer(reader: &mut Reader<'_, '_>, name: &At<String>) -> Option<Type> {
+    let ty = types::named(&name.value).filter(|named| named.elements.is_none()).map(|named| named.ty);
+    let integer = ty.filter(|ty| matches!(ty, Type::Unsigned(_) | Type::Integer(_)));
+    if integer.is_none() {
+        let message = format!("`{}` is no integer type such as `u16`", brief(&name.value));
+        reader.report(&codes::TABLE_VALUE, reader.span(name), message);
+    }
+    integer
+}
+
+/// How a raw number relates to a physical one; `None` where the two are the same.
+pub(super) fn scale(scaling: Option<&Scaling>, offset: Option<f64>) -> Option<Scale> {
+    let linear =
+        |factor: f64, offset: f64| (factor != 1.0 || offset != 0.0).then_some(Scale::Linear { factor, offset });
+    let offset = offset.unwrap_or(0.0);
+    let rule = match scaling {
+        None => return linear(1.0, offset),
+        Some(Scaling::Factor(factor)) => return linear(*factor, offset),
+        Some(Scaling::Rule(rule)) => rule,
+    };
+    if let Some(numerator) = rule.reciprocal {
+        return Some(Scale::Reciprocal { numerator });
+    }
+    if let (Some(bits), Some(base)) = (rule.fraction, &rule.of) {
+        return Some(Scale::Fraction { bits, base: base.as_str().into() });
+    }
+    if let Some(exponent) = &rule.exponent {
+        return Some(Scale::Exponent { exponent: exponent.as_str().into() });
+    }
+    if let Some(item) = &rule.by {
+        return Some(Scale::ByItem { item: item.as_str().into(), factor: rule.factor.unwrap_or(1.0) });
+    }
+    linear(rule.factor.unwrap_or(1.0), rule.offset.unwrap_or(offset))
+}

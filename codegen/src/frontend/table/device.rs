@@ -1,0 +1,148 @@
+//! The head of a table: the device, its models, its axes.
+
+use super::at::At;
+use super::format::{AxesTable, DeviceTable, ManualTable, ModelTable, NumberOrText};
+use super::place;
+use super::spaces::Buses;
+use super::tree::{cited, Reader};
+use super::value;
+use crate::diagnostics::codes;
+use crate::ir::{
+    AxisRange, AxisRule, AxisStep, CanOpenSettings, Device, EtherCatSettings, Extension, Identity, Type, Variant,
+};
+use crate::text::brief;
+
+/// Puts what `[device]` says into the device, and gives the buses that it is on.
+pub(super) fn head(reader: &mut Reader<'_, '_>, table: &At<DeviceTable>, device: &mut Device) -> Buses {
+    let own = &table.value;
+    device.origin = reader.origin(table);
+    match &own.name {
+        Some(name) => device.name = name.value.as_str().into(),
+        None => reader.report(&codes::TABLE_VALUE, reader.span(table), "the device has no `name`"),
+    }
+    device.names = reader.original(own.orig.as_deref());
+    device.identity = Identity {
+        vendor_id: own.vendor_id,
+        vendor_name: own.vendor.as_deref().unwrap_or_default().into(),
+        product_code: own.product_code,
+        product_name: device.name.clone(),
+        revision_number: own.revision,
+        order_code: own.order_code.as_deref().unwrap_or_default().into(),
+        ..Identity::default()
+    };
+    device.profiles.clone_from(&own.profiles);
+    let cite = own.cite.as_ref().map(cited);
+    device.documentation = reader.documentation(own.doc.as_deref(), cite.clone());
+    device.doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], device.origin, cite.as_deref());
+    let buses = own.buses.as_ref().map_or(Buses::ALL, |list| buses(reader, list));
+    if buses.canopen && own.buses.is_some() {
+        device.canopen = Some(Box::new(CanOpenSettings {
+            bit_rates: own.bit_rates.clone(),
+            granularity: own.granularity,
+            rx_pdos: own.rx_pdos,
+            tx_pdos: own.tx_pdos,
+            lss: own.lss,
+            ..CanOpenSettings::default()
+        }));
+    }
+    if buses.ethercat && own.buses.is_some() {
+        device.ethercat = Some(Box::<EtherCatSettings>::default());
+    }
+    buses
+}
+
+/// The buses of a list of names.
+pub(super) fn buses(reader: &mut Reader<'_, '_>, list: &[At<String>]) -> Buses {
+    let words = [("canopen", 0), ("ethercat", 1), ("modbus", 2), ("profinet", 3), ("serial", 3)];
+    let mut buses = Buses { canopen: false, ethercat: false, modbus: false };
+    for name in list {
+        match reader.word(name, "bus", &words) {
+            Some(0) => buses.canopen = true,
+            Some(1) => buses.ethercat = true,
+            Some(2) => buses.modbus = true,
+            _ => {}
+        }
+    }
+    buses
+}
+
+/// Keeps what is said of the manual.
+pub(super) fn manual(reader: &mut Reader<'_, '_>, table: &At<ManualTable>, device: &mut Device) {
+    let own = &table.value;
+    reader.language = own.language.as_deref().unwrap_or_default().into();
+    let facts = [
+        ("manual/title", &own.title),
+        ("manual/edition", &own.edition),
+        ("manual/language", &own.language),
+        ("manual/cites", &own.cites),
+        ("manual/doc", &own.doc),
+    ];
+    for (key, value) in facts {
+        if let Some(value) = value {
+            let span = reader.span(table);
+            device.extensions.push(Extension { key: key.into(), value: value.as_str().into(), span });
+        }
+    }
+}
+
+/// A model, or a version of the firmware.
+pub(super) fn model(reader: &mut Reader<'_, '_>, table: &At<ModelTable>, device: &mut Device) {
+    let own = &table.value;
+    let Some(name) = &own.name else {
+        reader.report(&codes::TABLE_VALUE, reader.span(table), "the model has no `name`");
+        return;
+    };
+    let origin = reader.origin(name);
+    let cite = own.cite.as_ref().map(cited);
+    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+    let constant = |literal: &super::at::Literal| value::convert(literal, Type::Opaque(None), false);
+    device.variants.push(Variant {
+        name: name.value.as_str().into(),
+        identity: Identity {
+            product_code: own.product_code,
+            revision_number: own.revision,
+            order_code: own.order_code.as_deref().unwrap_or_default().into(),
+            product_name: name.value.as_str().into(),
+            ..Identity::default()
+        },
+        constants: own
+            .constants
+            .iter()
+            .filter_map(|(key, literal)| Some((key.value.as_str().into(), constant(&literal.value)?)))
+            .collect(),
+        documentation: reader.documentation(own.doc.as_deref(), cite),
+        origin,
+    });
+}
+
+/// How the objects of further axes follow from those of the first.
+pub(super) fn axes(reader: &mut Reader<'_, '_>, table: &At<AxesTable>, device: &mut Device) {
+    let own = &table.value;
+    let origin = reader.origin(table);
+    let cite = own.cite.as_ref().map(cited);
+    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+    let mut rules = Vec::new();
+    for rule in &own.rules {
+        let objects = rule.value.objects.as_ref().and_then(|objects| match &objects.value {
+            NumberOrText::Number(index) => u16::try_from(*index).ok().map(|index| (index, index)),
+            NumberOrText::Text(text) => place::objects(text).filter(|own| own.subs.is_none()).map(|own| own.indices),
+        });
+        let step = match (&rule.value.index, &rule.value.sub, &rule.value.sub_stride) {
+            (Some(index), None, None) => Some(AxisStep::Index(*index)),
+            (None, Some(word), None) if word == "axis" => Some(AxisStep::SubIndex),
+            (None, None, Some(stride)) => Some(AxisStep::SubIndexStride(*stride)),
+            _ => None,
+        };
+        match (objects, step) {
+            (Some(indices), Some(step)) => rules.push(AxisRange { indices, step }),
+            _ => {
+                let text = brief(reader.source.slice(reader.span(rule)));
+                let message =
+                    format!("`{text}` is no rule: `objects` and one of `index`, `sub = \"axis\"`, `sub_stride`");
+                reader.report(&codes::TABLE_VALUE, reader.span(rule), message);
+            }
+        }
+    }
+    let models = own.models.iter().flatten().map(|model| model.as_str().into()).collect();
+    device.axes = Some(AxisRule { axes: own.count, models, rules });
+}

@@ -1,0 +1,963 @@
+//! The register table format, as `serde` reads it. What the keys mean to whoever writes them is told in
+//! `dictionaries/README.md`; the doc comments are what editors show.
+
+use serde::Deserialize;
+
+use super::at::{At, Entries, Literal, OneOrMany, TextOr};
+#[cfg(feature = "cli")]
+use super::schema;
+
+/// Derives what every table of the format derives.
+macro_rules! tables {
+    ($($(#[$attribute:meta])* pub struct $name:ident { $($body:tt)* })*) => {
+        $(
+            $(#[$attribute])*
+            #[derive(Clone, Debug, Default, Deserialize)]
+            #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+            #[serde(deny_unknown_fields, default)]
+            #[allow(missing_docs)]
+            pub struct $name { $($body)* }
+        )*
+    };
+}
+
+/// A text that may be a list.
+pub type Words = OneOrMany<String>;
+
+/// Bits by their place: a name, what is said of them, or several meanings.
+pub type BitEntries = Entries<OneOrMany<TextOr<BitTable>>>;
+
+/// Values by their number: a name, or what is said of them.
+pub type ValueEntries = Entries<TextOr<ValueTable>>;
+
+/// A number or a text.
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(untagged, expecting = "a number or a text")]
+pub enum NumberOrText {
+    /// A number.
+    Number(i64),
+    /// A text.
+    Text(String),
+}
+
+/// `true`, `false` or a text.
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(untagged, expecting = "true, false or a text")]
+pub enum FlagOrText {
+    /// A truth value.
+    Flag(bool),
+    /// A text.
+    Text(String),
+}
+
+/// A number, or how the number is found.
+#[derive(Clone, Debug, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(untagged, expecting = "a factor, or a table with `factor`, `by`, `reciprocal`, `fraction` or `exponent`")]
+pub enum Scaling {
+    /// physical = raw × factor.
+    Factor(f64),
+    /// Anything else.
+    Rule(ScaleRule),
+}
+
+tables! {
+    /// How a raw number becomes a physical one.
+    pub struct ScaleRule {
+        /// Physical units per count.
+        pub factor: Option<f64>,
+        /// The physical value of raw 0.
+        pub offset: Option<f64>,
+        /// The item whose value divides.
+        pub by: Option<String>,
+        /// physical = this / raw.
+        pub reciprocal: Option<f64>,
+        /// Number of fractional bits.
+        pub fraction: Option<u8>,
+        /// The constant of the model that a fraction is one of.
+        pub of: Option<String>,
+        /// The item that holds the exponent of ten.
+        pub exponent: Option<String>,
+    }
+
+    /// A contradiction of the source, and what was made of it.
+    pub struct DoubtTable {
+        /// What is printed, both sides.
+        pub says: String,
+        /// What was chosen.
+        pub chose: String,
+        /// Why.
+        pub why: String,
+        /// Where it is printed.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+    }
+
+    /// A register table, an overlay or a profile.
+    pub struct Document {
+        /// Version of the format: 1.
+        #[cfg_attr(feature = "cli", schemars(extend("const" = 1)))]
+        pub lexibus: Option<At<u32>>,
+        /// The device that the table describes.
+        pub device: Option<At<DeviceTable>>,
+        /// What the overlay applies to, and why.
+        pub overlay: Option<At<OverlayTable>>,
+        /// What the profile applies to.
+        pub profile: Option<At<ProfileTable>>,
+        /// The manual that it was transcribed from.
+        pub manual: Option<At<ManualTable>>,
+        /// Models of a family that share the table.
+        pub models: Vec<At<ModelTable>>,
+        /// What the manual leaves open.
+        pub options: Entries<OptionTable>,
+        /// What rows have that don't say otherwise.
+        pub defaults: Option<At<Row>>,
+        /// What the number of a register means on each bus.
+        pub spaces: Entries<SpaceTable>,
+        /// Rows, in the order of the manual.
+        pub chapters: Vec<At<ChapterTable>>,
+        /// Units with a scale, by name.
+        pub units: Entries<UnitTable>,
+        /// Named values.
+        pub enums: Entries<EnumTable>,
+        /// Named bits.
+        pub bits: Entries<BitsTable>,
+        /// How the objects of further axes follow from those of the first.
+        pub axes: Option<At<AxesTable>>,
+        /// Process data objects that don't follow from the defaults of mapping objects.
+        pub pdos: Vec<At<PdoTable>>,
+        /// Fixed process images.
+        pub images: Vec<At<ImageTable>>,
+        /// Tables of codes: emergency codes, alarms, abort codes.
+        pub codes: Entries<CodesTable>,
+        /// State machines.
+        pub machines: Entries<MachineTable>,
+        /// Sequences of steps.
+        pub procedures: Entries<ProcedureTable>,
+        /// How frames of a command protocol are delimited and checked.
+        pub framing: Option<At<FramingTable>>,
+        /// Requests and replies of a command protocol.
+        pub messages: Vec<At<MessageTable>>,
+        /// Contradictions that belong to no row.
+        pub doubts: Vec<At<DoubtTable>>,
+    }
+
+    /// The device that a table describes.
+    pub struct DeviceTable {
+        /// Name of the device; types of Rust are named after it.
+        pub name: Option<At<String>>,
+        /// Name of the vendor.
+        pub vendor: Option<String>,
+        /// Number of the vendor (CiA, ETG).
+        pub vendor_id: Option<u32>,
+        /// Product code.
+        pub product_code: Option<u32>,
+        /// Revision number.
+        pub revision: Option<u32>,
+        /// Order code.
+        pub order_code: Option<String>,
+        /// Its name in the manual's language.
+        pub orig: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+        /// `canopen`, `ethercat`, `modbus`, `profinet`, `serial`.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        pub buses: Option<Vec<At<String>>>,
+        /// Numbers of device profiles that it follows.
+        pub profiles: Vec<u32>,
+        /// CANopen bit rates in kbit/s.
+        pub bit_rates: Vec<u16>,
+        /// Number of RPDOs.
+        pub rx_pdos: Option<u16>,
+        /// Number of TPDOs.
+        pub tx_pdos: Option<u16>,
+        /// Granularity of PDO mapping in bits.
+        pub granularity: Option<u8>,
+        /// Whether it supports layer setting services.
+        pub lss: bool,
+    }
+
+    /// The manual that a table was transcribed from.
+    pub struct ManualTable {
+        /// Its title.
+        pub title: Option<String>,
+        /// Its edition: number or date.
+        pub edition: Option<String>,
+        /// Its language (BCP 47).
+        pub language: Option<String>,
+        /// What `cite` counts: `page` or `line`.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["page", "line"])))]
+        pub cites: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+    }
+
+    /// What an overlay applies to.
+    pub struct OverlayTable {
+        /// The devices that it is for.
+        #[serde(rename = "for")]
+        pub applies: Option<AppliesTable>,
+        /// Why it is needed.
+        pub why: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+    }
+
+    /// The devices that an overlay is for; what isn't given fits any.
+    pub struct AppliesTable {
+        /// Number of the vendor.
+        pub vendor_id: Option<u32>,
+        /// Product code.
+        pub product_code: Option<u32>,
+        /// Revision number.
+        pub revision: Option<u32>,
+        /// Name or order code; `*` stands for any letters.
+        pub device: Option<String>,
+        /// The overlay is for modules (of GSDML also submodules) of this name, identifier or ident number instead.
+        pub module: Option<String>,
+    }
+
+    /// What a profile applies to.
+    pub struct ProfileTable {
+        /// Name of the profile.
+        pub name: Option<String>,
+        /// Number of the device profile.
+        pub number: Option<u32>,
+        /// The object that shows that a device follows it.
+        pub when: Option<At<NumberOrText>>,
+        /// The number of the API of submodules that follow it (PROFINET).
+        pub api: Option<u32>,
+        /// The only buses on which devices follow it.
+        pub buses: Option<Vec<At<String>>>,
+        /// What is added to indices from 0x6000 to 0x67FF for each further axis.
+        pub axis_index: Option<u16>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+    }
+
+    /// A model, or a version of the firmware.
+    pub struct ModelTable {
+        /// Its name.
+        pub name: Option<At<String>>,
+        /// Its name or label in the manual's language.
+        pub orig: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+        /// Product code.
+        pub product_code: Option<u32>,
+        /// Revision number.
+        pub revision: Option<u32>,
+        /// Order code.
+        pub order_code: Option<String>,
+        /// Constants of the model, such as the base of fractions.
+        pub constants: Entries<Literal>,
+    }
+
+    /// What the manual leaves open.
+    pub struct OptionTable {
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+        /// The choices, and the value that each puts in place of `$name`.
+        pub choices: Entries<Literal>,
+        /// The choice where nobody chooses.
+        pub default: Option<At<String>>,
+    }
+
+    /// What the number of a register means on each bus.
+    pub struct SpaceTable {
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Number of bits that one number holds: 16 where nothing else is said.
+        pub bits: Option<u8>,
+        /// Where its registers are on Modbus.
+        pub modbus: Option<ModbusRule>,
+        /// Which objects its registers are on CANopen.
+        pub canopen: Option<ObjectRule>,
+        /// Which objects its registers are on EtherCAT (CoE).
+        pub ethercat: Option<ObjectRule>,
+        /// The number is that of a parameter in a command protocol.
+        pub parameter: bool,
+        /// The number is an address of an EtherCAT slave controller.
+        pub esc: bool,
+        /// The value is reached through a window.
+        pub indirect: Option<IndirectRule>,
+    }
+
+    /// Where the registers of a space are on Modbus.
+    pub struct ModbusRule {
+        /// `holding`, `input`, `coil` or `discrete`.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["holding", "input", "coil", "discrete"])))]
+        pub table: Option<At<String>>,
+        /// The number that the manual's table counts from.
+        pub first: Option<i64>,
+        /// What is added to get the address on the wire.
+        pub add: Option<i64>,
+        /// `high_first` or `low_first`: which word of a longer value comes first.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["high_first", "low_first"])))]
+        pub order: Option<At<String>>,
+        /// Whether the bytes of a word are swapped.
+        pub swap: bool,
+    }
+
+    /// Which object a register is.
+    pub struct ObjectRule {
+        /// What is added to the register's number.
+        pub index: Option<At<i64>>,
+        /// The sub-index.
+        pub sub: Option<At<u8>>,
+    }
+
+    /// How a value is reached through other items.
+    pub struct IndirectRule {
+        /// The item that takes the number.
+        pub write_address: Option<String>,
+        /// The item through which the value is read.
+        pub read: Option<String>,
+        /// The item through which the value is written.
+        pub write: Option<String>,
+        /// The procedure that says in which order.
+        pub procedure: Option<String>,
+    }
+
+    /// Rows that belong together.
+    pub struct ChapterTable {
+        /// Its title.
+        pub title: Option<String>,
+        /// Its name or label in the manual's language.
+        pub orig: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+        /// The space of the rows' numbers.
+        pub space: Option<At<String>>,
+        /// What rows have that don't say otherwise.
+        pub defaults: Option<At<Row>>,
+        /// Rows by name.
+        pub registers: Entries<Row>,
+        /// Rows by object (`0x6040`, `"0x1018:1"`, `"0x1400..0x1403:1"`).
+        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::OBJECTS)))]
+        pub objects: Entries<Row>,
+    }
+
+    /// One item of the device.
+    pub struct Row {
+        /// Number of the register, or numbers (`"63-64"`).
+        #[cfg_attr(feature = "cli", schemars(transform = schema::place("#( *[-–] *#)?")))]
+        pub reg: Option<At<NumberOrText>>,
+        /// Object and sub-index (`"0x2000:1"`).
+        #[cfg_attr(feature = "cli", schemars(transform = schema::place("#(:#)?")))]
+        pub obj: Option<At<NumberOrText>>,
+        /// Address in the memory of an EtherCAT slave controller.
+        pub esc: Option<At<u16>>,
+        /// Length there, in bytes.
+        pub length: Option<u16>,
+        /// Name in an ASCII protocol.
+        pub ascii: Option<String>,
+        /// Number of a parameter.
+        pub param: Option<At<u32>>,
+        /// The name of an object or sub-entry.
+        pub name: Option<At<String>>,
+        /// `var`, `array`, `record` or `domain`.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["var", "array", "record", "domain"])))]
+        pub code: Option<At<String>>,
+        /// `u16`, `i32`, `f32`, `bool`, `str(25)`, `bytes(6)`, `u16[10]`, …; `?` where the manual doesn't say.
+        #[serde(rename = "type")]
+        #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
+        pub ty: Option<At<String>>,
+        /// What the bits mean: a name of `[bits]`, or the bits themselves.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::BITS)))]
+        pub bits: Option<At<TextOr<BitEntries>>>,
+        /// What the values mean: a name of `[enums]`, or the values themselves.
+        #[serde(rename = "enum")]
+        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::VALUES)))]
+        pub values: Option<At<TextOr<ValueEntries>>>,
+        /// `ro`, `rw`, `wo`, `const`, `rwr` or `rww`.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww"])))]
+        pub access: Option<At<String>>,
+        /// `rx`, `tx`, `both` or `no`.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["rx", "tx", "both", "no"])))]
+        pub pdo: Option<At<String>>,
+        /// The smallest value, raw.
+        pub min: Option<At<Literal>>,
+        /// The greatest value, raw.
+        pub max: Option<At<Literal>>,
+        /// The value before anybody wrote it; a list where the row stands for several objects.
+        pub default: Option<At<OneOrMany<Literal>>>,
+        /// The only value.
+        pub fixed: Option<At<Literal>>,
+        /// The only values.
+        pub allowed: Option<At<Vec<Literal>>>,
+        /// A symbol, or a name of `[units]`.
+        pub unit: Option<At<String>>,
+        /// physical = raw × scale + offset, in units of `unit`; or how the factor is found.
+        pub scale: Option<At<Scaling>>,
+        /// The physical value of raw 0.
+        pub offset: Option<f64>,
+        /// Raw values that are no numbers, with their meaning.
+        pub na: Option<Entries<String>>,
+        /// The device rounds to steps of so many counts.
+        pub step: Option<Literal>,
+        /// Kept over power-off: at once, not at all, or by this command.
+        pub save: Option<FlagOrText>,
+        /// When a write takes effect, where not at once.
+        pub effective: Option<String>,
+        /// Writing is allowed while these items have one of these values.
+        pub when: Option<Entries<OneOrMany<Literal>>>,
+        /// The only values that may be written.
+        pub writable: Option<Vec<Literal>>,
+        /// The device clears it by itself.
+        pub clears: Option<bool>,
+        /// It can be written once.
+        pub once: Option<bool>,
+        /// What else writing does.
+        pub effects: Option<Words>,
+        /// Models that have it; `*` stands for any letters.
+        pub models: Option<Vec<At<String>>>,
+        /// First firmware that has it.
+        pub since: Option<String>,
+        /// First firmware that doesn't have it any more.
+        pub until: Option<String>,
+        /// What replaces it from then on.
+        pub replaced_by: Option<At<String>>,
+        /// Options that have to be fitted.
+        pub needs: Option<Words>,
+        /// The only buses on which it exists.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        pub buses: Option<Vec<At<String>>>,
+        /// Whether each axis has its own.
+        pub per_axis: Option<bool>,
+        /// Another name of the same value.
+        pub same_as: Option<At<String>>,
+        /// Meant for the vendor or a tool.
+        pub hidden: Option<bool>,
+        /// So many of the same, or the item that holds how many are valid.
+        pub count: Option<At<NumberOrText>>,
+        /// The number of rows, where an item holds how many are valid.
+        pub max_count: Option<u32>,
+        /// How many numbers lie between two of them.
+        pub stride: Option<u32>,
+        /// The bits of the register that the row is about (`"7-0"`).
+        #[cfg_attr(feature = "cli", schemars(transform = schema::place(schema::BITS)))]
+        pub part: Option<At<NumberOrText>>,
+        /// `high_first` or `low_first`.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["high_first", "low_first"])))]
+        pub order: Option<At<String>>,
+        /// Whether the bytes of a word are swapped.
+        pub swap: Option<bool>,
+        /// The sub-index exists and means nothing.
+        pub reserved: Option<bool>,
+        /// It exists only at times.
+        pub optional: Option<bool>,
+        /// Its name in the manual's language.
+        pub orig: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+        /// Findings that the doubt explains.
+        pub allow: Option<Vec<At<String>>>,
+        /// What another place of the manual says of it; it is compared.
+        pub summary: Option<At<OneOrMany<SummaryTable>>>,
+        /// In an overlay: why the row is needed.
+        pub why: Option<String>,
+        /// In an overlay: the object doesn't exist yet.
+        pub add: Option<bool>,
+        /// In an overlay: the object is taken away.
+        pub remove: Option<bool>,
+    }
+
+    /// What another place of the manual says of a row: an overview, a table of contents, the prose.
+    pub struct SummaryTable {
+        /// The type that it says.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
+        #[serde(rename = "type")]
+        pub ty: Option<At<String>>,
+        /// The access that it says.
+        pub access: Option<At<String>>,
+        /// The direction of PDOs that it says.
+        pub pdo: Option<At<String>>,
+        /// Number of sub-indices, with sub-index 0.
+        pub subs: Option<At<u32>>,
+        /// Length in bytes.
+        pub length: Option<At<u32>>,
+        /// The least value that it says.
+        pub min: Option<At<Literal>>,
+        /// The greatest value that it says.
+        pub max: Option<At<Literal>>,
+        /// The default that it says.
+        pub default: Option<At<Literal>>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+    }
+
+    /// A unit with a scale.
+    pub struct UnitTable {
+        /// The physical unit.
+        pub symbol: Option<String>,
+        /// physical = raw × scale + offset.
+        pub scale: Option<Scaling>,
+        /// The physical value of raw 0.
+        pub offset: Option<f64>,
+        /// How the manual writes it.
+        pub orig: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+    }
+
+    /// Named values of an integer.
+    pub struct EnumTable {
+        /// The integer, where rows don't tell.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
+        pub base: Option<At<String>>,
+        /// Whether a device never has a value that isn't listed.
+        pub closed: bool,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Its name or label in the manual's language.
+        pub orig: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+        /// Findings that the doubt explains.
+        pub allow: Option<Vec<At<String>>>,
+        /// The values, and ranges of values (`"3..7"`).
+        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::VALUES)))]
+        pub values: ValueEntries,
+    }
+
+    /// A named value.
+    pub struct ValueTable {
+        /// A short English phrase; the identifier is made of it.
+        pub name: Option<String>,
+        /// `reserved` or `vendor`.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["reserved", "vendor"])))]
+        pub zone: Option<At<String>>,
+        /// Its name or label in the manual's language.
+        pub orig: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// Models that have it; `*` stands for any letters.
+        pub models: Option<Vec<String>>,
+        /// First firmware that has it.
+        pub since: Option<String>,
+        /// First firmware that doesn't have it any more.
+        pub until: Option<String>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
+    /// Named bits of an integer.
+    pub struct BitsTable {
+        /// The integer, where rows don't tell.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
+        pub base: Option<At<String>>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Its name or label in the manual's language.
+        pub orig: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+        /// Findings that the doubt explains.
+        pub allow: Option<Vec<At<String>>>,
+        /// The bits, and ranges of bits (`"3-2"`); a list where other items decide what they mean.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::BITS)))]
+        pub at: BitEntries,
+    }
+
+    /// Bits with a meaning.
+    pub struct BitTable {
+        /// A short English phrase; the identifier is made of it.
+        pub name: Option<String>,
+        /// The meaning holds while the bit is 0.
+        pub inverted: bool,
+        /// The bits are a number.
+        pub number: bool,
+        /// What the values of the bits mean.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::VALUES)))]
+        pub values: Option<ValueEntries>,
+        /// The same, as a name of `[enums]`.
+        #[serde(rename = "enum")]
+        pub enumeration: Option<At<String>>,
+        /// The bits mean nothing: a writer puts 0, 1, or `keep`s what was read.
+        pub reserved: Option<NumberOrText>,
+        /// `rising`, `falling`, `toggle` or `self_clearing`.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::TRIGGERS)))]
+        pub trigger: Option<At<String>>,
+        /// The bits mean this while these items have one of these values.
+        pub when: Option<Entries<OneOrMany<Literal>>>,
+        /// Its name or label in the manual's language.
+        pub orig: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// First firmware that has it.
+        pub since: Option<String>,
+        /// First firmware that doesn't have it any more.
+        pub until: Option<String>,
+        /// Models that have it; `*` stands for any letters.
+        pub models: Option<Vec<String>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
+    /// How the objects of further axes follow from those of the first.
+    pub struct AxesTable {
+        /// Number of axes.
+        pub count: u8,
+        /// The models that have so many; `*` stands for any letters.
+        pub models: Option<Vec<String>>,
+        /// The first rule that contains an object holds.
+        pub rules: Vec<At<AxisRuleTable>>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
+    /// How to get to the object of the next axis.
+    pub struct AxisRuleTable {
+        /// The objects (`"0x6000..0x67FF"`).
+        #[cfg_attr(feature = "cli", schemars(transform = schema::place("#(\\.\\.=?#)?")))]
+        pub objects: Option<At<NumberOrText>>,
+        /// What is added to the index.
+        pub index: Option<u16>,
+        /// `axis`: the sub-index is the number of the axis.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["axis"])))]
+        pub sub: Option<String>,
+        /// What is added to the sub-index.
+        pub sub_stride: Option<u8>,
+    }
+
+    /// A process data object.
+    pub struct PdoTable {
+        /// Index of its mapping object.
+        pub index: Option<At<u16>>,
+        /// Its name.
+        pub name: Option<String>,
+        /// `rx` or `tx`, seen from the device.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["rx", "tx"])))]
+        pub direction: Option<At<String>>,
+        /// `"0x6040:0/16"`, `"item"` or `"pad/8"`.
+        pub entries: Vec<At<String>>,
+        /// Whether its entries can't be changed.
+        pub fixed: bool,
+        /// Whether it has to be assigned.
+        pub mandatory: bool,
+        /// Number of the sync manager.
+        pub sm: Option<u8>,
+        /// Whether it is assigned by default.
+        pub default: bool,
+        /// PDOs that can't be assigned beside it (`0x1702`, `"0x1600..0x1603"`).
+        pub excludes: Vec<NumberOrText>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
+    /// A fixed process image.
+    pub struct ImageTable {
+        /// Its name.
+        pub name: Option<String>,
+        /// `rx` or `tx`, seen from the device.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["rx", "tx"])))]
+        pub direction: Option<At<String>>,
+        /// Its length in bytes.
+        pub bytes: Option<u32>,
+        /// `big` or `little`.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["big", "little"])))]
+        pub order: Option<String>,
+        /// Its fields, by the name of the item.
+        pub fields: Entries<ImageField>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+    }
+
+    /// A field of a process image; its key is the item.
+    pub struct ImageField {
+        /// First byte.
+        pub at: u32,
+        /// Its type.
+        #[serde(rename = "type")]
+        #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
+        pub ty: Option<At<String>>,
+    }
+
+    /// A table of codes.
+    pub struct CodesTable {
+        /// Names of the columns beside code and meaning.
+        pub columns: Vec<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// The codes, and ranges of codes.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::VALUES)))]
+        pub rows: Entries<TextOr<CodeTableRow>>,
+    }
+
+    /// A code.
+    pub struct CodeTableRow {
+        /// Its name.
+        pub name: Option<String>,
+        /// The other columns.
+        pub cells: Vec<Literal>,
+        /// Its name or label in the manual's language.
+        pub orig: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
+    /// A state machine.
+    pub struct MachineTable {
+        /// The item that tells the state.
+        pub status: Option<At<String>>,
+        /// The item that commands it.
+        pub control: Option<At<String>>,
+        /// States, by the bits of `status`.
+        pub states: Entries<PatternTable>,
+        /// Commands, by the bits of `control`.
+        pub commands: Entries<PatternTable>,
+        /// From which state to which.
+        pub transitions: Vec<TransitionTable>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
+    /// Bits that have to have a value.
+    pub struct PatternTable {
+        /// The bits that count.
+        pub mask: u32,
+        /// The value that they have.
+        pub value: u32,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Its name or label in the manual's language.
+        pub orig: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+    }
+
+    /// From one state to another.
+    pub struct TransitionTable {
+        /// Its number in the manual.
+        pub number: u16,
+        /// The state that it leaves.
+        pub from: Option<At<String>>,
+        /// The state that it leads to.
+        pub to: Option<At<String>>,
+        /// The command that causes it; none where the device does.
+        pub command: Option<At<String>>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+    }
+
+    /// A sequence of steps.
+    pub struct ProcedureTable {
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Its name or label in the manual's language.
+        pub orig: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// The steps, in order.
+        pub steps: Vec<At<StepTable>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
+    /// A step.
+    pub struct StepTable {
+        /// The item that `value` is written to.
+        pub write: Option<At<String>>,
+        /// The item that is waited for.
+        pub wait: Option<At<String>>,
+        /// The bits that are waited for.
+        pub mask: Option<u64>,
+        /// The value that is written or waited for.
+        pub value: Option<Literal>,
+        /// Milliseconds.
+        pub delay: Option<u32>,
+        /// The message that is sent.
+        pub send: Option<At<String>>,
+        /// `rx` or `tx`: process data are exchanged once.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["rx", "tx"])))]
+        pub exchange: Option<At<String>>,
+        /// What a person has to do.
+        pub manual: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+    }
+
+    /// How frames are delimited and checked.
+    pub struct FramingTable {
+        /// The byte that begins a frame.
+        pub start: Option<u8>,
+        /// The byte that ends it.
+        pub end: Option<u8>,
+        /// The byte in front of one that is escaped.
+        pub escape: Option<u8>,
+        /// What an escaped byte is combined with by exclusive or.
+        pub escape_xor: u8,
+        /// The bytes that are escaped.
+        pub escaped: Vec<u8>,
+        /// How the check byte is made: `xor`.
+        pub check: Option<String>,
+        /// What the check begins with.
+        pub seed: u32,
+        /// The greatest number of data bytes in a frame.
+        pub max_data: Option<u16>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+    }
+
+    /// A request and its reply.
+    pub struct MessageTable {
+        /// Its name.
+        pub name: Option<At<String>>,
+        /// What is sent.
+        pub request: Vec<At<FieldTable>>,
+        /// What comes back.
+        pub reply: Vec<At<FieldTable>>,
+        /// `immediate`, `{ poll = "item" }` or `{ delay = 100 }`.
+        pub completion: Option<TextOr<CompletionTable>>,
+        /// The states in which the device takes it.
+        pub accepted_in: Vec<String>,
+        /// Models that have it; `*` stands for any letters.
+        pub models: Option<Vec<At<String>>>,
+        /// First firmware that has it.
+        pub since: Option<String>,
+        /// First firmware that doesn't have it any more.
+        pub until: Option<String>,
+        /// What replaces it from then on.
+        pub replaced_by: Option<At<String>>,
+        /// Its name or label in the manual's language.
+        pub orig: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
+    /// When an order is carried out.
+    pub struct CompletionTable {
+        /// When this item says so.
+        pub poll: Option<String>,
+        /// After so many milliseconds.
+        pub delay: Option<u32>,
+    }
+
+    /// A field of a message.
+    pub struct FieldTable {
+        /// Fixed bytes.
+        pub bytes: Option<Vec<u8>>,
+        /// Name of a value.
+        pub field: Option<At<String>>,
+        /// Its type.
+        #[serde(rename = "type")]
+        #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
+        pub ty: Option<At<String>>,
+        /// Order of its bytes, the most significant being `A`.
+        pub order: Option<At<String>>,
+        /// A symbol, or a name of `[units]`.
+        pub unit: Option<At<String>>,
+        /// physical = raw × scale.
+        pub scale: Option<At<Scaling>>,
+        /// A copy of this field of the request.
+        pub echo: Option<At<String>>,
+        /// The code of an item in this space.
+        pub code: Option<String>,
+        /// So many bytes without meaning.
+        pub pad: Option<u8>,
+        /// Fields that occur several times.
+        pub repeat: Option<RepeatTable>,
+        /// All bytes that follow.
+        pub rest: bool,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+    }
+
+    /// Fields that occur several times.
+    pub struct RepeatTable {
+        /// The field that holds how often; up to the end where there is none.
+        pub count: Option<String>,
+        /// How often at most.
+        pub max: Option<u16>,
+        /// The fields.
+        pub fields: Vec<At<FieldTable>>,
+    }
+}

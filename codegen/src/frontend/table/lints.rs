@@ -1,0 +1,161 @@
+//! Lints that need a table as it is written: digits, printed objects beside printed numbers, patterns of states.
+
+use super::at::{At, Entries, Literal};
+use super::format::{MachineTable, NumberOrText, PatternTable, Row};
+use super::place;
+use super::spaces::Space;
+use super::tree::Reader;
+use crate::diagnostics::{codes, Code, Diagnostic};
+use crate::ir::{Type, Value};
+use crate::source::Span;
+use crate::text::brief;
+
+/// Holds a number against its type: the digits that it is written in, and its value.
+pub(super) fn number(reader: &mut Reader<'_, '_>, given: &At<Literal>, value: &Value, ty: Type) {
+    let span = reader.span(given);
+    if let (Type::Integer(bits) | Type::Unsigned(bits), Some(digits)) = (ty, hexadecimal(reader.source.slice(span))) {
+        let (own, needed) = (digits.len(), usize::from(bits).div_ceil(4));
+        let problem = match own {
+            _ if own > needed => Some(format!("has {own} digits")),
+            2.. if own < needed && digits.starts_with('0') => Some(format!("is filled up to {own} digits")),
+            _ => None,
+        };
+        if let Some(problem) = problem {
+            let message = format!("`0x{}` {problem}, and {ty} has {needed}", brief(&digits));
+            reader.report(&codes::HEX_DIGITS, span, message);
+        }
+    }
+    range(reader, value, ty, span);
+}
+
+/// Reports a number that its type can't have.
+pub(super) fn range(reader: &mut Reader<'_, '_>, value: &Value, ty: Type, span: Span) {
+    let Some((low, high)) = ty.integer_range() else { return };
+    let message = match value {
+        Value::Int(number) if *number < low || *number > high => format!("{ty} is never {number}"),
+        Value::Real(number) => format!("{ty} is never {number}"),
+        _ => return,
+    };
+    let found = Diagnostic::new(&codes::OUT_OF_TYPE, span, message).label("kept as it is");
+    reader.diagnostics.push(match (ty, value) {
+        (Type::Unsigned(bits), Value::Int(..0)) => found.help(format!("is the type `i{bits}`?")),
+        _ => found,
+    });
+}
+
+/// The digits of a number that is written in hexadecimal, in quotation marks or not.
+fn hexadecimal(text: &str) -> Option<String> {
+    let text = text.trim_matches(['"', '\'']);
+    let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"))?;
+    let digits: String = digits.chars().filter(|&c| c != '_').collect();
+    (!digits.is_empty() && digits.chars().all(|c| c.is_ascii_hexdigit())).then_some(digits)
+}
+
+/// Reports an index that isn't written in four digits: one was lost.
+pub(super) fn index<T>(reader: &mut Reader<'_, '_>, given: &At<T>) {
+    let span = reader.span(given);
+    let text = reader.source.slice(span).trim_matches(['"', '\'']);
+    let indices = text.split(':').next().unwrap_or_default().split("..");
+    let short = indices.filter_map(hexadecimal).find(|digits| digits.len() != 4);
+    if let Some(digits) = short {
+        let message = format!("the index `0x{}` has {} digits, and any has 4", brief(&digits), digits.len());
+        reader.report(&codes::HEX_DIGITS, span, message);
+    }
+}
+
+/// Number and object of a row that has both, and the object of its rule.
+struct Printed {
+    span: Span,
+    number: i64,
+    index: i64,
+    rule: Option<i64>,
+}
+
+impl Printed {
+    fn new(reader: &Reader<'_, '_>, row: &Row, space: Option<&Space>) -> Option<Self> {
+        let (reg, obj) = (row.reg.as_ref()?, row.obj.as_ref()?);
+        let number = match &reg.value {
+            NumberOrText::Number(number) => *number,
+            NumberOrText::Text(text) => place::registers(text)?.0.into(),
+        };
+        let index = match &obj.value {
+            NumberOrText::Number(index) => *index,
+            NumberOrText::Text(text) => place::objects(text)?.indices.0.into(),
+        };
+        let rule = u32::try_from(number).ok().and_then(|number| space?.object(number));
+        Some(Printed { span: reader.span(obj), number, index, rule: rule.map(|(index, _)| index.into()) })
+    }
+
+    fn offset(&self) -> i64 {
+        self.index.wrapping_sub(self.number)
+    }
+}
+
+/// Reports a printed object that doesn't follow from those of the rows around it, where these follow no rule either.
+pub(super) fn series(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)], space: Option<&Space>) {
+    let printed: Vec<_> = rows.iter().filter_map(|(_, row)| Printed::new(reader, &row.value, space)).collect();
+    for (at, own) in printed.iter().enumerate() {
+        let offset = |at: Option<usize>| Some(printed.get(at?)?.offset());
+        let (before, after) = (offset(at.checked_sub(1)), offset(Some(at + 1)));
+        let neighbours = match (before, after) {
+            (Some(_), Some(_)) => (before, after),
+            (Some(_), None) => (before, offset(at.checked_sub(2))),
+            _ => (after, offset(Some(at + 2))),
+        };
+        let (Some(expected), true) = (neighbours.0, neighbours.0 == neighbours.1) else { continue };
+        // Where the neighbours follow the rule, breaking it was reported already.
+        let by_rule = own.rule == Some(own.number.wrapping_add(expected));
+        if own.offset() != expected && !by_rule {
+            let message = format!(
+                "the row says object 0x{:04X}, and by the rows around it, it would be 0x{:04X}",
+                own.index,
+                own.number.wrapping_add(expected)
+            );
+            reader.report(&codes::REGISTER_FORMULA, own.span, message);
+        }
+    }
+}
+
+/// Holds the states of a machine against each other, and so its commands.
+pub(super) fn machine(reader: &mut Reader<'_, '_>, table: &MachineTable) {
+    patterns(reader, &table.states, "states", &codes::STATES_OVERLAP);
+    patterns(reader, &table.commands, "commands", &codes::COMMANDS_OVERLAP);
+}
+
+fn patterns(reader: &mut Reader<'_, '_>, list: &Entries<PatternTable>, what: &str, code: &'static Code) {
+    for (at, (key, own)) in list.iter().enumerate() {
+        let own = &own.value;
+        if own.value & !own.mask != 0 {
+            let message = format!("nothing & {:#X} is {:#X}", own.mask, own.value);
+            reader.report(&codes::PATTERN_OUTSIDE_MASK, reader.span(key), message);
+            continue;
+        }
+        for (other_key, other) in list.iter().take(at) {
+            let other = &other.value;
+            if (own.value ^ other.value) & own.mask & other.mask == 0 && other.value & !other.mask == 0 {
+                let message = format!(
+                    "{:#X} is both of the {what} `{}` and `{}`",
+                    own.value | other.value,
+                    brief(&other_key.value),
+                    brief(&key.value)
+                );
+                let found = Diagnostic::new(code, reader.span(key), message);
+                reader.diagnostics.push(found.note_at(reader.span(other_key), "the other one"));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::hexadecimal;
+
+    #[test]
+    fn digits_of_hexadecimal_numbers() {
+        assert_eq!(hexadecimal("0x007F_FFFF").as_deref(), Some("007FFFFF"));
+        assert_eq!(hexadecimal("\"0X20a\"").as_deref(), Some("20a"));
+        for text in ["12", "\"0x80+$NODEID\"", "[0x1, 0x2]", "0x", "-0x10"] {
+            assert_eq!(hexadecimal(text), None, "{text}");
+        }
+    }
+}

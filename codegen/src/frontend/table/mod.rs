@@ -1,0 +1,405 @@
+//! Register tables (`*.toml`) to IR. The format is told in `dictionaries/README.md`.
+//!
+//! | file | subject |
+//! |---|---|
+//! | `format`, `at` | the tables of the format, as `serde` reads them; the pieces they are made of |
+//! | `tree` | from the text to those tables, with every error at its place; options |
+//! | `place`, `types`, `value`, `units` | numbers and places, names of types, literals, symbols of units |
+//! | `definitions` | units, enumerations, bit fields |
+//! | `spaces` | what the number of a register means on each bus |
+//! | `rows`, `objects` | rows to items and objects |
+//! | `device` | the head: device, models, axes |
+//! | `process`, `protocol` | process data; codes, state machines, procedures, messages |
+//! | `overlay` | tables that say something of what another file describes |
+//! | `lints`, `summary` | what needs the table as it is written; what another place of the manual says |
+//! | `schema` | the JSON Schema of the format |
+
+mod at;
+mod definitions;
+mod device;
+pub mod format;
+mod lints;
+mod objects;
+pub mod overlay;
+mod place;
+mod process;
+mod protocol;
+mod rows;
+#[cfg(feature = "cli")]
+pub mod schema;
+mod spaces;
+mod summary;
+mod tree;
+mod types;
+mod units;
+mod value;
+
+use compact_str::CompactString;
+use serde::de::DeserializeOwned;
+use toml::de::DeValue;
+
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Catalog, Device, Group, GroupKind, Item, ObjectCode};
+use crate::source::{FileId, Source, Span};
+use at::{At, Entries};
+use definitions::Definitions;
+use format::{ChapterTable, DeviceTable, OptionTable, Row};
+use objects::Dictionary;
+use rows::{Rows, Seen};
+use spaces::Buses;
+use tree::{Node, Reader};
+
+/// The symbol of a unit that is spelled in another way.
+#[cfg(feature = "cli")]
+pub(crate) fn usual_unit(text: &str) -> Option<&'static str> {
+    units::usual(text)
+}
+
+/// Whether the format knows this symbol of a unit.
+#[cfg(feature = "cli")]
+pub(crate) fn is_unit(symbol: &str) -> bool {
+    units::is_known(symbol)
+}
+
+/// The version of the format that is read here.
+const VERSION: u32 = 1;
+
+/// The keys of a table, and the order in which they are read: what others refer to comes first.
+const KEYS: [&str; 21] = [
+    "lexibus",
+    "device",
+    "overlay",
+    "profile",
+    "manual",
+    "models",
+    "options",
+    "defaults",
+    "spaces",
+    "units",
+    "enums",
+    "bits",
+    "chapters",
+    "axes",
+    "pdos",
+    "images",
+    "codes",
+    "machines",
+    "procedures",
+    "framing",
+    "messages",
+];
+
+/// Reads the device that a table describes. `chosen` are the choices of its options.
+///
+/// Returns `None` for what is no table of a device; then there is an error.
+pub fn read(
+    source: &Source,
+    file: FileId,
+    chosen: &[(String, String)],
+    diagnostics: &mut Diagnostics,
+) -> Option<Catalog> {
+    let mut reader = Reader { source, file, diagnostics, language: CompactString::default() };
+    let mut table = Table::new(&mut reader, chosen)?;
+    let Some(head) = table.take::<DeviceTable>(&mut reader, "device") else {
+        let found = Diagnostic::new(&codes::TABLE_VALUE, Span::new(file, 0, 0), "the table has no `[device]`");
+        reader.diagnostics.push(match table.node("overlay") {
+            Some(_) => found.help("it is an overlay: name it with `--overlay` beside the description that it is for"),
+            None => found,
+        });
+        return None;
+    };
+    let mut device = Device::default();
+    if let Some(manual) = table.take(&mut reader, "manual") {
+        device::manual(&mut reader, &manual, &mut device);
+    }
+    let buses = device::head(&mut reader, &head, &mut device);
+    for model in table.list(&mut reader, "models") {
+        device::model(&mut reader, &model, &mut device);
+    }
+    let mut rows = table.rows(&mut reader, buses);
+    let mut dictionary = Dictionary::new();
+    let mut named = Seen::default();
+    let mut placed = Seen::default();
+    for chapter in table.nodes(&mut reader, "chapters") {
+        let group = self::chapter(&mut reader, &mut rows, &mut dictionary, chapter);
+        for item in group.iter().flat_map(|group| &group.items) {
+            note(&mut reader, item, &mut named, &mut placed);
+        }
+        device.groups.extend(group);
+    }
+    summary::objects(&mut reader, &rows, &dictionary);
+    for item in dictionary.values().flat_map(|group| &group.items) {
+        for address in item.bindings.iter().filter_map(rows::address) {
+            placed.note(&mut reader, address.clone(), || address.to_string(), item.at.name);
+        }
+    }
+    device.groups.extend(dictionary.into_values());
+    rows.definitions.make_unused(&mut reader);
+    device.types = std::mem::take(&mut rows.definitions.types);
+    device.doubts.append(&mut rows.definitions.doubts);
+    table.rest(&mut reader, &mut rows, &mut device);
+    resolve(&mut reader, &rows, &device);
+    rows.allow_of_definitions(&mut reader);
+    for (span, code) in rows.allowed {
+        reader.diagnostics.allow(span, code);
+    }
+    Some(Catalog { devices: vec![device], ..Catalog::default() })
+}
+
+/// The parts of a file by their key.
+struct Table<'a> {
+    parts: Vec<(At<String>, Option<Node<'a>>)>,
+    options: Vec<(At<String>, OptionTable)>,
+}
+
+impl<'a> Table<'a> {
+    /// Parses a file, and puts the chosen values into the places of its options.
+    fn new(reader: &mut Reader<'a, '_>, chosen: &[(String, String)]) -> Option<Self> {
+        let mut parts: Vec<_> =
+            tree::sorted(reader.parse()?).into_iter().map(|(key, node)| (key, Some(node))).collect();
+        let known = || KEYS.into_iter().chain(["doubts"]);
+        for (key, node) in &mut parts {
+            if !known().any(|known| known == key.value) {
+                let all: Vec<&str> = known().collect();
+                reader.unknown_key(&key.value, &all, reader.span(key));
+                *node = None;
+            }
+        }
+        let mut table = Table { parts, options: Vec::new() };
+        table.version(reader);
+        let mut options = Vec::new();
+        for (name, node) in table.entries(reader, "options") {
+            if let Some(option) = reader.piece::<OptionTable>(node.clone()) {
+                options.push((name, option, node));
+            }
+        }
+        let values = tree::choices(reader, &options, chosen);
+        let names: Vec<String> = options.iter().map(|(name, ..)| name.value.clone()).collect();
+        for node in table.parts.iter_mut().filter_map(|(_, node)| node.as_mut()) {
+            tree::choose(node, &values);
+            tree::undecided(reader, node, &names);
+        }
+        table.options = options.into_iter().map(|(name, option, _)| (name, option)).collect();
+        Some(table)
+    }
+
+    fn version(&mut self, reader: &mut Reader<'a, '_>) {
+        match self.take::<u32>(reader, "lexibus") {
+            Some(version) if version.value == VERSION => {}
+            Some(version) => {
+                let message = format!("this is version {} of the format, and {VERSION} is read here", version.value);
+                reader.report(&codes::TABLE_VALUE, reader.span(&version), message);
+            }
+            None => {
+                let message = "the file doesn't say that it is a table: its first key is `lexibus = 1`";
+                reader.report(&codes::TABLE_VALUE, Span::new(reader.file, 0, 0), message);
+            }
+        }
+    }
+
+    fn node(&mut self, key: &str) -> Option<Node<'a>> {
+        self.parts.iter_mut().find(|(own, _)| own.value == key)?.1.take()
+    }
+
+    /// A table.
+    fn take<T: DeserializeOwned>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Option<At<T>> {
+        let node = self.node(key)?;
+        let (start, end) = (node.span().start as u32, node.span().end as u32);
+        Some(At { value: reader.piece(node)?, start, end })
+    }
+
+    /// The elements of an array of tables.
+    fn nodes(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<Node<'a>> {
+        self.node(key).map(|node| reader.elements(node, key)).unwrap_or_default()
+    }
+
+    /// The same, read.
+    fn list<T: DeserializeOwned>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<At<T>> {
+        let nodes = self.nodes(reader, key);
+        nodes
+            .into_iter()
+            .filter_map(|node| {
+                let (start, end) = (node.span().start as u32, node.span().end as u32);
+                Some(At { value: reader.piece(node)?, start, end })
+            })
+            .collect()
+    }
+
+    /// Tables by name.
+    fn entries(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<(At<String>, Node<'a>)> {
+        self.node(key).map(|node| reader.entries(node, key)).unwrap_or_default()
+    }
+
+    /// The same, read.
+    fn named<T: DeserializeOwned>(&mut self, reader: &mut Reader<'a, '_>, key: &str) -> Vec<(At<String>, T)> {
+        let entries = self.entries(reader, key);
+        entries.into_iter().filter_map(|(name, node)| Some((name, reader.piece(node)?))).collect()
+    }
+
+    /// What rows need: definitions, spaces and defaults.
+    fn rows(&mut self, reader: &mut Reader<'a, '_>, buses: Buses) -> Rows {
+        let definitions = Definitions {
+            units: self.named(reader, "units"),
+            enums: self.named(reader, "enums"),
+            bits: self.named(reader, "bits"),
+            ..Definitions::default()
+        };
+        let spaces = self.named(reader, "spaces");
+        let at = |(name, table): (At<String>, _)| (name.clone(), At { value: table, start: name.start, end: name.end });
+        let spaces = Entries(spaces.into_iter().map(at).collect());
+        Rows {
+            definitions,
+            spaces: spaces::read(reader, &spaces),
+            buses,
+            defaults: self.take::<Row>(reader, "defaults").map(|row| row.value),
+            references: Vec::new(),
+            allowed: Vec::new(),
+            summaries: Vec::new(),
+        }
+    }
+
+    /// What doesn't hold items: axes, process data, codes, sequences, messages.
+    fn rest(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
+        if let Some(axes) = self.take(reader, "axes") {
+            device::axes(reader, &axes, device);
+        }
+        for pdo in self.list(reader, "pdos") {
+            process::pdo(reader, &pdo, device);
+        }
+        for image in self.list(reader, "images") {
+            process::image(reader, &image, device);
+        }
+        for (name, table) in self.named(reader, "codes") {
+            protocol::codes(reader, &name, &table, device);
+        }
+        for (name, table) in self.named(reader, "machines") {
+            protocol::machine(reader, &name, &table, device);
+        }
+        for (name, table) in self.named(reader, "procedures") {
+            protocol::procedure(reader, &name, &table, device, &mut rows.references);
+        }
+        if let Some(framing) = self.take(reader, "framing") {
+            protocol::framing(&framing, device);
+        }
+        for message in self.list(reader, "messages") {
+            protocol::message(reader, &message, device);
+        }
+        for (name, option) in &self.options {
+            let (origin, cite) = (reader.origin(name), option.cite.as_ref().map(tree::cited));
+            let doubts = [option.doubt.as_ref(), option.doubts.as_ref()];
+            device.doubts.extend(reader.doubts(doubts, origin, cite.as_deref()));
+        }
+        for doubt in self.list::<format::DoubtTable>(reader, "doubts") {
+            let origin = reader.origin(&doubt);
+            let list = at::OneOrMany(vec![doubt.value]);
+            device.doubts.extend(reader.doubts([Some(&list), None], origin, None));
+        }
+    }
+}
+
+/// The rows of a chapter: its registers as a group, its objects into `dictionary`.
+fn chapter<'a>(
+    reader: &mut Reader<'a, '_>,
+    rows: &mut Rows,
+    dictionary: &mut Dictionary,
+    node: Node<'a>,
+) -> Option<Group> {
+    let (start, end) = (node.span().start as u32, node.span().end as u32);
+    let (registers, objects, node) = divide(reader, node)?;
+    let own: ChapterTable = reader.piece(node)?;
+    let at = At { value: (), start, end };
+    let space = match &own.space {
+        Some(name) => {
+            let found = rows.spaces.iter().position(|space| space.name == name.value);
+            if found.is_none() {
+                let known = rows.spaces.iter().map(|space| space.name.as_str());
+                reader.unresolved("space", &name.value, reader.span(name), known);
+            }
+            found
+        }
+        None => (!rows.spaces.is_empty()).then_some(0),
+    };
+    let defaults = own.defaults.as_ref().map(|row| &row.value);
+    let mut group = Group::object(0, ObjectCode::Record);
+    group.kind = GroupKind::Chapter;
+    group.name = own.title.as_deref().unwrap_or_default().into();
+    group.names = reader.original(own.orig.as_deref());
+    group.origin = reader.origin(&at);
+    let cite = own.cite.as_ref().map(tree::cited);
+    group.documentation = reader.documentation(own.doc.as_deref(), cite.clone());
+    group.doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], group.origin, cite.as_deref());
+    lints::series(reader, &registers, space.and_then(|at| rows.spaces.get(at)));
+    for (key, row) in registers {
+        group.items.extend(rows.registers(reader, space, (&key, &row), defaults));
+    }
+    for (key, row) in objects {
+        objects::add(reader, rows, dictionary, (&key, &row), defaults);
+    }
+    (!group.items.is_empty() || !group.doubts.is_empty()).then_some(group)
+}
+
+/// Rows of one kind.
+type RowList = Vec<(At<String>, At<Row>)>;
+
+/// Reads the rows of a chapter one by one, so that a mistake in one of them costs no other.
+fn divide<'a>(reader: &mut Reader<'a, '_>, node: Node<'a>) -> Option<(RowList, RowList, Node<'a>)> {
+    let mut node = node;
+    let span = node.span();
+    let DeValue::Table(table) = node.get_mut() else {
+        let message = "a chapter is a table: write `[[chapters]]`";
+        reader.report(&codes::TABLE_VALUE, Span::new(reader.file, span.start as u32, span.end as u32), message);
+        return None;
+    };
+    let (registers, objects) = (table.remove("registers"), table.remove("objects"));
+    let mut read = |part: Option<Node<'a>>, what| -> RowList {
+        let entries = part.map(|part| reader.entries(part, what)).unwrap_or_default();
+        entries
+            .into_iter()
+            .filter_map(|(key, node)| {
+                let (start, end) = (node.span().start as u32, node.span().end as u32);
+                Some((key, At { value: reader.piece(node)?, start, end }))
+            })
+            .collect()
+    };
+    let registers = read(registers, "chapters.registers");
+    let objects = read(objects, "chapters.objects");
+    Some((registers, objects, node))
+}
+
+/// Names and addresses have to be distinct.
+fn note(reader: &mut Reader<'_, '_>, item: &Item, named: &mut Seen<CompactString>, placed: &mut Seen<CompactString>) {
+    named.note(reader, item.name.clone(), || format!("the name `{}`", item.name), item.at.name);
+    for address in item.bindings.iter().filter_map(rows::address) {
+        placed.note(reader, address.clone(), || address.to_string(), item.at.name);
+    }
+}
+
+/// Reports names that rows and sequences refer to and that don't exist.
+fn resolve(reader: &mut Reader<'_, '_>, rows: &Rows, device: &Device) {
+    let items = || device.groups.iter().flat_map(|group| group.items.iter().map(|item| item.name.as_str()));
+    let groups = || device.groups.iter().map(|group| group.name.as_str());
+    let by_place = |name: &str| {
+        let found = place::objects(name).filter(|own| own.indices.0 == own.indices.1);
+        found.is_some_and(|own| device.entry(own.indices.0, own.subs.map_or(0, |(first, _)| first)).is_some())
+    };
+    let mentioned = rows.definitions.mentioned.iter().map(|name| (name, "item"));
+    for (name, what) in rows.references.iter().map(|(name, what)| (name, *what)).chain(mentioned) {
+        let text = name.value.as_str();
+        let span = reader.span(name);
+        let exists = match what {
+            "model" => {
+                device.variants.is_empty() || device.variants.iter().any(|own| crate::selection::glob(text, &own.name))
+            }
+            "message" => device.messages.iter().any(|message| message.name == text),
+            _ => items().any(|own| own == text) || groups().any(|own| own == text) || by_place(text),
+        };
+        if exists {
+            continue;
+        }
+        match what {
+            "model" => reader.unresolved(what, text, span, device.variants.iter().map(|own| own.name.as_str())),
+            "message" => reader.unresolved(what, text, span, device.messages.iter().map(|own| own.name.as_str())),
+            _ => reader.unresolved(what, text, span, items()),
+        }
+    }
+}

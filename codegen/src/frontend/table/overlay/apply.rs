@@ -1,0 +1,315 @@
+//! An overlay, and the devices and modules that it is for.
+
+use std::collections::HashSet;
+
+use super::super::definitions::Kind;
+use super::super::format::AppliesTable;
+use super::super::rows::Rows;
+use super::super::spaces::Buses;
+use super::super::tree::{similar, Reader};
+use super::super::{device, protocol, resolve};
+use super::change::{Outcome, Place};
+use super::{item_name, name_conditions, Overlay, PatchRow, Target};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{
+    Catalog, CodeTable, CompactString, Device, Group, Identity, Item, Module, ObjectBuses, Submodule, SubmoduleUse,
+};
+use crate::selection::glob;
+use crate::source::{FileId, Source, Span};
+use crate::text::brief;
+
+/// Applies the overlay `source` to the devices or modules of `catalog` that it is for.
+pub fn apply(source: &Source, file: FileId, catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
+    let first = diagnostics.list().len();
+    let mut reader = Reader { source, file, diagnostics, language: CompactString::default() };
+    if let Some(overlay) = Overlay::read(&mut reader) {
+        reader.language.clone_from(&overlay.patch.language);
+        Applied::new(&overlay).run(&mut reader, catalog);
+    }
+    // What is wrong with a row is wrong for each of several devices.
+    diagnostics.forget_repeated(first);
+}
+
+/// An overlay while it is applied.
+pub(super) struct Applied<'o> {
+    pub overlay: &'o Overlay,
+    pub rows: Rows,
+    /// What came of each row.
+    outcomes: Vec<Outcome>,
+    /// Definitions that a row named.
+    used: HashSet<(Kind, String)>,
+    /// Names of items, for suggestions.
+    names: Vec<CompactString>,
+}
+
+impl<'o> Applied<'o> {
+    fn new(overlay: &'o Overlay) -> Self {
+        let outcomes = vec![Outcome::NoMatch; overlay.patch.rows.len()];
+        Applied { overlay, rows: overlay.patch.filler(), outcomes, used: HashSet::new(), names: Vec::new() }
+    }
+
+    fn run(&mut self, reader: &mut Reader<'_, '_>, catalog: &mut Catalog) {
+        let everything = AppliesTable::default();
+        let applies = self.overlay.head.value.applies.as_ref().unwrap_or(&everything);
+        let count = match &applies.module {
+            Some(pattern) => self.modules(reader, catalog, applies, &pattern.to_lowercase()),
+            None => self.devices(reader, catalog, applies),
+        };
+        for (span, code) in std::mem::take(&mut self.rows.allowed) {
+            reader.diagnostics.allow(span, code);
+        }
+        if count > 0 {
+            return self.report(reader);
+        }
+        let what = if applies.module.is_some() { "module" } else { "device" };
+        let message = format!("the overlay is for no {what} of the description");
+        let mut found = Diagnostic::new(&codes::OVERLAY_NOT_FOR, reader.span(&self.overlay.head), message);
+        if let Some(device) = catalog.devices.first() {
+            found = found.note(format!("it describes {}", described(device)));
+        }
+        reader.diagnostics.push(found);
+    }
+
+    /// The number of devices that it was applied to.
+    fn devices(&mut self, reader: &mut Reader<'_, '_>, catalog: &mut Catalog, applies: &AppliesTable) -> usize {
+        let Catalog { devices, submodules, types, .. } = catalog;
+        let mut count = 0;
+        for device in devices.iter_mut().filter(|device| is_for(device, applies)) {
+            count += 1;
+            self.device(reader, device);
+            for own in &device.submodules {
+                if let Some(submodule) = submodules.get_mut(own.submodule.0 as usize) {
+                    self.place(reader, Place::of_submodule(submodule, types));
+                }
+            }
+        }
+        count
+    }
+
+    fn device(&mut self, reader: &mut Reader<'_, '_>, device: &mut Device) {
+        let buses = buses_of(device);
+        let Device { groups, types, extensions, .. } = device;
+        self.place(reader, Place { groups, types, extensions, buses });
+        device.doubts.append(&mut self.rows.definitions.doubts);
+        let patch = &self.overlay.patch;
+        if let Some(axes) = &patch.axes {
+            device::axes(reader, axes, device);
+        }
+        for (name, table) in &patch.codes {
+            protocol::codes(reader, name, table, device);
+            merge(&mut device.code_tables);
+        }
+        for (name, table) in &patch.machines {
+            device.machines.retain(|own| own.name != name.value);
+            protocol::machine(reader, name, table, device);
+            if let Some(machine) = device.machines.last_mut() {
+                machine.status_item = item_name(&device.groups, &machine.status_item);
+                machine.control_item = item_name(&device.groups, &machine.control_item);
+            }
+        }
+        for (name, table) in &patch.procedures {
+            device.procedures.retain(|own| own.name != name.value);
+            protocol::procedure(reader, name, table, device, &mut self.rows.references);
+        }
+        for doubt in &patch.doubts {
+            let list = super::super::at::OneOrMany(vec![doubt.value.clone()]);
+            device.doubts.extend(reader.doubts([Some(&list), None], reader.origin(doubt), None));
+        }
+        resolve(reader, &self.rows, device);
+        self.rows.references.clear();
+        self.rows.definitions.mentioned.clear();
+    }
+
+    /// The number of modules and submodules that it was applied to.
+    fn modules(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        catalog: &mut Catalog,
+        applies: &AppliesTable,
+        pattern: &str,
+    ) -> usize {
+        let takes = |place: usize| -> bool {
+            let own = |device: &Device| device.modules.iter().any(|own| own.module.0 as usize == place);
+            !says_device(applies) || catalog.devices.iter().any(|device| is_for(device, applies) && own(device))
+        };
+        let wanted: Vec<bool> = catalog
+            .modules
+            .iter()
+            .enumerate()
+            .map(|(place, module)| is_called(pattern, [&module.name, &module.id], module.number) && takes(place))
+            .collect();
+        let chosen = |wanted: &[bool], place: usize| wanted.get(place).copied().unwrap_or(false);
+        let parts = |own: &[SubmoduleUse]| -> Vec<usize> { own.iter().map(|own| own.submodule.0 as usize).collect() };
+        let modules = catalog.modules.iter().enumerate().filter(|(place, _)| chosen(&wanted, *place));
+        let of_modules: HashSet<usize> = modules.flat_map(|(_, module)| parts(&module.submodules)).collect();
+        let Catalog { modules, submodules, types, .. } = catalog;
+        let mut count = 0;
+        for (_, module) in modules.iter_mut().enumerate().filter(|(place, _)| chosen(&wanted, *place)) {
+            count += 1;
+            let buses = buses_of_module(module);
+            let Module { groups, fixed_objects, types, extensions, .. } = module;
+            self.place(reader, Place { groups, types, extensions, buses });
+            self.place(reader, Place { groups: fixed_objects, types, extensions, buses });
+        }
+        for (place, submodule) in submodules.iter_mut().enumerate() {
+            let is_called = is_called(pattern, [&submodule.name, &submodule.id], submodule.ident);
+            if of_modules.contains(&place) || (is_called && !says_device(applies)) {
+                count += 1;
+                self.place(reader, Place::of_submodule(submodule, types));
+            }
+        }
+        count
+    }
+
+    /// Applies the rows to the groups of a device, module or submodule.
+    fn place(&mut self, reader: &mut Reader<'_, '_>, mut place: Place<'_>) {
+        let items = place.groups.iter().flat_map(|group| &group.items);
+        self.names.extend(items.map(|item| item.name.clone()));
+        let made = place.types.len();
+        self.rows.definitions.types = std::mem::take(place.types);
+        self.rows.definitions.made.clear();
+        self.rows.buses = Buses { canopen: place.buses.canopen, ethercat: place.buses.coe, modbus: false };
+        let overlay = self.overlay;
+        for (position, row) in overlay.patch.rows.iter().enumerate() {
+            self.rows.allow(reader, &row.key, &row.row);
+            let outcome = self.row(reader, &mut place, row);
+            if let Some(own) = self.outcomes.get_mut(position) {
+                *own = (*own).max(outcome);
+            }
+        }
+        let names = self.rows.definitions.made.keys().map(|(kind, name, _)| (*kind, name.clone()));
+        self.used.extend(names);
+        *place.types = std::mem::take(&mut self.rows.definitions.types);
+        name_conditions(place.groups, place.types.get_mut(made..).unwrap_or_default());
+    }
+
+    /// Tells of rows that match nothing or change nothing, and of definitions that nothing names.
+    fn report(&self, reader: &mut Reader<'_, '_>) {
+        for (row, outcome) in self.overlay.patch.rows.iter().zip(&self.outcomes) {
+            let span = Span { end: row.row.end, ..reader.span(&row.key) };
+            if reader.diagnostics.has_error_in(span) {
+                continue;
+            }
+            match outcome {
+                Outcome::NoMatch => self.no_match(reader, row),
+                Outcome::NoChange => {
+                    let message = format!("`{}` is as the overlay wants it already", brief(&row.key.value));
+                    let found = Diagnostic::new(&codes::OVERLAY_NO_CHANGE, reader.span(&row.key), message);
+                    reader.diagnostics.push(found.label("changes nothing"));
+                }
+                Outcome::Changed => {}
+            }
+        }
+        // A row that couldn't be applied is what would have named them.
+        let whole = Span::new(reader.file, 0, u32::MAX);
+        if self.outcomes.contains(&Outcome::NoMatch) || reader.diagnostics.has_error_in(whole) {
+            return;
+        }
+        let definitions = &self.overlay.patch.definitions;
+        let enums = definitions.enums.iter().map(|(name, _)| (Kind::Enumeration, name));
+        let all = enums.chain(definitions.bits.iter().map(|(name, _)| (Kind::Bits, name)));
+        let unused = all.filter(|(kind, name)| !self.used.contains(&(*kind, name.value.clone()))).map(|(_, name)| name);
+        let rows = || self.overlay.patch.rows.iter().filter_map(|row| row.row.value.unit.as_ref());
+        let units = definitions.units.iter().map(|(name, _)| name);
+        let units = units.filter(|name| !rows().any(|unit| unit.value == name.value));
+        for name in unused.chain(units) {
+            let message = format!("no row of the overlay names `{}`", brief(&name.value));
+            reader.report(&codes::OVERLAY_NO_MATCH, reader.span(name), message);
+        }
+    }
+
+    fn no_match(&self, reader: &mut Reader<'_, '_>, row: &PatchRow) {
+        let key = brief(&row.key.value);
+        let found = |message| Diagnostic::new(&codes::OVERLAY_NO_MATCH, reader.span(&row.key), message);
+        let found = match row.target {
+            Target::Objects(_) => {
+                let found = found(format!("the description has no `{key}`"));
+                let removes = row.row.value.remove == Some(true);
+                if removes {
+                    found
+                } else {
+                    found.help("`add = true` adds what the description lacks")
+                }
+            }
+            Target::Name => {
+                let found = found(format!("no item is called `{key}`"));
+                match similar(&row.key.value, self.names.iter().map(CompactString::as_str)) {
+                    Some(name) => found.help(format!("did you mean `{name}`?")),
+                    None => found,
+                }
+            }
+        };
+        reader.diagnostics.push(found);
+    }
+}
+
+impl<'c> Place<'c> {
+    fn of_submodule(submodule: &'c mut Submodule, types: &'c mut Vec<crate::ir::TypeDef>) -> Self {
+        let buses = ObjectBuses { canopen: false, coe: false };
+        Place { groups: &mut submodule.records, types, extensions: &mut submodule.extensions, buses }
+    }
+}
+
+/// Puts the last table of codes into an earlier one of its name: a code that occurs in both means what the last one says.
+fn merge(tables: &mut Vec<CodeTable>) {
+    let Some(last) = tables.pop() else { return };
+    let Some(own) = tables.iter_mut().find(|own| own.name == last.name) else {
+        tables.push(last);
+        return;
+    };
+    for row in last.rows {
+        match own.rows.iter_mut().find(|own| (own.code, own.last) == (row.code, row.last)) {
+            Some(own) => *own = row,
+            None => own.rows.push(row),
+        }
+    }
+}
+
+/// Whether anything is said of the device.
+fn says_device(applies: &AppliesTable) -> bool {
+    let numbers = [applies.vendor_id, applies.product_code, applies.revision];
+    applies.device.is_some() || numbers.iter().any(Option::is_some)
+}
+
+fn is_for(device: &Device, applies: &AppliesTable) -> bool {
+    let Identity { vendor_id, product_code, revision_number, product_name, order_code, .. } = &device.identity;
+    let numbers =
+        [(applies.vendor_id, *vendor_id), (applies.product_code, *product_code), (applies.revision, *revision_number)];
+    let names = [&device.name, product_name, order_code, &device.id];
+    let by_name = |pattern: &String| names.iter().any(|name| glob(&pattern.to_lowercase(), &name.to_lowercase()));
+    numbers.iter().all(|(wanted, own)| wanted.is_none() || wanted == own) && applies.device.as_ref().is_none_or(by_name)
+}
+
+/// Whether a module goes by `pattern`: its name, its identifier or its number.
+fn is_called(pattern: &str, names: [&CompactString; 2], number: u32) -> bool {
+    let by_number = super::place::range(pattern).is_some_and(|(first, _)| first == i128::from(number));
+    by_number || names.iter().any(|name| glob(pattern, &name.to_lowercase()))
+}
+
+fn described(device: &Device) -> String {
+    let number = |number: Option<u32>| number.map_or("unknown".to_owned(), |number| format!("0x{number:X}"));
+    let Identity { vendor_id, product_code, revision_number, .. } = device.identity;
+    let (vendor, product, revision) = (number(vendor_id), number(product_code), number(revision_number));
+    format!("`{}`: vendor {vendor}, product code {product}, revision {revision}", brief(&device.name))
+}
+
+/// The buses of objects that are added.
+fn buses_of(device: &Device) -> ObjectBuses {
+    let by_items = buses_of_items(&device.groups);
+    let coe = device.ethercat.is_some() || device.dictionary_only;
+    by_items.unwrap_or(ObjectBuses { canopen: !coe, coe })
+}
+
+fn buses_of_module(module: &Module) -> ObjectBuses {
+    buses_of_items(&module.groups).or(buses_of_items(&module.fixed_objects)).unwrap_or(ObjectBuses::COE)
+}
+
+fn buses_of_items(groups: &[Group]) -> Option<ObjectBuses> {
+    let of_item = |item: &Item| {
+        item.bindings.iter().find_map(|binding| match binding {
+            crate::ir::Binding::Object { buses, .. } => Some(*buses),
+            _ => None,
+        })
+    };
+    groups.iter().flat_map(|group| &group.items).find_map(of_item)
+}

@@ -1,0 +1,389 @@
+//! A row of an overlay changes what is described, and its reason is kept.
+
+use std::collections::BTreeMap;
+
+use super::super::at::TextOr;
+use super::super::definitions::Kind;
+use super::super::format::Row;
+use super::super::objects;
+use super::super::place::{self, Objects};
+use super::super::rows::Named;
+use super::super::tree::{cited, Reader};
+use super::apply::Applied;
+use super::{in_range, PatchRow, Target};
+use crate::diagnostics::codes;
+use crate::ir::{Documentation, Extension, Group, GroupKind, Item, ObjectBuses, ObjectCode, Type, TypeDef, TypeId};
+use crate::source::Span;
+use crate::text::brief;
+
+/// The objects of a device, a module or a submodule, and the types that they name.
+pub(super) struct Place<'c> {
+    pub groups: &'c mut Vec<Group>,
+    pub types: &'c mut Vec<TypeDef>,
+    /// Where what is taken away leaves its reason.
+    pub extensions: &'c mut Vec<Extension>,
+    /// The buses of objects that are added.
+    pub buses: ObjectBuses,
+}
+
+/// What came of a row; of several devices, the best counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Outcome {
+    /// It matches nothing.
+    NoMatch,
+    /// What it matches is so already.
+    NoChange,
+    /// It changed something, or its mistake was told.
+    Changed,
+}
+
+impl From<bool> for Outcome {
+    fn from(changed: bool) -> Self {
+        if changed {
+            Outcome::Changed
+        } else {
+            Outcome::NoChange
+        }
+    }
+}
+
+impl Applied<'_> {
+    /// Applies a row.
+    pub(super) fn row(&mut self, reader: &mut Reader<'_, '_>, place: &mut Place<'_>, row: &PatchRow) -> Outcome {
+        let (adds, removes) = (row.row.value.add == Some(true), row.row.value.remove == Some(true));
+        match (row.target, adds, removes) {
+            (_, true, true) => {
+                reader.report(&codes::TABLE_VALUE, reader.span(&row.key), "a row can't both add and remove");
+                Outcome::Changed
+            }
+            (Target::Name, true, _) => {
+                let message = "only objects can be added: put the row into `[chapters.objects]`";
+                reader.report(&codes::TABLE_VALUE, reader.span(&row.key), message);
+                Outcome::Changed
+            }
+            (_, _, true) => self.remove(reader, place, row),
+            (Target::Objects(objects), true, _) => self.add(reader, place, row, objects),
+            (Target::Objects(objects), ..) => self.objects(reader, place.groups, row, objects),
+            (Target::Name, ..) => self.named(reader, place.groups, row),
+        }
+    }
+
+    /// Why a row is there.
+    fn why<'r>(&'r self, row: &'r Row) -> &'r str {
+        row.why.as_deref().or(self.overlay.head.value.why.as_deref()).unwrap_or_default()
+    }
+
+    fn objects(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        groups: &mut [Group],
+        row: &PatchRow,
+        objects: Objects,
+    ) -> Outcome {
+        let mut outcome = Outcome::NoMatch;
+        for group in in_range(groups, objects.indices) {
+            let number = u32::from(group.index().unwrap_or_default().saturating_sub(objects.indices.0));
+            let has_subs = group.object_code().is_some_and(ObjectCode::has_subs);
+            let changed = match objects.subs {
+                None if has_subs || group.items.is_empty() => self.head(reader, group, row, number),
+                None => {
+                    let head = self.group_name(reader, group, &row.row.value, number);
+                    let items = group.items.iter_mut().filter(|item| item.object().is_some_and(|(_, sub)| sub == 0));
+                    Outcome::from(head).max(self.items(reader, items, row, number))
+                }
+                Some((first, last)) => {
+                    let wanted = |item: &&mut Item| item.object().is_some_and(|(_, sub)| (first..=last).contains(&sub));
+                    self.items(reader, group.items.iter_mut().filter(wanted), row, number)
+                }
+            };
+            outcome = outcome.max(changed);
+        }
+        outcome
+    }
+
+    fn items<'i>(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        items: impl Iterator<Item = &'i mut Item>,
+        row: &PatchRow,
+        number: u32,
+    ) -> Outcome {
+        let mut outcome = Outcome::NoMatch;
+        for item in items {
+            let sub = item.object().map(|(_, sub)| sub);
+            let name = row.row.value.name.as_ref().map(|name| place::filled(&name.value, number, sub));
+            outcome = outcome.max(self.item(reader, item, row, (name, number)).into());
+        }
+        outcome
+    }
+
+    /// The one item that the key names: an item, or its group and the item with a slash between.
+    fn named(&mut self, reader: &mut Reader<'_, '_>, groups: &mut [Group], row: &PatchRow) -> Outcome {
+        let mut found = find(groups, &row.key.value);
+        if found.len() > 1 {
+            let message = format!("{} items are called `{}`", found.len(), brief(&row.key.value));
+            let found = crate::diagnostics::Diagnostic::new(&codes::TABLE_PLACE, reader.span(&row.key), message);
+            reader.diagnostics.push(found.help("write `\"Group/Item\"`, or the object in `[chapters.objects]`"));
+            return Outcome::Changed;
+        }
+        let Some(item) = found.pop() else { return Outcome::NoMatch };
+        let name = row.row.value.name.as_ref().map(|name| name.value.clone());
+        self.item(reader, item, row, (name, 0)).into()
+    }
+
+    /// Changes an item; tells whether that made a difference.
+    fn item(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        item: &mut Item,
+        row: &PatchRow,
+        (name, number): (Option<String>, u32),
+    ) -> bool {
+        let before = item.clone();
+        let types = self.rows.definitions.types.len();
+        let own = &row.row.value;
+        let text = name.as_deref().unwrap_or(&before.name);
+        let named = Named { name: text, key: &row.key, number, end: row.row.end };
+        let ty = self.new_type(reader, named, own, item.ty);
+        self.rows.fill(reader, item, named, own, ty);
+        // The item stands where it stood; only what is said anew stands here.
+        item.origin = before.origin;
+        item.at.name = own.name.as_ref().map_or(before.at.name, |name| reader.span(name));
+        if own.doc.is_none() {
+            keep_words(&mut item.documentation, before.documentation.as_deref());
+        }
+        if self.is_same(item, &before) {
+            self.forget_types(types);
+            *item = before;
+            return false;
+        }
+        let (why, span) = (self.why(own).to_owned(), reader.span(&row.key));
+        explain("Changed", &why, span, &mut item.documentation, &mut item.extensions);
+        true
+    }
+
+    /// The type that a row gives an item that has one.
+    fn new_type(&mut self, reader: &mut Reader<'_, '_>, named: Named<'_>, row: &Row, old: Type) -> Option<Type> {
+        if row.ty.is_some() {
+            return self.rows.ty(reader, named, row);
+        }
+        let (kind, span, name) = match (&row.bits, &row.values) {
+            (Some(bits), _) => (Kind::Bits, reader.span(bits), name_of(&bits.value)),
+            (_, Some(values)) => (Kind::Enumeration, reader.span(values), name_of(&values.value)),
+            _ => return None,
+        };
+        let base = self.rows.underlying(old);
+        if !matches!(base, Type::Integer(_) | Type::Unsigned(_) | Type::Boolean) {
+            let message = format!("the item is {base}, which has no bits and no values with names");
+            reader.report(&codes::TABLE_VALUE, span, message);
+            return None;
+        }
+        let wanted = name.as_deref().and_then(|name| self.rows.definitions.base(reader, kind, name));
+        if let Some(wanted) = wanted.filter(|wanted| wanted.bits() != base.bits()) {
+            let message = format!("`{}` is of {wanted}, and the item is {base}", name.unwrap_or_default());
+            let found = crate::diagnostics::Diagnostic::new(&codes::TABLE_VALUE, span, message);
+            reader.diagnostics.push(found.help("give the row a `type` too, if the description has the wrong one"));
+            return None;
+        }
+        self.rows.meaning(reader, named, row, base)
+    }
+
+    /// Whether nothing differs but where it stands.
+    fn is_same(&self, item: &Item, before: &Item) -> bool {
+        let types = &self.rows.definitions.types;
+        let shape = |ty: Type| match ty {
+            Type::Named(TypeId(id)) => types.get(id as usize).map(|definition| &definition.shape),
+            _ => None,
+        };
+        let same_type = item.ty == before.ty || (shape(item.ty).is_some() && shape(item.ty) == shape(before.ty));
+        let mut moved = item.clone();
+        (moved.ty, moved.at) = (before.ty, before.at);
+        same_type && moved == *before
+    }
+
+    /// Takes back types that nothing names.
+    fn forget_types(&mut self, length: usize) {
+        self.rows.definitions.types.truncate(length);
+        self.rows.definitions.made.retain(|_, id| (id.0 as usize) < length);
+    }
+
+    /// What a row says of an object whose values are its sub-entries.
+    fn head(&mut self, reader: &mut Reader<'_, '_>, group: &mut Group, row: &PatchRow, number: u32) -> Outcome {
+        let own = &row.row.value;
+        if says_value(own) {
+            let key = brief(&row.key.value);
+            let message = format!("`{key}` has sub-entries: say it of one of them, as in `\"{key}:1\"`");
+            reader.report(&codes::TABLE_PLACE, reader.span(&row.key), message);
+            return Outcome::Changed;
+        }
+        let before = (group.names.clone(), group.documentation.clone(), group.doubts.len());
+        let mut changed = self.group_name(reader, group, own, number);
+        if own.orig.is_some() {
+            group.names = reader.original(own.orig.as_deref());
+        }
+        let cite = own.cite.as_ref().map(cited);
+        if own.doc.is_some() {
+            group.documentation = reader.documentation(own.doc.as_deref(), cite.clone());
+        }
+        let origin = reader.origin(&row.key);
+        group.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+        changed |= before != (group.names.clone(), group.documentation.clone(), group.doubts.len());
+        if changed {
+            let (why, span) = (self.why(own).to_owned(), reader.span(&row.key));
+            explain("Changed", &why, span, &mut group.documentation, &mut group.extensions);
+        }
+        changed.into()
+    }
+
+    /// The name and object code of an object.
+    fn group_name(&mut self, reader: &mut Reader<'_, '_>, group: &mut Group, row: &Row, number: u32) -> bool {
+        let mut changed = false;
+        if let Some(name) = &row.name {
+            let text = place::filled(&name.value, number, None);
+            changed |= group.name != text;
+            (group.name, group.name_at) = (text.into(), reader.span(name));
+        }
+        let given = row.code.as_ref().and_then(|code| reader.word(code, "object code", &objects::CODES));
+        if let (GroupKind::Object { code, .. }, Some(given)) = (&mut group.kind, given) {
+            changed |= *code != given;
+            *code = given;
+        }
+        changed
+    }
+
+    fn remove(&mut self, reader: &mut Reader<'_, '_>, place: &mut Place<'_>, row: &PatchRow) -> Outcome {
+        let count = |groups: &[Group]| (groups.len(), groups.iter().map(|group| group.items.len()).sum::<usize>());
+        let before = count(place.groups);
+        match row.target {
+            Target::Objects(objects) => take_objects(place.groups, objects),
+            Target::Name => {
+                let mut found = find(place.groups, &row.key.value);
+                if found.len() > 1 {
+                    return self.named(reader, place.groups, row);
+                }
+                if let Some(bindings) = found.pop().map(|item| item.bindings.clone()) {
+                    for group in place.groups.iter_mut() {
+                        group.items.retain(|item| item.bindings != bindings);
+                    }
+                    place.groups.retain(|group| !group.items.is_empty() || group.index().is_none());
+                }
+            }
+        }
+        if count(place.groups) == before {
+            return Outcome::NoMatch;
+        }
+        place.extensions.push(Extension {
+            key: format!("overlay/removed {}", row.key.value).into(),
+            value: self.why(&row.row.value).into(),
+            span: reader.span(&row.key),
+        });
+        Outcome::Changed
+    }
+
+    fn add(&mut self, reader: &mut Reader<'_, '_>, place: &mut Place<'_>, row: &PatchRow, objects: Objects) -> Outcome {
+        if exists(place.groups, objects) {
+            return Outcome::NoChange;
+        }
+        // The objects themselves may be there, and get a further sub-entry.
+        let mut dictionary = BTreeMap::new();
+        let wanted = objects.indices.0..=objects.indices.1;
+        let is_meant = |group: &Group| group.index().is_some_and(|index| wanted.contains(&index));
+        for group in place.groups.extract_if(.., |group| is_meant(group)) {
+            dictionary.insert(group.index().unwrap_or_default(), group);
+        }
+        objects::add(reader, &mut self.rows, &mut dictionary, (&row.key, &row.row), None);
+        let (why, span) = (self.why(&row.row.value).to_owned(), reader.span(&row.key));
+        let is_new = |origin: Span| (origin.file, origin.start) == (span.file, span.start);
+        for group in dictionary.values_mut() {
+            for item in group.items.iter_mut().filter(|item| is_new(item.origin.span)) {
+                explain("Added", &why, span, &mut item.documentation, &mut item.extensions);
+            }
+        }
+        place.groups.extend(dictionary.into_values());
+        place.groups.sort_by_key(Group::index);
+        Outcome::Changed
+    }
+}
+
+fn name_of<T>(given: &TextOr<T>) -> Option<String> {
+    match given {
+        TextOr::Text(name) => Some(name.clone()),
+        TextOr::Table(_) => None,
+    }
+}
+
+/// Whether a row says something of a value.
+fn says_value(row: &Row) -> bool {
+    let meaning = row.ty.is_some() || row.bits.is_some() || row.values.is_some() || row.unit.is_some();
+    let access = row.access.is_some() || row.pdo.is_some() || row.save.is_some();
+    let limits = row.min.is_some() || row.max.is_some() || row.default.is_some() || row.fixed.is_some();
+    meaning || access || limits || row.scale.is_some() || row.allowed.is_some() || row.na.is_some()
+}
+
+/// The items that go by `key`: their name, or the name of their group and theirs.
+fn find<'g>(groups: &'g mut [Group], key: &str) -> Vec<&'g mut Item> {
+    let mut found = Vec::new();
+    for group in groups {
+        let Group { name, items, .. } = group;
+        let in_group = key.strip_prefix(name.as_str()).and_then(|rest| rest.strip_prefix('/'));
+        found.extend(items.iter_mut().filter(|item| item.name == key || in_group == Some(item.name.as_str())));
+    }
+    found
+}
+
+/// Takes away objects, or sub-entries and the objects that have none any more.
+fn take_objects(groups: &mut Vec<Group>, objects: Objects) {
+    let is_meant = |index: u16| (objects.indices.0..=objects.indices.1).contains(&index);
+    let Some((first, last)) = objects.subs else {
+        groups.retain(|group| !group.index().is_some_and(is_meant));
+        return;
+    };
+    groups.retain_mut(|group| {
+        let count = group.items.len();
+        if group.index().is_some_and(is_meant) {
+            group.items.retain(|item| !item.object().is_some_and(|(_, sub)| (first..=last).contains(&sub)));
+        }
+        group.items.len() == count || !group.items.is_empty()
+    });
+}
+
+/// Whether all that a row would add is there.
+fn exists(groups: &[Group], objects: Objects) -> bool {
+    (objects.indices.0..=objects.indices.1).all(|index| {
+        let group = groups.binary_search_by_key(&Some(index), Group::index).ok().and_then(|at| groups.get(at));
+        match (group, objects.subs) {
+            (None, _) => false,
+            (Some(_), None) => true,
+            (Some(group), Some((first, last))) => (first..=last).all(|sub| group.sub(sub).is_some()),
+        }
+    })
+}
+
+/// Puts back the words that a row without `doc` must not take away.
+fn keep_words(documentation: &mut Option<Box<Documentation>>, before: Option<&Documentation>) {
+    let Some(before) = before else { return };
+    match documentation {
+        Some(own) => (own.text, own.translations) = (before.text.clone(), before.translations.clone()),
+        None => *documentation = Some(Box::new(before.clone())),
+    }
+}
+
+/// Keeps the reason of a change: for people with the documentation, for programs as an extension.
+fn explain(
+    what: &str,
+    why: &str,
+    span: Span,
+    documentation: &mut Option<Box<Documentation>>,
+    extensions: &mut Vec<Extension>,
+) {
+    let own = documentation.get_or_insert_default();
+    if !own.text.is_empty() {
+        own.text.push('\n');
+    }
+    let end = if why.ends_with(['.', '!', '?']) { "" } else { "." };
+    own.text += &format!("{what} by an overlay: {why}{end}");
+    match extensions.iter_mut().find(|extension| extension.key == "overlay") {
+        Some(extension) => extension.value.push_str(&format!("; {why}")),
+        None => extensions.push(Extension { key: "overlay".into(), value: why.into(), span }),
+    }
+}

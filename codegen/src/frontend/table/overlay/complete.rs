@@ -1,0 +1,348 @@
+//! A profile adds what a description leaves unsaid.
+//!
+//! What a device says of itself stays: its names, its types of bits and values, its units, its words. Where its object is
+//! of another width than the profile's, or isn't there, the profile has nothing to add, and nobody is told.
+
+use std::collections::HashMap;
+
+use super::super::format::{ImageTable, Row};
+use super::super::protocol;
+use super::super::rows::{Named, Rows};
+use super::super::spaces::Buses;
+use super::super::tree::Reader;
+use super::super::types;
+use super::super::{device, process};
+use super::{at_place, in_range, item_name, name_conditions, Patch, PatchRow, Profile, Target};
+use crate::diagnostics::Diagnostics;
+use crate::ir::{
+    Binding, CompactString, Device, Direction, Group, IoData, Item, Module, Pdo, PdoEntry, PdoEntryKind, Shape,
+    Submodule, Type, TypeDef, TypeId,
+};
+use crate::source::{FileId, Origin};
+
+/// Indices of which each axis has its own.
+const AXIS: std::ops::RangeInclusive<u16> = 0x6000..=0x67FF;
+
+/// The greatest number of axes (CiA 402: 0x6000 to 0x9FFF).
+const AXES: u16 = 8;
+
+/// A profile while it is applied to one device after another.
+pub(crate) struct Completion<'p> {
+    profile: &'p Profile,
+    rows: Rows,
+    /// What would be wrong with the profile is told by its test.
+    silent: Diagnostics,
+}
+
+/// Types of items that were replaced, by object.
+type Replaced = HashMap<(u16, u8), (Type, Type)>;
+
+impl<'p> Completion<'p> {
+    pub(crate) fn new(profile: &'p Profile) -> Self {
+        Completion { profile, rows: profile.patch.filler(), silent: Diagnostics::default() }
+    }
+
+    fn patch(&self) -> &'p Patch {
+        &self.profile.patch
+    }
+
+    /// The buses that devices which follow the profile are on.
+    pub(crate) fn buses(&mut self) -> (bool, bool) {
+        let buses = self.profile.head.buses.as_ref();
+        let all = Buses::ALL;
+        let buses = buses.map_or(all, |list| self.with_reader(|reader, _| device::buses(reader, list)));
+        (buses.canopen, buses.ethercat)
+    }
+
+    fn with_reader<T>(&mut self, act: impl FnOnce(&mut Reader<'_, '_>, &mut Rows) -> T) -> T {
+        let language = self.profile.patch.language.clone();
+        let mut reader =
+            Reader { source: &self.profile.source, file: FileId(0), diagnostics: &mut self.silent, language };
+        act(&mut reader, &mut self.rows)
+    }
+
+    /// Completes a device.
+    pub(crate) fn device(&mut self, device: &mut Device) {
+        self.objects(&mut device.groups, &mut device.types, &mut device.process_data.pdos);
+        let patch = self.patch();
+        for (name, table) in &patch.codes {
+            if !device.code_tables.iter().any(|own| own.name == name.value) {
+                self.with_reader(|reader, _| protocol::codes(reader, name, table, device));
+                if let Some(own) = device.code_tables.last_mut() {
+                    own.origin = Origin::default();
+                }
+            }
+        }
+        for (name, table) in &patch.machines {
+            self.with_reader(|reader, _| protocol::machine(reader, name, table, device));
+            let Some(mut machine) = device.machines.pop() else { continue };
+            let exists = |name: &CompactString| at_place(&device.groups, name).is_some();
+            let exist = exists(&machine.status_item) && exists(&machine.control_item);
+            machine.status_item = item_name(&device.groups, &machine.status_item);
+            machine.control_item = item_name(&device.groups, &machine.control_item);
+            let is_own = device.machines.iter().any(|own| own.status_item == machine.status_item);
+            if exist && !is_own {
+                device.machines.push(machine);
+            }
+        }
+    }
+
+    /// Completes the objects of a module.
+    pub(crate) fn module(&mut self, module: &mut Module) {
+        self.objects(&mut module.groups, &mut module.types, &mut module.process_data.pdos);
+    }
+
+    fn objects(&mut self, groups: &mut [Group], types: &mut Vec<TypeDef>, pdos: &mut [Pdo]) {
+        let before = types.len();
+        let shifts = self.axes(groups);
+        let patch = self.patch();
+        self.start(types);
+        let mut replaced = Replaced::new();
+        for row in &patch.rows {
+            let Target::Objects(objects) = row.target else { continue };
+            let is_of_axis = AXIS.contains(&objects.indices.0) && AXIS.contains(&objects.indices.1);
+            for shift in shifts.iter().take(if is_of_axis { shifts.len() } else { 1 }) {
+                let first = objects.indices.0.saturating_add(*shift);
+                let indices = (first, objects.indices.1.saturating_add(*shift));
+                for group in in_range(groups, indices) {
+                    let number = u32::from(group.index().unwrap_or_default().saturating_sub(first));
+                    self.group(group, row, (objects.subs, number), &mut replaced);
+                }
+            }
+        }
+        self.finish(types, before);
+        name_conditions(groups, types.get_mut(before..).unwrap_or_default());
+        let entries = pdos.iter_mut().flat_map(|pdo| &mut pdo.entries);
+        for entry in entries.filter(|entry| entry.kind == PdoEntryKind::Item) {
+            match replaced.get(&(entry.index, entry.sub_index)) {
+                Some((old, new)) if *old == entry.ty => entry.ty = *new,
+                _ => {}
+            }
+        }
+    }
+
+    /// What to add to indices for each axis that there is; 0 is the first.
+    fn axes(&self, groups: &[Group]) -> Vec<u16> {
+        let mut shifts = vec![0];
+        let (Some(step), Some(when)) = (self.profile.head.axis_index, self.profile.when) else { return shifts };
+        let exists = |index: u16| groups.binary_search_by_key(&Some(index), Group::index).is_ok();
+        let further = (1..AXES).filter_map(|axis| step.checked_mul(axis));
+        shifts.extend(further.filter(|shift| when.checked_add(*shift).is_some_and(exists)));
+        shifts
+    }
+
+    fn group(
+        &mut self,
+        group: &mut Group,
+        row: &PatchRow,
+        (subs, number): (Option<(u8, u8)>, u32),
+        replaced: &mut Replaced,
+    ) {
+        let is_head = subs.is_none() && group.object_code().is_some_and(crate::ir::ObjectCode::has_subs);
+        if is_head {
+            if group.documentation.is_none() {
+                let doc = row.row.value.doc.as_deref();
+                group.documentation = self.with_reader(|reader, _| reader.documentation(doc, None));
+            }
+            return;
+        }
+        let (first, last) = subs.unwrap_or((0, 0));
+        for item in &mut group.items {
+            let Some(place) = item.object().filter(|(_, sub)| (first..=last).contains(sub)) else { continue };
+            if let Some(types) = self.item(item, row, number) {
+                replaced.insert(place, types);
+            }
+        }
+    }
+
+    /// Adds to an item what it doesn't say; gives its old and new type where that is another one.
+    fn item(&mut self, item: &mut Item, row: &PatchRow, number: u32) -> Option<(Type, Type)> {
+        let (old, own) = (item.ty, self.rows.underlying(item.ty));
+        let said = &row.row.value;
+        if !is_alike(own, said) || !self.is_on_bus(item, said) {
+            return None;
+        }
+        let named = Named { name: &item.name, key: &row.key, number, end: row.row.end };
+        let mut complete = Item { ty: own, ..Item::new(item.bindings.first()?.clone()) };
+        let plain = self.is_plain(old);
+        let new = self.with_reader(|reader, rows| {
+            rows.fill(reader, &mut complete, named, said, None);
+            plain.then(|| rows.meaning(reader, named, said, own)).flatten()
+        });
+        item.ty = new.unwrap_or(old);
+        item.quantity = item.quantity.take().or(complete.quantity);
+        item.behaviour = item.behaviour.take().or(complete.behaviour);
+        item.documentation = item.documentation.take().or(complete.documentation);
+        (item.ty != old).then_some((old, item.ty))
+    }
+
+    /// Whether a type says nothing of bits and values.
+    fn is_plain(&self, ty: Type) -> bool {
+        let mut ty = ty;
+        loop {
+            let Type::Named(TypeId(id)) = ty else { return true };
+            match self.rows.definitions.types.get(id as usize).map(|definition| &definition.shape) {
+                // Later types may refer to earlier ones only, so that this ends.
+                Some(Shape::Alias(Type::Named(TypeId(next)))) if *next >= id => return false,
+                Some(Shape::Alias(other)) => ty = *other,
+                _ => return false,
+            }
+        }
+    }
+
+    fn is_on_bus(&mut self, item: &Item, row: &Row) -> bool {
+        if row.buses.is_none() {
+            return true;
+        }
+        let wanted = self.with_reader(|reader, rows| rows.buses_of(reader, row));
+        item.bindings.iter().any(|binding| match binding {
+            Binding::Object { buses, .. } => (buses.canopen && wanted.canopen) || (buses.coe && wanted.ethercat),
+            _ => false,
+        })
+    }
+
+    /// New types go behind those of the device.
+    fn start(&mut self, types: &mut Vec<TypeDef>) {
+        self.rows.definitions.types = std::mem::take(types);
+        self.rows.definitions.made.clear();
+        self.rows.buses = Buses::ALL;
+    }
+
+    /// Gives the types back. Those that are new stand nowhere in the description, and their names must not change those of
+    /// the types that it has.
+    fn finish(&mut self, types: &mut Vec<TypeDef>, before: usize) {
+        let made = std::mem::take(&mut self.rows.definitions.made);
+        *types = std::mem::take(&mut self.rows.definitions.types);
+        self.rows.definitions.doubts.clear();
+        self.rows.definitions.mentioned.clear();
+        self.rows.references.clear();
+        for ((kind, name, base), id) in made {
+            let declared = self.with_reader(|reader, rows| rows.definitions.base(reader, kind, &name));
+            let is_other = declared.is_some_and(|declared| declared != base);
+            if let Some(definition) = types.get_mut(id.0 as usize).filter(|_| is_other) {
+                definition.name = format!("{} {}", definition.name, short(base)).into();
+            }
+        }
+        let before = before.min(types.len());
+        let (own, new) = types.split_at_mut(before);
+        let is_value = |definition: &&TypeDef| {
+            matches!(definition.shape, Shape::Enumeration { .. } | Shape::BitField { .. } | Shape::Alias(_))
+        };
+        let taken: Vec<String> = own.iter().filter(is_value).map(|definition| letters(&definition.name)).collect();
+        for definition in new {
+            definition.origin = Origin::default();
+            if taken.contains(&letters(&definition.name)) {
+                let profile = self.profile.head.name.as_deref().unwrap_or("profile");
+                definition.name = format!("{profile} {}", definition.name).into();
+            }
+        }
+    }
+
+    /// Completes the data of submodules that follow the profile.
+    pub(crate) fn submodules<'s>(
+        &mut self,
+        submodules: impl Iterator<Item = &'s mut Submodule>,
+        types: &mut Vec<TypeDef>,
+    ) {
+        let before = types.len();
+        self.start(types);
+        submodules.for_each(|submodule| self.submodule(submodule));
+        self.finish(types, before);
+    }
+
+    /// Its fields by their names, and where it is one of the profile's telegrams also by their places.
+    fn submodule(&mut self, submodule: &mut Submodule) {
+        let patch = self.patch();
+        let mut telegrams = Vec::new();
+        for image in patch.images.iter().filter(|image| is_called(&submodule.name, image.value.name.as_deref())) {
+            let direction = image.value.direction.as_ref();
+            let direction = self.with_reader(|reader, _| process::direction(reader, direction));
+            telegrams.push((direction, &image.value));
+        }
+        let data = [(Direction::Receive, &mut submodule.output), (Direction::Transmit, &mut submodule.input)];
+        for (direction, data) in data {
+            let telegram = telegrams.iter().find(|(own, _)| *own == Some(direction)).map(|(_, image)| *image);
+            if let Some(data) = data {
+                self.fields(data, telegram);
+            }
+        }
+    }
+
+    fn fields(&mut self, data: &mut IoData, telegram: Option<&ImageTable>) {
+        let patch = self.patch();
+        for field in &mut data.image.fields {
+            let by_place = telegram.and_then(|telegram| {
+                let at = |own: u32| own.saturating_mul(8) == field.bit_offset;
+                telegram.fields.iter().find(|(_, own)| at(own.value.at)).map(|(name, _)| letters(&name.value))
+            });
+            let by_name = letters(&field.name);
+            let signal = |name: &str| patch.rows.iter().find(|row| is_signal(row) && letters(&row.key.value) == name);
+            let row = signal(&by_name).or_else(|| by_place.as_deref().and_then(signal));
+            if let Some(row) = row {
+                self.field(field, row);
+            }
+        }
+    }
+
+    fn field(&mut self, field: &mut PdoEntry, row: &PatchRow) {
+        let own = self.rows.underlying(field.ty);
+        if !is_alike(own, &row.row.value) || !self.is_plain(field.ty) {
+            return;
+        }
+        let named = Named { name: &field.name, key: &row.key, number: 0, end: row.row.end };
+        let ty = self.with_reader(|reader, rows| rows.meaning(reader, named, &row.row.value, own));
+        field.ty = ty.unwrap_or(field.ty);
+    }
+}
+
+fn is_signal(row: &PatchRow) -> bool {
+    matches!(row.target, Target::Name)
+}
+
+/// Whether values of a type are as long as those that a row is about, and of its kind. Numbers with a sign aren't bits,
+/// whatever their object is elsewhere; named values may well have another sign.
+pub(super) fn is_alike(own: Type, row: &Row) -> bool {
+    let Some(wanted) = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).map(|named| named.ty) else {
+        return true;
+    };
+    if row.bits.is_some() && own.is_signed() {
+        return false;
+    }
+    let is_integer = |ty: Type| matches!(ty, Type::Integer(_) | Type::Unsigned(_));
+    match is_integer(own) && is_integer(wanted) {
+        true => own.bits() == wanted.bits(),
+        false => std::mem::discriminant(&own) == std::mem::discriminant(&wanted),
+    }
+}
+
+/// `u8`, `i16`.
+fn short(ty: Type) -> String {
+    let sign = if ty.is_signed() { 'i' } else { 'u' };
+    format!("{sign}{}", ty.bits().unwrap_or(0))
+}
+
+/// Letters and digits alone, for names that differ in nothing else are one name in Rust.
+fn letters(name: &str) -> String {
+    name.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
+/// Whether a submodule is the telegram of this name: its words, and no digit behind them.
+fn is_called(name: &str, telegram: Option<&str>) -> bool {
+    let Some(telegram) = telegram else { return false };
+    let (name, telegram) = (name.to_lowercase(), telegram.to_lowercase());
+    let mut places = name.match_indices(telegram.as_str());
+    places.any(|(at, _)| !name[at + telegram.len()..].starts_with(|letter: char| letter.is_ascii_digit()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn telegrams_are_told_apart_by_their_number() {
+        assert!(is_called("Standard telegram 1, PZD-2/2", Some("standard telegram 1")));
+        assert!(!is_called("Standard telegram 102", Some("standard telegram 1")));
+        assert!(!is_called("Drive", Some("standard telegram 1")) && !is_called("x", None));
+        assert_eq!(letters("ZSW 1_ä"), "zsw1ä");
+    }
+}

@@ -1,0 +1,256 @@
+//! Overlays and profiles: tables that say something of objects which another file describes.
+//!
+//! | file | subject |
+//! |---|---|
+//! | `apply` | an overlay, and the devices and modules that it is for |
+//! | `change` | a row of an overlay changes what is described, and its reason is kept |
+//! | `complete` | a profile adds what a description leaves unsaid |
+
+mod apply;
+mod change;
+mod complete;
+
+pub use apply::apply;
+pub(crate) use complete::Completion;
+
+use super::at::At;
+use super::definitions::Definitions;
+use super::format::{
+    AxesTable, ChapterTable, CodesTable, DoubtTable, ImageTable, MachineTable, ManualTable, OverlayTable,
+    ProcedureTable, ProfileTable, Row,
+};
+use super::place::{self, Objects};
+use super::rows::Rows;
+use super::spaces::Buses;
+use super::tree::Reader;
+use super::Table;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{CompactString, Group, Item, ObjectCode, Type};
+use crate::source::{FileId, Source, Span};
+use crate::text::brief;
+
+/// What a table says of objects that another file describes.
+#[derive(Clone, Debug, Default)]
+struct Patch {
+    rows: Vec<PatchRow>,
+    /// Its definitions; no type is made of them yet.
+    definitions: Definitions,
+    axes: Option<At<AxesTable>>,
+    images: Vec<At<ImageTable>>,
+    codes: Vec<(At<String>, CodesTable)>,
+    machines: Vec<(At<String>, MachineTable)>,
+    procedures: Vec<(At<String>, ProcedureTable)>,
+    doubts: Vec<At<DoubtTable>>,
+    /// The manual's language.
+    language: CompactString,
+}
+
+/// A row, and what it is about.
+#[derive(Clone, Debug)]
+struct PatchRow {
+    key: At<String>,
+    row: At<Row>,
+    target: Target,
+}
+
+/// What a row is about.
+#[derive(Clone, Copy, Debug)]
+enum Target {
+    /// Objects or their sub-entries.
+    Objects(Objects),
+    /// The item of this name.
+    Name,
+}
+
+/// Keys that overlays and profiles have beside their head.
+const KEYS: [&str; 9] = ["lexibus", "manual", "units", "enums", "bits", "chapters", "codes", "machines", "doubts"];
+
+/// Those that only overlays have.
+const OVERLAY_KEYS: [&str; 3] = ["overlay", "axes", "procedures"];
+
+/// Those that only profiles have.
+const PROFILE_KEYS: [&str; 2] = ["profile", "images"];
+
+impl Patch {
+    /// Reads a file that has the keys `own` beside those that all have.
+    fn read<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>, own: &[&str]) -> Patch {
+        let known: Vec<&str> = own.iter().chain(&KEYS).copied().collect();
+        for (key, node) in &mut table.parts {
+            if node.is_some() && !known.contains(&key.value.as_str()) {
+                reader.unknown_key(&key.value, &known, reader.span(key));
+                *node = None;
+            }
+        }
+        if let Some(manual) = table.take::<ManualTable>(reader, "manual") {
+            reader.language = manual.value.language.as_deref().unwrap_or_default().into();
+        }
+        let definitions = table.rows(reader, Buses::ALL).definitions;
+        // Mistakes in them are told once, whatever uses them.
+        definitions.clone().make_unused(reader);
+        Patch {
+            definitions,
+            rows: rows(reader, table),
+            axes: table.take(reader, "axes"),
+            images: table.list(reader, "images"),
+            codes: table.named(reader, "codes"),
+            machines: table.named(reader, "machines"),
+            procedures: table.named(reader, "procedures"),
+            doubts: table.list(reader, "doubts"),
+            language: reader.language.clone(),
+        }
+    }
+
+    /// What rows need to be filled in.
+    fn filler(&self) -> Rows {
+        Rows {
+            definitions: self.definitions.clone(),
+            spaces: Vec::new(),
+            buses: Buses::ALL,
+            defaults: None,
+            references: Vec::new(),
+            allowed: Vec::new(),
+            summaries: Vec::new(),
+        }
+    }
+}
+
+/// The rows of all chapters, each with the defaults of its chapter.
+fn rows<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>) -> Vec<PatchRow> {
+    let mut rows = Vec::new();
+    for node in table.nodes(reader, "chapters") {
+        let Some((registers, objects, node)) = super::divide(reader, node) else { continue };
+        let Some(chapter) = reader.piece::<ChapterTable>(node) else { continue };
+        let defaults = chapter.defaults.as_ref().map(|defaults| &defaults.value);
+        let complete = |row: At<Row>| At {
+            value: defaults.map_or(row.value.clone(), |defaults| row.value.or(defaults)),
+            start: row.start,
+            end: row.end,
+        };
+        let named = registers.into_iter().map(|(key, row)| (key, row, Target::Name));
+        rows.extend(named.map(|(key, row, target)| PatchRow { key, row: complete(row), target }));
+        for (key, row) in objects {
+            match place::objects(&key.value) {
+                Some(objects) => rows.push(PatchRow { key, row: complete(row), target: Target::Objects(objects) }),
+                None => {
+                    let message = format!(
+                        "`{}` is no object: write `0x6040`, `\"0x1018:1\"` or `\"0x1400..0x1403:1\"`",
+                        brief(&key.value)
+                    );
+                    reader.report(&codes::TABLE_PLACE, reader.span(&key), message);
+                }
+            }
+        }
+    }
+    rows
+}
+
+/// An overlay as it was read.
+struct Overlay {
+    head: At<OverlayTable>,
+    patch: Patch,
+}
+
+impl Overlay {
+    fn read(reader: &mut Reader<'_, '_>) -> Option<Overlay> {
+        let mut table = Table::new(reader, &[])?;
+        let Some(head) = table.take::<OverlayTable>(reader, "overlay") else {
+            let message = "the table has no `[overlay]`";
+            let found = Diagnostic::new(&codes::TABLE_VALUE, Span::new(reader.file, 0, 0), message);
+            reader.diagnostics.push(found.help("a table with `[device]` is an input of its own"));
+            return None;
+        };
+        let patch = Patch::read(reader, &mut table, &OVERLAY_KEYS);
+        if head.value.why.is_none() {
+            for row in patch.rows.iter().filter(|row| row.row.value.why.is_none()) {
+                let message = format!("nothing says why `{}` is changed", brief(&row.key.value));
+                let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(&row.key), message);
+                reader.diagnostics.push(found.help("give the row a `why`, or all of them one in `[overlay]`"));
+            }
+        }
+        Some(Overlay { head, patch })
+    }
+}
+
+/// A profile: what a standard says of the objects of every device that follows it.
+#[derive(Clone, Debug)]
+pub(crate) struct Profile {
+    source: Source,
+    /// Who follows it.
+    pub head: ProfileTable,
+    /// The object that shows that a device follows it.
+    pub when: Option<u16>,
+    patch: Patch,
+}
+
+impl Profile {
+    /// Reads a profile.
+    pub(crate) fn read(source: Source, diagnostics: &mut Diagnostics) -> Option<Profile> {
+        let mut reader = Reader { source: &source, file: FileId(0), diagnostics, language: CompactString::default() };
+        let mut table = Table::new(&mut reader, &[])?;
+        let Some(head) = table.take::<ProfileTable>(&mut reader, "profile") else {
+            let message = "the table has no `[profile]`";
+            reader.report(&codes::TABLE_VALUE, Span::new(reader.file, 0, 0), message);
+            return None;
+        };
+        let when = head.value.when.as_ref().and_then(|when| {
+            let index = match &when.value {
+                super::format::NumberOrText::Number(number) => u16::try_from(*number).ok(),
+                super::format::NumberOrText::Text(text) => place::objects(text).map(|objects| objects.indices.0),
+            };
+            if index.is_none() {
+                reader.report(&codes::TABLE_PLACE, reader.span(when), "`when` is an object such as `0x6040`");
+            }
+            index
+        });
+        let patch = Patch::read(&mut reader, &mut table, &PROFILE_KEYS);
+        drop(table);
+        Some(Profile { head: head.value, when, patch, source })
+    }
+
+    /// Whether these objects are those of something that follows the profile. Without an object that would show it, they are.
+    pub(crate) fn is_shown_by(&self, groups: &[Group]) -> bool {
+        let Some(index) = self.when else { return true };
+        let found = groups.binary_search_by_key(&Some(index), Group::index).ok().and_then(|at| groups.get(at));
+        let Some(group) = found.filter(|group| !group.object_code().is_some_and(ObjectCode::has_subs)) else {
+            return false;
+        };
+        let is_meant = |row: &&PatchRow| matches!(row.target, Target::Objects(own) if own.indices == (index, index));
+        let row = self.patch.rows.iter().find(is_meant);
+        // A type that the description defines may be anything.
+        let is_alike =
+            |ty: Type| matches!(ty, Type::Named(_)) || row.is_none_or(|row| complete::is_alike(ty, &row.row.value));
+        group.sub(0).is_some_and(|item| is_alike(item.ty))
+    }
+}
+
+/// The groups of objects with these indices; groups have to be sorted, as [`Device::object`](crate::ir::Device::object) says.
+fn in_range(groups: &mut [Group], (first, last): (u16, u16)) -> &mut [Group] {
+    let start = groups.partition_point(|group| group.index() < Some(first));
+    let end = groups.partition_point(|group| group.index() <= Some(last));
+    groups.get_mut(start..end).unwrap_or_default()
+}
+
+/// The item at the object that a name spells, where it spells one.
+fn at_place<'g>(groups: &'g [Group], name: &str) -> Option<&'g Item> {
+    let objects = place::objects(name)?;
+    let position = groups.binary_search_by_key(&Some(objects.indices.0), Group::index).ok()?;
+    groups.get(position)?.sub(objects.subs.map_or(0, |(first, _)| first))
+}
+
+/// The name of the item at the object that `name` spells, or `name` itself.
+fn item_name(groups: &[Group], name: &CompactString) -> CompactString {
+    match at_place(groups, name) {
+        Some(item) if !item.name.is_empty() => item.name.clone(),
+        _ => name.clone(),
+    }
+}
+
+/// Names that conditions of bits give as objects become those of the items there.
+fn name_conditions(groups: &[Group], types: &mut [crate::ir::TypeDef]) {
+    for definition in types {
+        let crate::ir::Shape::BitField { fields, .. } = &mut definition.shape else { continue };
+        for when in fields.iter_mut().filter_map(|field| field.when.as_mut()) {
+            when.item = item_name(groups, &when.item);
+        }
+    }
+}

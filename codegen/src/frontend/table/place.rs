@@ -1,0 +1,159 @@
+//! Numbers and places as the format writes them: integers, ranges, numbers of registers, objects, bits.
+
+/// An integer: `16`, `0x10`, `0b10000`, with a sign in front and `_` between digits.
+pub(super) fn integer(text: &str) -> Option<i128> {
+    let text = text.trim();
+    let (negative, digits) = match text.strip_prefix('-') {
+        Some(rest) => (true, rest),
+        None => (false, text.strip_prefix('+').unwrap_or(text)),
+    };
+    let (radix, digits) = match digits.get(..2) {
+        Some("0x" | "0X") => (16, &digits[2..]),
+        Some("0b" | "0B") => (2, &digits[2..]),
+        Some("0o" | "0O") => (8, &digits[2..]),
+        _ => (10, digits),
+    };
+    let digits: String = digits.chars().filter(|&c| c != '_').collect();
+    // `from_str_radix` would take a second sign.
+    if !digits.starts_with(|c: char| c.is_digit(radix)) {
+        return None;
+    }
+    let value = i128::from_str_radix(&digits, radix).ok()?;
+    Some(if negative { -value } else { value })
+}
+
+/// An integer, or first and last of a range (`3..7`).
+pub(super) fn range(text: &str) -> Option<(i128, i128)> {
+    match text.split_once("..") {
+        Some((first, last)) => Some((integer(first)?, integer(last.trim_start_matches('='))?)),
+        None => integer(text).map(|value| (value, value)),
+    }
+}
+
+/// First and last number of a register as manuals print it: `63`, `63-64`, and `10099-100`, whose end leaves out what
+/// it shares with its start.
+pub(super) fn registers(text: &str) -> Option<(u32, u32)> {
+    let Some((first, last)) = text.split_once(['-', '–']) else {
+        let number = u32::try_from(integer(text)?).ok()?;
+        return Some((number, number));
+    };
+    let (first, last) = (first.trim(), last.trim());
+    let start = u32::try_from(integer(first)?).ok()?;
+    let end = u32::try_from(integer(last)?).ok()?;
+    if end >= start {
+        return Some((start, end));
+    }
+    // The end has the leading digits of the start, or those that follow where it turns over.
+    let modulus = 10u32.checked_pow(u32::try_from(last.len()).ok()?)?;
+    let end = start / modulus * modulus + end;
+    Some((start, if end < start { end.checked_add(modulus)? } else { end }))
+}
+
+/// Objects and sub-indices that a key of `[chapters.objects]` stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Objects {
+    /// First and last index.
+    pub indices: (u16, u16),
+    /// First and last sub-index; `None` for the objects themselves.
+    pub subs: Option<(u8, u8)>,
+}
+
+/// `0x6040`, `0x1018:1`, `0x1400..0x1403:1`, `0x1600..0x1603:1..8`.
+pub(super) fn objects(text: &str) -> Option<Objects> {
+    let (indices, subs) = match text.split_once(':') {
+        Some((indices, subs)) => (indices, Some(subs)),
+        None => (text, None),
+    };
+    let (first, last) = range(indices)?;
+    let indices = (u16::try_from(first).ok()?, u16::try_from(last).ok()?);
+    let subs = match subs {
+        Some(subs) => {
+            let (first, last) = range(subs)?;
+            Some((u8::try_from(first).ok()?, u8::try_from(last).ok()?))
+        }
+        None => None,
+    };
+    let in_order = indices.0 <= indices.1 && subs.is_none_or(|(first, last)| first <= last);
+    in_order.then_some(Objects { indices, subs })
+}
+
+/// First bit and number of bits: `7`, `3-2`, `2..3`, `[2..3]`.
+pub(super) fn bits(text: &str) -> Option<(u8, u8)> {
+    let text = text.trim().trim_start_matches('[').trim_end_matches(']');
+    let (one, other) = match text.split_once("..").or_else(|| text.split_once('-')) {
+        Some((one, other)) => (integer(one)?, integer(other)?),
+        None => (integer(text)?, integer(text)?),
+    };
+    let (low, high) = (u8::try_from(one.min(other)).ok()?, u8::try_from(one.max(other)).ok()?);
+    (high < 64).then_some((low, high - low + 1))
+}
+
+/// `text` with `{n}`, `{n+1}` and `{sub}` filled in.
+pub(super) fn filled(text: &str, number: u32, sub: Option<u8>) -> String {
+    if !text.contains('{') {
+        return text.to_owned();
+    }
+    let mut text = text.replace("{n}", &number.to_string());
+    if let Some(sub) = sub {
+        text = text.replace("{sub}", &sub.to_string());
+    }
+    while let Some((start, rest)) = text.split_once("{n+") {
+        let Some((more, end)) = rest.split_once('}') else { break };
+        let Ok(more) = more.trim().parse::<u32>() else { break };
+        text = format!("{start}{}{end}", number.saturating_add(more));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn integers_in_every_notation() {
+        let cases = [("16", 16), ("0x10", 16), ("-0x10", -16), ("+5", 5), ("0b101", 5), ("1_000", 1000), (" 7 ", 7)];
+        for (text, value) in cases {
+            assert_eq!(integer(text), Some(value), "{text}");
+        }
+        for text in ["", "-", "--5", "0x", "1.5", "x", "0x-1", "+-1"] {
+            assert_eq!(integer(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn the_end_of_a_range_may_be_short() {
+        let cases = [
+            ("63", (63, 63)),
+            ("0063-64", (63, 64)),
+            ("10007-8", (10007, 10008)),
+            ("10099-100", (10099, 10100)),
+            ("0399-400", (399, 400)),
+            ("0401-02", (401, 402)),
+            ("2011-6998", (2011, 6998)),
+        ];
+        for (text, numbers) in cases {
+            assert_eq!(registers(text), Some(numbers), "{text}");
+        }
+        assert_eq!(registers("x-1"), None);
+    }
+
+    #[test]
+    fn objects_and_bits() {
+        assert_eq!(objects("0x6040"), Some(Objects { indices: (0x6040, 0x6040), subs: None }));
+        let many = Objects { indices: (0x1600, 0x1603), subs: Some((1, 8)) };
+        assert_eq!(objects("0x1600..0x1603:1..8"), Some(many));
+        for text in ["", "0x6040:", "0x10000", "0x6040:256", "0x1603..0x1600", "0x6040:2..1"] {
+            assert_eq!(objects(text), None, "{text}");
+        }
+        for text in ["3-2", "2..3", "[2..3]", "2-3"] {
+            assert_eq!(bits(text), Some((2, 2)), "{text}");
+        }
+        assert_eq!((bits("63"), bits("64"), bits("x")), (Some((63, 1)), None, None));
+    }
+
+    #[test]
+    fn templates_are_filled() {
+        assert_eq!(filled("RPDO {n+1}, entry {sub} of {n}", 3, Some(2)), "RPDO 4, entry 2 of 3");
+        assert_eq!(filled("{n+x} {", 3, None), "{n+x} {");
+    }
+}

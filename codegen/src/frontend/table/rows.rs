@@ -1,0 +1,684 @@
+//! Rows to items.
+
+use std::collections::HashMap;
+
+use compact_str::{format_compact, CompactString};
+use smallvec::SmallVec;
+
+use super::at::{At, Entries, Literal, OneOrMany, TextOr};
+use super::definitions::{self, Definitions, Kind};
+use super::format::{FlagOrText, NumberOrText, Row};
+use super::spaces::{self, Buses, Numbers, Space};
+use super::tree::{cited, Reader};
+use super::{lints, place, types, value};
+use crate::diagnostics::{codes, Code, Diagnostic};
+use crate::ir::{
+    Access, Availability, Behaviour, Binding, Extension, Item, Mappable, ObjectBuses, Quantity, Shape, Storage, Type,
+    TypeDef, TypeId, Value,
+};
+use crate::source::Span;
+use crate::text::brief;
+
+/// The greatest number of items that one row may stand for.
+const MAX_REPEAT: u32 = 0x1_0000;
+
+/// The words of `access`.
+pub(super) const ACCESSES: [(&str, Access); 6] = [
+    ("ro", Access::ReadOnly),
+    ("rw", Access::ReadWrite),
+    ("wo", Access::WriteOnly),
+    ("const", Access::Constant),
+    ("rwr", Access::ReadWriteInput),
+    ("rww", Access::ReadWriteOutput),
+];
+
+/// The words of `pdo`.
+pub(super) const DIRECTIONS: [(&str, Mappable); 4] = [
+    ("rx", Mappable { rpdo: true, tpdo: false }),
+    ("tx", Mappable { rpdo: false, tpdo: true }),
+    ("both", Mappable { rpdo: true, tpdo: true }),
+    ("no", Mappable { rpdo: false, tpdo: false }),
+];
+
+/// What rows have in common while they are read.
+pub(super) struct Rows {
+    pub definitions: Definitions,
+    pub spaces: Vec<Space>,
+    pub buses: Buses,
+    pub defaults: Option<Row>,
+    /// Names that rows refer to, and what for.
+    pub references: Vec<(At<String>, &'static str)>,
+    /// Findings that a row takes upon itself.
+    pub allowed: Vec<(Span, &'static Code)>,
+    /// What is said elsewhere of objects that have sub-entries.
+    pub summaries: Vec<(u16, super::summary::Summaries)>,
+}
+
+/// The name of an item, its number among those of its row, and where the row stands.
+#[derive(Clone, Copy)]
+pub(super) struct Named<'k> {
+    pub name: &'k str,
+    pub key: &'k At<String>,
+    pub number: u32,
+    /// The end of the row.
+    pub end: u32,
+}
+
+impl Row {
+    /// The row with what `defaults` say where it says nothing.
+    pub(super) fn or(mut self, defaults: &Row) -> Row {
+        macro_rules! fill {
+            ($($field:ident)*) => { $( if self.$field.is_none() { self.$field.clone_from(&defaults.$field); } )* };
+        }
+        fill!(ty access pdo unit scale offset na save effective models since until needs buses per_axis hidden order swap length);
+        self
+    }
+}
+
+impl Rows {
+    /// The row with the defaults of its chapter and of the file.
+    pub fn complete(&self, row: &Row, chapter: Option<&Row>) -> Row {
+        let row = row.clone();
+        let row = chapter.map_or(row.clone(), |defaults| row.or(defaults));
+        self.defaults.as_ref().map_or(row.clone(), |defaults| row.or(defaults))
+    }
+
+    /// The items of a row of `[chapters.registers]`.
+    pub fn registers(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        space: Option<usize>,
+        (key, row): (&At<String>, &At<Row>),
+        chapter: Option<&Row>,
+    ) -> Vec<Item> {
+        let complete = self.complete(&row.value, chapter);
+        self.allow(reader, key, row);
+        let (count, step) = self.repetition(reader, &complete, space);
+        let mut items = Vec::new();
+        for number in 0..count {
+            let name = place::filled(&key.value, number, None);
+            let named = Named { name: &name, key, number, end: row.end };
+            let ty = self.ty(reader, named, &complete);
+            let before = reader.diagnostics.list().len();
+            let bindings = self.bindings(reader, space, named, &complete, (number * step, ty));
+            if bindings.is_empty() {
+                // What is wrong with the address that it has was told.
+                if reader.diagnostics.list().len() > before {
+                    break;
+                }
+                let message =
+                    format!("`{}` has no address: `reg`, `obj`, `param`, `esc` or `ascii`", brief(&key.value));
+                reader.report(&codes::ROW_WITHOUT_ADDRESS, reader.span(key), message);
+                break;
+            }
+            let mut item = Item::new(bindings[0].clone());
+            item.bindings = bindings;
+            self.fill(reader, &mut item, named, &complete, ty);
+            if complete.access.is_none() && complete.fixed.is_none() {
+                self.no_access(reader, named);
+            }
+            items.push(item);
+        }
+        items
+    }
+
+    /// Findings that the row's doubt explains.
+    pub fn allow(&mut self, reader: &mut Reader<'_, '_>, key: &At<String>, row: &At<Row>) {
+        self.allow_in(reader, Span::new(reader.file, key.start, row.end), &row.value.allow);
+    }
+
+    /// Findings that the doubts of definitions explain: at their names, and in what they define.
+    pub fn allow_of_definitions(&mut self, reader: &mut Reader<'_, '_>) {
+        fn whole<T>(reader: &Reader<'_, '_>, name: &At<String>, entries: &Entries<T>) -> Span {
+            let places = entries.iter().map(|(key, value)| (key.start, value.end));
+            let (start, end) = places.fold((name.start, name.end), |all, own| (all.0.min(own.0), all.1.max(own.1)));
+            Span::new(reader.file, start, end)
+        }
+        let enums = self.definitions.enums.iter();
+        let enums = enums.map(|(name, own)| (whole(reader, name, &own.values), own.allow.clone()));
+        let bits = self.definitions.bits.iter();
+        let bits = bits.map(|(name, own)| (whole(reader, name, &own.at), own.allow.clone()));
+        for (span, names) in enums.chain(bits).collect::<Vec<_>>() {
+            self.allow_in(reader, span, &names);
+        }
+    }
+
+    fn allow_in(&mut self, reader: &mut Reader<'_, '_>, span: Span, names: &Option<Vec<At<String>>>) {
+        for name in names.iter().flatten() {
+            match codes::find(&name.value) {
+                Some(code) => self.allowed.push((span, code)),
+                None => {
+                    let known = codes::similar(&name.value);
+                    reader.unresolved("code", &name.value, reader.span(name), known.into_iter());
+                }
+            }
+        }
+    }
+
+    /// How many items the row stands for, and how many numbers lie between two.
+    fn repetition(&mut self, reader: &mut Reader<'_, '_>, row: &Row, space: Option<usize>) -> (u32, u32) {
+        let Some(count) = &row.count else { return (1, 0) };
+        let given = match &count.value {
+            NumberOrText::Number(count) => u32::try_from(*count).ok(),
+            NumberOrText::Text(item) => {
+                self.references.push((At { value: item.clone(), start: count.start, end: count.end }, "item"));
+                Some(row.max_count.unwrap_or(1))
+            }
+        };
+        let Some(number) = given.filter(|&number| (1..=MAX_REPEAT).contains(&number)) else {
+            reader.report(&codes::TABLE_VALUE, reader.span(count), format!("`count` goes from 1 to {MAX_REPEAT}"));
+            return (1, 0);
+        };
+        let unit = space.and_then(|at| self.spaces.get(at)).map_or(16, |space| u32::from(space.bits));
+        let bits = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).and_then(|named| named.ty.bits());
+        (number, row.stride.unwrap_or_else(|| bits.unwrap_or(unit).div_ceil(unit)))
+    }
+
+    /// Reports that nothing says how an item may be accessed.
+    pub fn no_access(&self, reader: &mut Reader<'_, '_>, named: Named<'_>) {
+        let message = format!("nothing says how `{}` may be accessed", brief(named.name));
+        let diagnostic = Diagnostic::new(&codes::ACCESS_NOT_GIVEN, reader.span(named.key), message);
+        reader
+            .diagnostics
+            .push(diagnostic.label("read-only").help("give it an `access`, or one for all in `defaults`"));
+    }
+
+    /// The type of a row; an error where it has none.
+    pub fn ty(&mut self, reader: &mut Reader<'_, '_>, named: Named<'_>, row: &Row) -> Option<Type> {
+        let written = row.ty.as_ref().and_then(|ty| {
+            let found = types::named(&ty.value);
+            if found.is_none() {
+                let what = format!("`{}` is no type", brief(&ty.value));
+                let similar = types::meant(&ty.value);
+                let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, reader.span(ty), what);
+                reader.diagnostics.push(match similar {
+                    Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
+                    None => diagnostic.help("a type such as `u16`, `i32`, `f32`, `bool`, `str(25)` or `u16[10]`"),
+                });
+            }
+            found
+        });
+        let by_definition = || match (&row.bits, &row.values) {
+            (Some(At { value: TextOr::Text(name), .. }), _) => Some((Kind::Bits, name.clone())),
+            (_, Some(At { value: TextOr::Text(name), .. })) => Some((Kind::Enumeration, name.clone())),
+            _ => None,
+        };
+        let (base, elements) = match written {
+            Some(written) => (Some(written.ty), written.elements),
+            None => (by_definition().and_then(|(kind, name)| self.definitions.base(reader, kind, &name)), None),
+        };
+        let Some(base) = base else {
+            if row.ty.is_none() {
+                let message = format!("`{}` has no `type`", brief(&named.key.value));
+                reader.report(&codes::TABLE_VALUE, reader.span(named.key), message);
+            }
+            return None;
+        };
+        let ty = self.meaning(reader, named, row, base).unwrap_or(base);
+        Some(match elements {
+            Some(count) => self.array(reader, named, ty, count),
+            None => ty,
+        })
+    }
+
+    /// The bit field or enumeration of a row over its integer.
+    pub fn meaning(&mut self, reader: &mut Reader<'_, '_>, named: Named<'_>, row: &Row, base: Type) -> Option<Type> {
+        let origin = reader.origin(named.key);
+        if let Some(bits) = &row.bits {
+            return match &bits.value {
+                TextOr::Text(name) => {
+                    let name = At { value: name.clone(), start: bits.start, end: bits.end };
+                    self.definitions.named(reader, Kind::Bits, &name, base)
+                }
+                TextOr::Table(table) => Some(self.definitions.inline_bits(reader, (named.name, origin), base, table)),
+            };
+        }
+        match &row.values.as_ref()?.value {
+            TextOr::Text(name) => {
+                let at = row.values.as_ref()?;
+                let name = At { value: name.clone(), start: at.start, end: at.end };
+                self.definitions.named(reader, Kind::Enumeration, &name, base)
+            }
+            TextOr::Table(table) => Some(self.definitions.inline_values(reader, (named.name, origin), base, table)),
+        }
+    }
+
+    fn array(&mut self, reader: &Reader<'_, '_>, named: Named<'_>, element: Type, count: u32) -> Type {
+        let bits = self.underlying(element).bits().and_then(|bits| bits.checked_mul(count));
+        let id = TypeId(self.definitions.types.len() as u32);
+        self.definitions.types.push(TypeDef {
+            name: named.name.into(),
+            code: None,
+            shape: Shape::Array { element, dimensions: vec![(0, count)] },
+            bits,
+            documentation: None,
+            origin: reader.origin(named.key),
+        });
+        Type::Named(id)
+    }
+
+    /// The basic type below a bit field, an enumeration or an alias.
+    pub fn underlying(&self, ty: Type) -> Type {
+        let mut ty = ty;
+        // Definitions never lead back: each refers to earlier ones.
+        while let Type::Named(TypeId(id)) = ty {
+            match self.definitions.types.get(id as usize).map(|def| &def.shape) {
+                Some(Shape::Alias(base) | Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => ty = *base,
+                Some(Shape::Scaled { base, .. }) => ty = *base,
+                _ => break,
+            }
+        }
+        ty
+    }
+
+    fn bits(&self, ty: Type) -> Option<u32> {
+        match ty {
+            Type::Named(TypeId(id)) => self.definitions.types.get(id as usize).and_then(|def| def.bits),
+            ty => match ty {
+                Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),
+                ty => ty.bits(),
+            },
+        }
+    }
+
+    /// Every address of a row.
+    fn bindings(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        space: Option<usize>,
+        named: Named<'_>,
+        row: &Row,
+        (shift, ty): (u32, Option<Type>),
+    ) -> SmallVec<[Binding; 1]> {
+        let buses = self.buses_of(reader, row);
+        let mut bindings = SmallVec::new();
+        let bits = ty.and_then(|ty| self.bits(ty));
+        let mut by_rule = None;
+        if let Some(reg) = &row.reg {
+            match self.numbers(reader, reg, row, bits, space) {
+                Some(mut numbers) => {
+                    numbers.first = numbers.first.saturating_add(shift);
+                    let span = reader.span(reg);
+                    let found = space.and_then(|at| self.spaces.get(at));
+                    by_rule = found.and_then(|space| space.object(numbers.first));
+                    match found {
+                        Some(space) => bindings.extend(space.bindings(reader, numbers, buses, span)),
+                        None => reader.report(&codes::UNRESOLVED_NAME, span, "there is no `[spaces]` for this number"),
+                    }
+                }
+                None => return bindings,
+            }
+        }
+        if let Some(object) = &row.obj {
+            self.explicit_object(reader, object, (by_rule, shift), buses, &mut bindings);
+        }
+        if let Some(address) = &row.esc {
+            let length = row.length.unwrap_or_else(|| bits.map_or(1, |bits| bits.div_ceil(8) as u16));
+            bindings.push(Binding::EscMemory { address: address.value, length });
+        }
+        if let Some(name) = &row.ascii {
+            bindings.push(Binding::Ascii(place::filled(name, named.number, None).into()));
+        }
+        if let Some(code) = &row.param {
+            bindings.push(Binding::Parameter { space: "parameter".into(), code: code.value.saturating_add(shift) });
+        }
+        bindings
+    }
+
+    fn numbers(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        reg: &At<NumberOrText>,
+        row: &Row,
+        bits: Option<u32>,
+        space: Option<usize>,
+    ) -> Option<Numbers> {
+        let (first, last) = match &reg.value {
+            NumberOrText::Number(number) => match u32::try_from(*number) {
+                Ok(number) => (number, None),
+                Err(_) => {
+                    let message = format!("`{number}` is no number of a register: they go from 0 to {}", u32::MAX);
+                    reader.report(&codes::TABLE_PLACE, reader.span(reg), message);
+                    return None;
+                }
+            },
+            NumberOrText::Text(text) => match place::registers(text) {
+                Some((first, last)) => (first, Some(last)),
+                None => {
+                    let message = format!("`{}` is no number of a register: write `63` or `\"63-64\"`", brief(text));
+                    reader.report(&codes::TABLE_PLACE, reader.span(reg), message);
+                    return None;
+                }
+            },
+        };
+        let unit = space.and_then(|at| self.spaces.get(at)).map_or(16, |space| u32::from(space.bits));
+        if let (Some(last), Some(bits)) = (last, bits) {
+            let (printed, needed) = (last - first + 1, bits.div_ceil(unit));
+            if printed != needed {
+                let message = format!("{printed} numbers of {unit} bits, and the type takes {needed}");
+                reader
+                    .diagnostics
+                    .push(Diagnostic::new(&codes::REGISTER_SPAN, reader.span(reg), message).label("the type is used"));
+            }
+        }
+        let bit_offset = row.part.as_ref().and_then(|part| self.part(reader, part, bits));
+        Some(Numbers {
+            first,
+            bits,
+            low_word_first: row.order.as_ref().and_then(|order| spaces::word_order(reader, order)),
+            bytes_swapped: row.swap,
+            bit_offset,
+        })
+    }
+
+    /// The first bit of a part of a register.
+    fn part(&self, reader: &mut Reader<'_, '_>, part: &At<NumberOrText>, bits: Option<u32>) -> Option<u8> {
+        let text = match &part.value {
+            NumberOrText::Number(bit) => bit.to_string(),
+            NumberOrText::Text(text) => text.clone(),
+        };
+        let Some((offset, count)) = place::bits(&text) else {
+            let message = format!("`{}` are no bits: write `7` or `\"7-0\"`", brief(&text));
+            reader.report(&codes::TABLE_PLACE, reader.span(part), message);
+            return None;
+        };
+        if bits.is_some_and(|bits| bits != u32::from(count)) {
+            let message = format!("the part has {count} bits, and the type {}", bits.unwrap_or(0));
+            reader.report(&codes::REGISTER_SPAN, reader.span(part), message);
+        }
+        Some(offset)
+    }
+
+    fn explicit_object(
+        &self,
+        reader: &mut Reader<'_, '_>,
+        object: &At<NumberOrText>,
+        (by_rule, shift): (Option<(u16, u8)>, u32),
+        buses: Buses,
+        bindings: &mut SmallVec<[Binding; 1]>,
+    ) {
+        lints::index(reader, object);
+        let text = match &object.value {
+            NumberOrText::Number(number) => format!("{number:#06x}"),
+            NumberOrText::Text(text) => text.clone(),
+        };
+        let found = place::objects(&text).filter(|found| found.indices.0 == found.indices.1);
+        let index = found.and_then(|found| u16::try_from(u32::from(found.indices.0) + shift).ok());
+        let (Some(found), Some(index)) = (found, index) else {
+            let message = format!("`{}` is no object: write `0x6040` or `\"0x2000:1\"`", brief(&text));
+            reader.report(&codes::TABLE_PLACE, reader.span(object), message);
+            return;
+        };
+        let sub_index = found.subs.map(|(first, _)| first);
+        if let Some((ruled, ruled_sub)) = by_rule {
+            if ruled != index || sub_index.is_some_and(|sub| sub != ruled_sub) {
+                let message =
+                    format!("the row says object {text}, and the rule of its space 0x{ruled:04X}:{ruled_sub}");
+                reader.diagnostics.push(
+                    Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(object), message)
+                        .label("what the row says is used"),
+                );
+            }
+            bindings.retain(|binding| !matches!(binding, Binding::Object { .. }));
+        }
+        let sub_index = sub_index.or(by_rule.map(|(_, sub)| sub)).unwrap_or(0);
+        let buses = ObjectBuses { canopen: buses.canopen, coe: buses.ethercat };
+        bindings.insert(0, Binding::Object { buses, index, sub_index });
+    }
+
+    /// The buses on which a row exists.
+    pub fn buses_of(&self, reader: &mut Reader<'_, '_>, row: &Row) -> Buses {
+        let Some(list) = &row.buses else { return self.buses };
+        let named = super::device::buses(reader, list);
+        Buses {
+            canopen: self.buses.canopen && named.canopen,
+            ethercat: self.buses.ethercat && named.ethercat,
+            modbus: self.buses.modbus && named.modbus,
+        }
+    }
+
+    /// Puts what a row says into its item. An overlay's row says little of it.
+    pub fn fill(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        item: &mut Item,
+        named: Named<'_>,
+        row: &Row,
+        ty: Option<Type>,
+    ) {
+        let origin = reader.origin(named.key);
+        item.origin = crate::source::Origin { span: Span { end: named.end, ..origin.span }, ..origin };
+        (item.name, item.at.name) = (named.name.into(), reader.span(named.key));
+        if let Some(ty) = ty {
+            item.ty = ty;
+            item.at.ty = row.ty.as_ref().map_or(item.at.ty, |ty| reader.span(ty));
+        }
+        self.access(reader, item, row);
+        self.values(reader, item, named, row);
+        self.quantity(reader, item, row);
+        self.behaviour(reader, item, row);
+        self.availability(reader, item, row);
+        self.words(reader, item, row);
+        if let Some(summary) = &row.summary {
+            super::summary::item(reader, self, summary, item);
+        }
+    }
+
+    fn access(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
+        if let Some(access) = &row.access {
+            item.access = reader.word(access, "access", &ACCESSES).unwrap_or(item.access);
+            item.at.access = reader.span(access);
+        }
+        if let Some(pdo) = &row.pdo {
+            item.mappable = reader.word(pdo, "direction of PDOs", &DIRECTIONS).unwrap_or(item.mappable);
+            item.at.mappable = reader.span(pdo);
+        }
+    }
+
+    fn values(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, row: &Row) {
+        let base = self.underlying(item.ty);
+        if let Some(given) = &row.default {
+            let list = &given.value.0;
+            let own = if list.len() > 1 { list.get(named.number as usize) } else { list.first() };
+            match own {
+                Some(own) => {
+                    let own = At { value: own.clone(), start: given.start, end: given.end };
+                    item.default = Some(value::value(reader, &own, base));
+                    item.at.default = reader.span(given);
+                }
+                None => {
+                    let message =
+                        format!("the list has {} defaults, and this is number {}", list.len(), named.number + 1);
+                    reader.report(&codes::TABLE_VALUE, reader.span(given), message);
+                }
+            }
+        }
+        if let Some(low) = &row.min {
+            (item.limits.low, item.at.low) = (Some(value::value(reader, low, base)), reader.span(low));
+        }
+        if let Some(high) = &row.max {
+            (item.limits.high, item.at.high) = (Some(value::value(reader, high, base)), reader.span(high));
+        }
+        if let Some(fixed) = &row.fixed {
+            let value = value::value(reader, fixed, base);
+            (item.limits.low, item.limits.high) = (Some(value.clone()), Some(value.clone()));
+            (item.default, item.at.default) = (Some(value), reader.span(fixed));
+            if row.access.is_none() {
+                item.access = Access::Constant;
+            }
+        }
+        if let Some(allowed) = &row.allowed {
+            let one = |literal: &Literal| value::convert(literal, base, false).unwrap_or(Value::Raw("".into()));
+            item.limits.allowed = allowed.value.iter().map(one).map(|value| (value.clone(), value)).collect();
+            item.limits.allowed.iter().for_each(|(one, _)| lints::range(reader, one, base, reader.span(allowed)));
+        }
+    }
+
+    fn quantity(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
+        let says_nothing =
+            row.unit.is_none() && row.scale.is_none() && row.offset.is_none() && row.na.is_none() && row.step.is_none();
+        if says_nothing {
+            return;
+        }
+        let base = self.underlying(item.ty);
+        let mut quantity = item.quantity.take().map_or_else(Quantity::default, |quantity| *quantity);
+        let own = row.unit.as_ref().and_then(|unit| {
+            let mut units = self.definitions.units.iter();
+            units.find(|(name, _)| name.value == unit.value).map(|(_, table)| table.clone())
+        });
+        if let Some(unit) = &row.unit {
+            quantity.unit = match &own {
+                Some(table) => table.symbol.as_deref().unwrap_or_default().into(),
+                None => unit.value.as_str().into(),
+            };
+            quantity.units = reader.original(own.as_ref().and_then(|table| table.orig.as_deref()));
+            if own.is_none() && !super::units::is_known(&unit.value) {
+                let names = self.definitions.units.iter().map(|(name, _)| name.value.as_str());
+                let similar = super::tree::similar(&unit.value, names).or_else(|| super::units::usual(&unit.value));
+                let message =
+                    format!("`{}` is neither a name of `[units]` nor a unit that is known", brief(&unit.value));
+                let diagnostic = Diagnostic::new(&codes::UNKNOWN_UNIT, reader.span(unit), message);
+                reader.diagnostics.push(match similar {
+                    Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
+                    None if unit.value.is_empty() => diagnostic.help("leave it out where there is none"),
+                    None => diagnostic.label("kept as it is").help("define it in `[units]`"),
+                });
+            }
+        }
+        let (scale, offset) = match &own {
+            Some(table) if row.scale.is_none() => (table.scale.as_ref(), row.offset.or(table.offset)),
+            _ => (row.scale.as_ref().map(|scale| &scale.value), row.offset),
+        };
+        if own.is_some() || row.scale.is_some() || row.offset.is_some() {
+            quantity.scale = definitions::scale(scale, offset);
+        }
+        if let Some(crate::ir::Scale::ByItem { item, .. }) = &quantity.scale {
+            let at = row.scale.as_ref().map_or(0..0, |scale| scale.start as usize..scale.end as usize);
+            let name = At { value: item.to_string(), start: at.start as u32, end: at.end as u32 };
+            self.references.push((name, "item"));
+        }
+        for (key, meaning) in row.na.iter().flat_map(|na| na.iter()) {
+            let literal = At { value: Literal::Text(key.value.clone()), start: key.start, end: key.end };
+            quantity.sentinels.push((value::value(reader, &literal, base), meaning.value.as_str().into()));
+        }
+        quantity.step = row.step.as_ref().and_then(|step| value::convert(step, base, false)).or(quantity.step);
+        item.quantity = Some(Box::new(quantity));
+    }
+
+    fn behaviour(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
+        let base = self.underlying(item.ty);
+        let mut behaviour = item.behaviour.take().map_or_else(Behaviour::default, |behaviour| *behaviour);
+        match &row.save {
+            Some(FlagOrText::Flag(true)) => behaviour.storage = Storage::Immediate,
+            Some(FlagOrText::Flag(false)) => behaviour.storage = Storage::Volatile,
+            Some(FlagOrText::Text(command)) => behaviour.storage = Storage::OnCommand(command.as_str().into()),
+            None => {}
+        }
+        if let Some(effective) = &row.effective {
+            behaviour.effective = Some(effective.as_str().into());
+        }
+        if let Some(when) = &row.when {
+            behaviour.write_when = when
+                .iter()
+                .filter_map(|(name, values)| {
+                    let one = super::at::Entries(vec![(name.clone(), values.clone())]);
+                    self.definitions.condition(reader, Some(&one))
+                })
+                .collect();
+        }
+        if let Some(values) = &row.writable {
+            behaviour.writable_values = values.iter().filter_map(|value| value::convert(value, base, false)).collect();
+        }
+        behaviour.self_clearing = row.clears.unwrap_or(behaviour.self_clearing);
+        behaviour.write_once = row.once.unwrap_or(behaviour.write_once);
+        behaviour.hidden = row.hidden.unwrap_or(behaviour.hidden);
+        if let Some(OneOrMany(effects)) = &row.effects {
+            behaviour.side_effects = effects.iter().map(|effect| effect.as_str().into()).collect();
+        }
+        item.behaviour = (behaviour != Behaviour::default()).then(|| Box::new(behaviour));
+        if let Some(per_axis) = row.per_axis {
+            item.shared_by_axes = !per_axis;
+        }
+    }
+
+    fn availability(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
+        let mut own = item.availability.take().map_or_else(Availability::default, |own| *own);
+        if let Some(models) = &row.models {
+            own.models = models.iter().map(|model| model.value.as_str().into()).collect();
+            self.references.extend(models.iter().map(|model| (model.clone(), "model")));
+        }
+        let text = |given: &Option<String>, own: Option<CompactString>| given.as_deref().map(Into::into).or(own);
+        (own.since, own.until) = (text(&row.since, own.since), text(&row.until, own.until));
+        if let Some(replaced) = &row.replaced_by {
+            own.replaced_by = Some(replaced.value.as_str().into());
+            self.references.push((replaced.clone(), "item"));
+        }
+        if let Some(OneOrMany(needs)) = &row.needs {
+            own.options = needs.iter().map(|need| need.as_str().into()).collect();
+        }
+        item.availability = (own != Availability::default()).then(|| Box::new(own));
+        if let Some(same) = &row.same_as {
+            self.references.push((same.clone(), "item"));
+            item.extensions.push(extension("same_as", &same.value, reader.span(same)));
+        }
+    }
+
+    fn words(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
+        let cite = row.cite.as_ref().map(cited);
+        if row.orig.is_some() {
+            item.names = reader.original(row.orig.as_deref());
+        }
+        if row.doc.is_some() || cite.is_some() {
+            item.documentation = reader.documentation(row.doc.as_deref(), cite.clone());
+        }
+        let doubts = [row.doubt.as_ref(), row.doubts.as_ref()];
+        item.doubts.extend(reader.doubts(doubts, item.origin, cite.as_deref()));
+        for (name, is_set) in [("reserved", row.reserved), ("optional", row.optional)] {
+            if is_set == Some(true) {
+                item.extensions.push(extension(name, "true", item.at.name));
+            }
+        }
+        if let Some(At { value: NumberOrText::Text(count), .. }) = &row.count {
+            item.extensions.push(extension("count", count, item.at.name));
+        }
+    }
+}
+
+fn extension(key: &str, value: &str, span: Span) -> Extension {
+    Extension { key: key.into(), value: value.into(), span }
+}
+
+/// Where each name is used first, for those that have to be distinct.
+#[derive(Default)]
+pub(super) struct Seen<K>(HashMap<K, Span>);
+
+impl<K: std::hash::Hash + Eq> Seen<K> {
+    /// Reports the second use of a name.
+    pub fn note(&mut self, reader: &mut Reader<'_, '_>, key: K, what: impl FnOnce() -> String, span: Span) -> bool {
+        match self.0.entry(key) {
+            std::collections::hash_map::Entry::Vacant(free) => {
+                free.insert(span);
+                true
+            }
+            std::collections::hash_map::Entry::Occupied(first) => {
+                let diagnostic = Diagnostic::new(&codes::TABLE_DUPLICATE, span, format!("{} occurs twice", what()));
+                reader.diagnostics.push(diagnostic.note_at(*first.get(), "the first is here"));
+                false
+            }
+        }
+    }
+}
+
+/// How a binding is told apart from others; `None` where two items may share it.
+pub(super) fn address(binding: &Binding) -> Option<CompactString> {
+    Some(match binding {
+        Binding::Object { index, sub_index, .. } => format_compact!("object 0x{index:04X}:{sub_index}"),
+        Binding::Register(own) if own.bit_offset.is_none() => {
+            let space = format!("{:?}", own.space).to_lowercase();
+            format_compact!("{space} register {}", own.address)
+        }
+        Binding::Parameter { space, code } => format_compact!("parameter {code} of `{space}`"),
+        Binding::Ascii(name) => format_compact!("`{name}`"),
+        _ => return None,
+    })
+}

@@ -1,0 +1,189 @@
+//! What the number of a register means on each bus.
+
+use super::at::{At, Entries};
+use super::format::{ModbusRule, ObjectRule, SpaceTable};
+use super::tree::Reader;
+use crate::diagnostics::codes;
+use crate::ir::{Binding, IndirectBinding, ObjectBuses, RegisterBinding, RegisterSpace, Value};
+use crate::source::Span;
+
+/// Bits of a number where the space doesn't say.
+const REGISTER_BITS: u8 = 16;
+
+/// A space of numbers.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Space {
+    pub name: String,
+    /// Bits that one number holds.
+    pub bits: u8,
+    modbus: Option<Modbus>,
+    canopen: Option<Objects>,
+    ethercat: Option<Objects>,
+    parameter: bool,
+    esc: bool,
+    indirect: Option<super::format::IndirectRule>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Modbus {
+    space: RegisterSpace,
+    shift: i64,
+    low_word_first: bool,
+    bytes_swapped: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Objects {
+    index: i64,
+    sub_index: u8,
+}
+
+/// Numbers of a register, and how its row wants its words.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Numbers {
+    pub first: u32,
+    /// Bits of the value, where known.
+    pub bits: Option<u32>,
+    pub low_word_first: Option<bool>,
+    pub bytes_swapped: Option<bool>,
+    /// First bit of a part.
+    pub bit_offset: Option<u8>,
+}
+
+/// The buses of an item.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Buses {
+    pub canopen: bool,
+    pub ethercat: bool,
+    pub modbus: bool,
+}
+
+impl Buses {
+    pub const ALL: Buses = Buses { canopen: true, ethercat: true, modbus: true };
+}
+
+/// Reads the spaces of a table.
+pub(super) fn read(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) -> Vec<Space> {
+    tables.iter().map(|(name, table)| space(reader, name, &table.value)).collect()
+}
+
+fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> Space {
+    Space {
+        name: name.value.clone(),
+        bits: table.bits.filter(|&bits| bits > 0).unwrap_or(REGISTER_BITS),
+        modbus: table.modbus.as_ref().map(|rule| modbus(reader, rule)),
+        canopen: table.canopen.as_ref().map(objects),
+        ethercat: table.ethercat.as_ref().map(objects),
+        parameter: table.parameter,
+        esc: table.esc,
+        indirect: table.indirect.clone(),
+    }
+}
+
+fn modbus(reader: &mut Reader<'_, '_>, rule: &ModbusRule) -> Modbus {
+    let tables = [
+        ("holding", RegisterSpace::Holding),
+        ("input", RegisterSpace::Input),
+        ("coil", RegisterSpace::Coil),
+        ("discrete", RegisterSpace::DiscreteInput),
+    ];
+    let table = rule.table.as_ref().and_then(|table| reader.word(table, "table of Modbus", &tables));
+    let order = rule.order.as_ref().and_then(|order| word_order(reader, order));
+    Modbus {
+        space: table.unwrap_or(RegisterSpace::Holding),
+        shift: rule.add.unwrap_or(0) - rule.first.unwrap_or(0),
+        low_word_first: order.unwrap_or(false),
+        bytes_swapped: rule.swap,
+    }
+}
+
+/// Whether the less significant word comes first.
+pub(super) fn word_order(reader: &mut Reader<'_, '_>, order: &At<String>) -> Option<bool> {
+    reader.word(order, "order of words", &[("high_first", false), ("low_first", true)])
+}
+
+fn objects(rule: &ObjectRule) -> Objects {
+    let index = rule.index.as_ref().map_or(0, |index| index.value);
+    Objects { index, sub_index: rule.sub.as_ref().map_or(0, |sub| sub.value) }
+}
+
+impl Space {
+    /// Index and sub-index of a register, where it is an object.
+    pub fn object(&self, number: u32) -> Option<(u16, u8)> {
+        let rule = self.canopen.or(self.ethercat)?;
+        Some((u16::try_from(rule.index + i64::from(number)).ok()?, rule.sub_index))
+    }
+
+    /// Where a register is on each bus. A number that a bus has no address for is reported.
+    pub fn bindings(&self, reader: &mut Reader<'_, '_>, numbers: Numbers, buses: Buses, span: Span) -> Vec<Binding> {
+        let mut bindings = self.object_bindings(reader, numbers, buses, span);
+        if let Some(rule) = self.modbus.filter(|_| buses.modbus) {
+            bindings.extend(self.register(reader, rule, numbers, span));
+        }
+        if self.parameter {
+            bindings.push(Binding::Parameter { space: self.name.as_str().into(), code: numbers.first });
+        }
+        if self.esc {
+            let length = numbers.bits.map_or(1, |bits| bits.div_ceil(8)) as u16;
+            match u16::try_from(numbers.first) {
+                Ok(address) => bindings.push(Binding::EscMemory { address, length }),
+                Err(_) => no_address(reader, span, numbers.first, "the memory of a slave controller"),
+            }
+        }
+        if let Some(rule) = &self.indirect {
+            bindings.push(Binding::Indirect(Box::new(IndirectBinding {
+                address_item: rule.write_address.as_deref().unwrap_or_default().into(),
+                address: Value::Int(numbers.first.into()),
+                read_item: rule.read.as_deref().map(Into::into),
+                write_item: rule.write.as_deref().map(Into::into),
+                procedure: rule.procedure.as_deref().map(Into::into),
+            })));
+        }
+        bindings
+    }
+
+    fn object_bindings(&self, reader: &mut Reader<'_, '_>, numbers: Numbers, buses: Buses, span: Span) -> Vec<Binding> {
+        let canopen = self.canopen.filter(|_| buses.canopen);
+        let ethercat = self.ethercat.filter(|_| buses.ethercat);
+        let mut bindings = Vec::new();
+        let mut add = |rule: Option<Objects>, buses: ObjectBuses| {
+            let Some(rule) = rule else { return };
+            match u16::try_from(rule.index + i64::from(numbers.first)) {
+                Ok(index) => bindings.push(Binding::Object { buses, index, sub_index: rule.sub_index }),
+                Err(_) => no_address(reader, span, numbers.first, "an object dictionary"),
+            }
+        };
+        if canopen.is_some() && canopen == ethercat {
+            add(canopen, ObjectBuses { canopen: true, coe: true });
+        } else {
+            add(canopen, ObjectBuses::CANOPEN);
+            add(ethercat, ObjectBuses::COE);
+        }
+        bindings
+    }
+
+    fn register(&self, reader: &mut Reader<'_, '_>, rule: Modbus, numbers: Numbers, span: Span) -> Option<Binding> {
+        let Ok(address) = u16::try_from(i64::from(numbers.first) + rule.shift) else {
+            no_address(reader, span, numbers.first, "Modbus");
+            return None;
+        };
+        let bits = numbers.bits.unwrap_or(u32::from(self.bits));
+        // A table of bits counts bits; registers of Modbus have 16 of them, however many a number stands for.
+        let unit = match rule.space {
+            RegisterSpace::Coil | RegisterSpace::DiscreteInput => 1,
+            _ => 16,
+        };
+        Some(Binding::Register(Box::new(RegisterBinding {
+            space: rule.space,
+            address,
+            count: u16::try_from(bits.div_ceil(unit)).unwrap_or(u16::MAX).max(1),
+            low_word_first: numbers.low_word_first.unwrap_or(rule.low_word_first),
+            bytes_swapped: numbers.bytes_swapped.unwrap_or(rule.bytes_swapped),
+            bit_offset: numbers.bit_offset,
+        })))
+    }
+}
+
+fn no_address(reader: &mut Reader<'_, '_>, span: Span, number: u32, bus: &str) {
+    reader.report(&codes::TABLE_PLACE, span, format!("number {number} has no address on {bus}"));
+}

@@ -1,0 +1,123 @@
+//! What another place of the manual says of a row, held against the row.
+
+use super::at::{At, Literal, OneOrMany};
+use super::format::SummaryTable;
+use super::objects::Dictionary;
+use super::rows::{Rows, ACCESSES, DIRECTIONS};
+use super::tree::{cited, Reader};
+use super::{types, value};
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{Access, Item, Mappable, ObjectCode, Type, Value};
+use crate::source::Span;
+use crate::text::brief;
+
+/// What is said elsewhere of a row.
+pub(super) type Summaries = At<OneOrMany<SummaryTable>>;
+
+/// Of an item.
+pub(super) fn item(reader: &mut Reader<'_, '_>, rows: &Rows, given: &Summaries, own: &Item) {
+    for summary in &given.value.0 {
+        of_item(reader, rows, summary, own);
+        if let Some(subs) = summary.subs.as_ref().filter(|subs| subs.value != 1) {
+            let message = format!("the summary says {} sub-indices, and it is one value", subs.value);
+            report(reader, summary, reader.span(subs), message);
+        }
+    }
+}
+
+/// Of objects that have sub-entries: each of them but sub-index 0 is meant.
+pub(super) fn objects(reader: &mut Reader<'_, '_>, rows: &Rows, dictionary: &Dictionary) {
+    for (index, given) in &rows.summaries {
+        let Some(group) = dictionary.get(index) else { continue };
+        for summary in &given.value.0 {
+            let elements = group.items.iter().filter(|item| item.object().is_some_and(|(_, sub)| sub > 0));
+            for item in elements.filter(|item| item.ty != Type::Opaque(None)) {
+                if of_item(reader, rows, summary, item) {
+                    break;
+                }
+            }
+            let (Some(subs), count) = (&summary.subs, group.items.len()) else { continue };
+            if subs.value as usize != count && group.object_code() != Some(ObjectCode::Var) {
+                let message = format!("the summary says {} sub-indices, and {count} are described", subs.value);
+                report(reader, summary, reader.span(subs), message);
+            }
+        }
+    }
+}
+
+fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, message: String) {
+    let found = Diagnostic::new(&codes::SUMMARY_DIFFERS, span, message).label("the row is used");
+    reader.diagnostics.push(match &summary.cite {
+        Some(cite) => found.note(format!("cited from {}", cited(cite))),
+        None => found,
+    });
+}
+
+/// Whether anything differs.
+fn of_item(reader: &mut Reader<'_, '_>, rows: &Rows, summary: &SummaryTable, own: &Item) -> bool {
+    let base = rows.underlying(own.ty);
+    let mut differs = Vec::new();
+    if let Some(given) = &summary.ty {
+        let named = types::named(&given.value).filter(|named| named.elements.is_none());
+        match named {
+            Some(named) if named.ty != base => {
+                differs.push((reader.span(given), named.ty.to_string(), base.to_string()))
+            }
+            Some(_) => {}
+            None => {
+                let message = format!("`{}` is no type", brief(&given.value));
+                reader.report(&codes::TABLE_VALUE, reader.span(given), message);
+            }
+        }
+    }
+    let rights = |access: Access| (access.readable(), access.writable());
+    if let Some(given) = &summary.access {
+        let access = reader.word(given, "access", &ACCESSES);
+        if access.is_some_and(|access| rights(access) != rights(own.access)) {
+            differs.push((reader.span(given), given.value.clone(), own.access.name().to_owned()));
+        }
+    }
+    if let Some(given) = &summary.pdo {
+        let mappable = reader.word(given, "direction of PDOs", &DIRECTIONS);
+        if mappable.is_some_and(|mappable| mappable != own.mappable) {
+            differs.push((reader.span(given), given.value.clone(), direction(own.mappable).to_owned()));
+        }
+    }
+    if let (Some(given), Some(bits)) = (&summary.length, base.bits()) {
+        if given.value.checked_mul(8) != Some(bits) {
+            differs.push((reader.span(given), format!("{} bytes", given.value), format!("{base}")));
+        }
+    }
+    numbers(reader, summary, own, base, &mut differs);
+    let found = !differs.is_empty();
+    for (span, says, has) in differs {
+        report(reader, summary, span, format!("the summary says {}, and the row {has}", brief(&says)));
+    }
+    found
+}
+
+/// Limits and default, where both places give them.
+fn numbers(
+    reader: &Reader<'_, '_>,
+    summary: &SummaryTable,
+    own: &Item,
+    base: Type,
+    differs: &mut Vec<(Span, String, String)>,
+) {
+    let pairs: [(&Option<At<Literal>>, Option<&Value>); 3] = [
+        (&summary.min, own.limits.low.as_ref()),
+        (&summary.max, own.limits.high.as_ref()),
+        (&summary.default, own.default.as_ref()),
+    ];
+    for (given, has) in pairs {
+        let (Some(given), Some(has)) = (given, has) else { continue };
+        let says = value::convert(&given.value, base, reader.is_pattern(given));
+        if let Some(says) = says.filter(|says| says != has) {
+            differs.push((reader.span(given), says.to_string(), has.to_string()));
+        }
+    }
+}
+
+fn direction(own: Mappable) -> &'static str {
+    DIRECTIONS.iter().find(|(_, mappable)| *mappable == own).map_or("no", |(word, _)| word)
+}

@@ -1,0 +1,370 @@
+//! From the text of a table to the pieces of `format`, with every error at its place.
+
+use std::collections::HashMap;
+
+use compact_str::CompactString;
+use serde::de::DeserializeOwned;
+use serde_spanned::Spanned;
+use toml::de::{DeString, DeTable, DeValue, ValueDeserializer};
+
+use super::at::{At, Literal};
+use super::format::{DoubtTable, NumberOrText, OptionTable};
+use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
+use crate::ir::{Documentation, Doubt, LocalText, Texts};
+use crate::source::{FileId, Origin, Source, Span};
+use crate::text::{brief, edit_distance};
+
+/// A value of the file.
+pub(super) type Node<'a> = Spanned<DeValue<'a>>;
+
+/// So many names are listed where none is like the one that was looked for.
+const MAX_LISTED: usize = 12;
+
+/// The state of reading one file.
+pub(super) struct Reader<'a, 'd> {
+    pub source: &'a Source,
+    pub file: FileId,
+    pub diagnostics: &'d mut Diagnostics,
+    /// The manual's language.
+    pub language: CompactString,
+}
+
+impl<'a> Reader<'a, '_> {
+    /// The tables of the file; `None` where it is no TOML.
+    pub fn parse(&mut self) -> Option<DeTable<'a>> {
+        let source = self.source;
+        let (table, errors) = DeTable::parse_recoverable(source.text());
+        // One mistake brings others behind it, of which those on its line, or nowhere, say nothing new.
+        let mut last_line = 0;
+        for (position, error) in errors.iter().enumerate() {
+            let span = self.range(error.span());
+            let line = self.source.position(span.start).line;
+            let follows = std::mem::replace(&mut last_line, line) == line || error.span().is_none();
+            if position == 0 || !follows {
+                let message = format!("this is no TOML: {}", first_line(error.message()));
+                let diagnostic = Diagnostic::new(&codes::TABLE_SYNTAX, self.visible(span), message);
+                self.diagnostics.push(match hint(error.message()) {
+                    Some(hint) => diagnostic.help(hint),
+                    None => diagnostic,
+                });
+            }
+        }
+        errors.is_empty().then(|| table.into_inner())
+    }
+
+    /// Reads a piece. What is wrong with it is reported; unknown keys are left out, so that the rest counts.
+    pub fn piece<T: DeserializeOwned>(&mut self, node: Node<'a>) -> Option<T> {
+        let whole = self.range(Some(node.span()));
+        let mut node = node;
+        loop {
+            let error = match T::deserialize(ValueDeserializer::from(node.clone())) {
+                Ok(piece) => return Some(piece),
+                Err(error) => error,
+            };
+            let span = self.range(error.span());
+            let span = if error.span().is_some() { span } else { whole };
+            let message = first_line(error.message());
+            match unknown_key(message) {
+                Some((key, known)) => {
+                    self.unknown_key(key, &known, span);
+                    // A key that is misspelt is read as the one that was meant, so that nothing more is said of it.
+                    let meant = similar(key, known.iter().copied());
+                    if !remove(node.get_mut(), span, key, meant) {
+                        return None;
+                    }
+                }
+                None => {
+                    let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, span, message.to_owned());
+                    self.diagnostics
+                        .push(diagnostic.help("`lexibus schema` and dictionaries/README.md say what it may be"));
+                    return None;
+                }
+            }
+        }
+    }
+
+    /// The entries of a table in the order of the file.
+    pub fn entries(&mut self, node: Node<'a>, what: &str) -> Vec<(At<String>, Node<'a>)> {
+        let span = node.span();
+        let DeValue::Table(table) = node.into_inner() else {
+            let message = format!("`{what}` is a table");
+            self.diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, self.range(Some(span)), message));
+            return Vec::new();
+        };
+        sorted(table)
+    }
+
+    /// The elements of an array of tables.
+    pub fn elements(&mut self, node: Node<'a>, what: &str) -> Vec<Node<'a>> {
+        let span = node.span();
+        match node.into_inner() {
+            DeValue::Array(list) => list.into_iter().collect(),
+            _ => {
+                let message = format!("`{what}` is a list of tables: write `[[{what}]]`");
+                self.diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, self.range(Some(span)), message));
+                Vec::new()
+            }
+        }
+    }
+
+    /// Reports a key that the format doesn't have.
+    pub fn unknown_key(&mut self, key: &str, known: &[&str], span: Span) {
+        let message = format!("the format has no key `{}` here", brief(key));
+        let diagnostic = Diagnostic::new(&codes::UNKNOWN_TABLE_KEY, span, message);
+        let is_number = key.starts_with(|letter: char| letter.is_ascii_digit() || letter == '-');
+        let inner = ["at", "values"].into_iter().find(|inner| is_number && known.contains(inner));
+        self.diagnostics.push(match similar(key, known.iter().copied()) {
+            _ if inner == Some("at") => diagnostic.help("bits stand in `at`: write `[bits.NAME.at]`"),
+            _ if inner.is_some() => diagnostic.help("values stand in `values`: write `[enums.NAME.values]`"),
+            Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
+            None if known.len() <= MAX_LISTED => diagnostic.help(format!("known here: {}", known.join(", "))),
+            None => diagnostic.help("dictionaries/README.md has all keys"),
+        });
+    }
+
+    /// Reports a name that leads nowhere.
+    pub fn unresolved<'n>(&mut self, what: &str, name: &str, span: Span, known: impl Iterator<Item = &'n str>) {
+        let message = format!("there is no {what} called `{}`", brief(name));
+        let diagnostic = Diagnostic::new(&codes::UNRESOLVED_NAME, span, message);
+        let known: Vec<&str> = known.collect();
+        self.diagnostics.push(match similar(name, known.iter().copied()) {
+            Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
+            None if (1..=MAX_LISTED).contains(&known.len()) => {
+                let known: Vec<&str> = known.into_iter().map(brief).collect();
+                diagnostic.help(format!("there are: {}", known.join(", ")))
+            }
+            None => diagnostic,
+        });
+    }
+
+    pub fn report(&mut self, code: &'static Code, span: Span, message: impl Into<String>) {
+        self.diagnostics.push(Diagnostic::new(code, span, message));
+    }
+
+    /// One of a few words; anything else is reported.
+    pub fn word<T: Copy>(&mut self, given: &At<String>, what: &str, words: &[(&str, T)]) -> Option<T> {
+        let found = words.iter().find(|(word, _)| *word == given.value).map(|&(_, value)| value);
+        if found.is_none() {
+            let known: Vec<&str> = words.iter().map(|&(word, _)| word).collect();
+            let message = format!("`{}` is no {what}", brief(&given.value));
+            let help = format!("one of {}", known.join(", "));
+            self.diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, self.span(given), message).help(help));
+        }
+        found
+    }
+
+    pub fn span<T>(&self, at: &At<T>) -> Span {
+        Span::new(self.file, at.start, at.end)
+    }
+
+    pub fn origin<T>(&self, at: &At<T>) -> Origin {
+        Origin { span: self.span(at), line: self.source.position(at.start).line }
+    }
+
+    /// A place that can be shown: where nothing is marked, the letter before.
+    fn visible(&self, span: Span) -> Span {
+        let before =
+            self.source.text().get(..span.start as usize).and_then(|text| text.trim_end().char_indices().last());
+        match before.filter(|_| span.is_empty()) {
+            Some((at, letter)) => Span { start: at as u32, end: (at + letter.len_utf8()) as u32, ..span },
+            None => span,
+        }
+    }
+
+    fn range(&self, range: Option<std::ops::Range<usize>>) -> Span {
+        let range = range.unwrap_or(0..0);
+        Span::new(self.file, range.start as u32, range.end as u32)
+    }
+
+    /// Whether a number is written in hexadecimal, or as bits.
+    pub fn is_pattern<T>(&self, at: &At<T>) -> bool {
+        let text = self.source.slice(self.span(at)).trim_start_matches(['"', '\'']);
+        text.starts_with("0x") || text.starts_with("0X") || text.starts_with("0b")
+    }
+
+    /// What the source says about an element.
+    pub fn documentation(&self, doc: Option<&str>, cite: Option<String>) -> Option<Box<Documentation>> {
+        if doc.is_none() && cite.is_none() {
+            return None;
+        }
+        let text = doc.unwrap_or_default().to_owned();
+        Some(Box::new(Documentation { text, translations: Texts::default(), cite: cite.map(CompactString::from) }))
+    }
+
+    /// A name in the manual's language.
+    pub fn original(&self, orig: Option<&str>) -> Texts {
+        let language = || if self.language.is_empty() { "und".into() } else { self.language.clone() };
+        orig.map(|text| LocalText { language: language(), text: text.into() }).into_iter().collect()
+    }
+
+    pub fn doubts(
+        &self,
+        lists: [Option<&super::at::OneOrMany<DoubtTable>>; 2],
+        origin: Origin,
+        cite: Option<&str>,
+    ) -> Vec<Doubt> {
+        let tables = lists.into_iter().flatten().flat_map(|list| &list.0);
+        let doubt = |table: &DoubtTable| Doubt {
+            says: table.says.clone(),
+            chosen: table.chose.clone(),
+            why: table.why.clone(),
+            origin,
+            cite: table.cite.as_ref().map(cited).or(cite.map(str::to_owned)).map(CompactString::from),
+        };
+        tables.map(doubt).collect()
+    }
+}
+
+/// Pages or lines as one text.
+pub(super) fn cited(list: &super::at::OneOrMany<NumberOrText>) -> String {
+    let one = |place: &NumberOrText| match place {
+        NumberOrText::Number(number) => number.to_string(),
+        NumberOrText::Text(text) => text.clone(),
+    };
+    list.0.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
+/// The most similar of the names that exist, if any is similar at all.
+pub(super) fn similar<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+    let lower = brief(name).to_lowercase();
+    let best = known.map(|other| (edit_distance(&lower, &other.to_lowercase()), other)).min()?;
+    (best.0 * 3 <= lower.chars().count().max(3)).then_some(best.1)
+}
+
+/// Entries by their place: the parser sorts by name.
+pub(super) fn sorted<'a>(table: DeTable<'a>) -> Vec<(At<String>, Node<'a>)> {
+    let place = |key: Spanned<DeString<'a>>| {
+        let span = key.span();
+        At { value: key.into_inner().into_owned(), start: span.start as u32, end: span.end as u32 }
+    };
+    let mut entries: Vec<_> = table.into_iter().map(|(key, value)| (place(key), value)).collect();
+    entries.sort_by_key(|(key, _)| key.start);
+    entries
+}
+
+/// What of a message of `serde` is about a key that isn't known: the key, and those that are.
+fn unknown_key(message: &str) -> Option<(&str, Vec<&str>)> {
+    let rest = message.strip_prefix("unknown field `")?;
+    let (key, rest) = rest.split_once('`')?;
+    let known = rest.split('`').skip(1).step_by(2).collect();
+    Some((key, known))
+}
+
+/// What is usually meant where a table isn't TOML.
+fn hint(message: &str) -> Option<&'static str> {
+    let has = |part: &str| message.contains(part);
+    match () {
+        () if has("key with no value") => Some("a name of several words stands in quotes: `\"pump speed\" = { … }`"),
+        () if has("invalid date") || has("invalid time") || has("invalid datetime") => {
+            Some("a range of registers stands in quotes: `reg = \"63-64\"`")
+        }
+        () if has("duplicate key") => Some("two rows of one chapter, or two keys of one row, can't have the same name"),
+        () => None,
+    }
+}
+
+fn first_line(message: &str) -> &str {
+    message.lines().next().unwrap_or_default()
+}
+
+/// Takes the key that stands at `span` out of the tables of `value`, or makes it the one that was meant.
+fn remove(value: &mut DeValue<'_>, span: Span, key: &str, meant: Option<&str>) -> bool {
+    match value {
+        DeValue::Table(table) => {
+            let here =
+                table.keys().find(|own| own.get_ref() == key && own.span().start == span.start as usize).cloned();
+            match here {
+                Some(own) => {
+                    let value = table.remove(&own);
+                    if let Some((meant, value)) = meant.filter(|meant| !table.contains_key(*meant)).zip(value) {
+                        table.insert(Spanned::new(own.span(), meant.to_owned().into()), value);
+                    }
+                    true
+                }
+                None => table.iter_mut().any(|(_, inner)| remove(inner.get_mut(), span, key, meant)),
+            }
+        }
+        DeValue::Array(list) => list.iter_mut().any(|inner| remove(inner.get_mut(), span, key, meant)),
+        _ => false,
+    }
+}
+
+/// Puts the chosen values in the places of `$name`. Returns the names that no option has, with their places.
+pub(super) fn choose<'a>(value: &mut Node<'a>, chosen: &HashMap<String, DeValue<'a>>) {
+    match value.get_mut() {
+        DeValue::String(text) => {
+            if let Some(choice) = text.strip_prefix('$').and_then(|name| chosen.get(name)) {
+                *value.get_mut() = choice.clone();
+            }
+        }
+        DeValue::Array(list) => list.iter_mut().for_each(|inner| choose(inner, chosen)),
+        DeValue::Table(table) => table.iter_mut().for_each(|(_, inner)| choose(inner, chosen)),
+        _ => {}
+    }
+}
+
+/// The value of each option: what the caller chose, else its default.
+pub(super) fn choices<'a>(
+    reader: &mut Reader<'a, '_>,
+    options: &[(At<String>, OptionTable, Node<'a>)],
+    chosen: &[(String, String)],
+) -> HashMap<String, DeValue<'a>> {
+    let mut values = HashMap::new();
+    for (name, option, node) in options {
+        let by_caller = chosen.iter().rev().find(|(own, _)| *own == name.value);
+        let (choice, span) = match (by_caller, &option.default) {
+            (Some((_, choice)), _) => (choice.as_str(), reader.span(name)),
+            (None, Some(default)) => (default.value.as_str(), reader.span(default)),
+            (None, None) => {
+                let message = format!("the option `{}` has no `default`", brief(&name.value));
+                reader.report(&codes::TABLE_VALUE, reader.span(name), message);
+                continue;
+            }
+        };
+        let choices = node.get_ref().as_table().and_then(|table| table.get("choices"));
+        let choices = choices.and_then(|choices| choices.get_ref().as_table());
+        let value = choices.and_then(|choices| choices.get(choice));
+        if value.is_none() {
+            let known = option.choices.iter().map(|(key, _)| key.value.as_str());
+            reader.unresolved(&format!("choice of the option `{}`", name.value), choice, span, known);
+        }
+        // With any of the others the rest of the table can be read.
+        if let Some(value) = value.or_else(|| choices?.values().next()) {
+            values.insert(name.value.clone(), value.get_ref().clone());
+        }
+    }
+    for (name, _) in chosen {
+        if !options.iter().any(|(own, ..)| own.value == *name) {
+            let known = options.iter().map(|(own, ..)| own.value.as_str());
+            reader.unresolved("option of this table", name, Span::new(reader.file, 0, 0), known);
+        }
+    }
+    values
+}
+
+/// Texts `$name` that no option replaced.
+pub(super) fn undecided(reader: &mut Reader<'_, '_>, value: &Node<'_>, known: &[String]) {
+    match value.get_ref() {
+        DeValue::String(text) => {
+            let is_name = |name: &str| name.starts_with(|c: char| c.is_ascii_lowercase());
+            let is_known = |name: &str| known.iter().any(|own| own == name);
+            if let Some(name) = text.strip_prefix('$').filter(|name| is_name(name) && !is_known(name)) {
+                let span = reader.range(Some(value.span()));
+                reader.unresolved("option", name, span, known.iter().map(String::as_str));
+            }
+        }
+        DeValue::Array(list) => list.iter().for_each(|inner| undecided(reader, inner, known)),
+        DeValue::Table(table) => table.iter().for_each(|(_, inner)| undecided(reader, inner, known)),
+        _ => {}
+    }
+}
+
+/// A literal as text.
+pub(super) fn text_of(literal: &Literal) -> String {
+    match literal {
+        Literal::Bool(value) => value.to_string(),
+        Literal::Int(value) => value.to_string(),
+        Literal::Real(value) => value.to_string(),
+        Literal::Text(text) => text.clone(),
+    }
+}

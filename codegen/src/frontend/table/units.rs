@@ -1,0 +1,96 @@
+//! Symbols of units.
+
+/// Symbols of single units: the SI's and those of drives. Products, quotients and powers are made of them.
+const SYMBOLS: [&str; 74] = [
+    "%", "%RH", "1", "A", "Ah", "Bd", "C", "F", "GHz", "H", "Hz", "J", "K", "MB", "MHz", "Mbit", "MΩ", "N", "Nm", "Pa",
+    "V", "VA", "VAh", "W", "Wh", "bar", "bit", "byte", "cm", "count", "counts", "d", "dB", "deg", "g", "h", "in", "kA",
+    "kB", "kHz", "kN", "kV", "kVA", "kW", "kWh", "kbit", "kg", "kΩ", "l", "m", "mA", "mH", "mNm", "mV", "mW", "mbar",
+    "min", "mm", "ms", "mΩ", "nF", "ns", "pF", "ppm", "pulse", "rad", "rev", "rpm", "s", "step", "steps", "us", "var",
+    "Ω",
+];
+
+/// Those with a sign in front of a letter.
+const SIGNS: [&str; 11] = ["°", "°C", "°F", "µs", "µA", "µm", "µV", "µH", "µF", "μs", "μm"];
+
+/// Whether this is the symbol of a unit: `rev/s²`, `kg·m²`, `mNm/A`.
+pub(super) fn is_known(symbol: &str) -> bool {
+    symbol.split(['/', '·']).all(|part| {
+        let single = part.trim_end_matches(['²', '³']);
+        SYMBOLS.contains(&single) || SIGNS.contains(&single)
+    })
+}
+
+/// The symbol of a unit that is spelled in another way.
+pub(super) fn usual(text: &str) -> Option<&'static str> {
+    const SPELLINGS: &[(&str, &[&str])] = &[
+        (
+            "°C",
+            &[
+                "degc",
+                "deg c",
+                "℃",
+                "c°",
+                "ºc",
+                "celsius",
+                "deg. c",
+                "° c",
+                "grad c",
+                "degrees c",
+                "grad celsius",
+                "gradi",
+            ],
+        ),
+        ("°F", &["degf", "deg f", "℉", "ºf", "fahrenheit"]),
+        ("s", &["sec", "secs", "second", "seconds", "sek", "secondi"]),
+        ("ms", &["msec", "millisecond", "milliseconds"]),
+        ("min", &["mins", "minute", "minutes", "minuti", "minuten"]),
+        ("h", &["hour", "hours", "hr", "hrs", "ore", "std", "stunden"]),
+        ("V", &["volt", "volts"]),
+        ("A", &["amp", "amps", "ampere", "amperes"]),
+        ("W", &["watt", "watts"]),
+        ("Hz", &["hertz"]),
+        ("kW", &["kilowatt"]),
+        ("kWh", &["kw h", "kw·h"]),
+        ("var", &["vars"]),
+        ("Ω", &["ohm", "ohms"]),
+        ("rpm", &["1/min", "u/min", "rev/min", "r/min", "giri/min", "min-1", "min⁻¹"]),
+        ("%", &["percent", "pct", "prozent"]),
+        ("%RH", &["% rh", "%rh", "rh%", "%r.h."]),
+        ("µs", &["us", "μs"]),
+        ("µA", &["ua", "μa"]),
+        ("l/min", &["lpm", "lt/min"]),
+        ("m³", &["m3", "m^3"]),
+        ("m³/h", &["m3/h", "m^3/h"]),
+        ("m²", &["m2", "m^2"]),
+        ("deg", &["degree", "degrees"]),
+    ];
+    let lower = text.to_lowercase();
+    let known = SPELLINGS.iter().find(|(_, spellings)| spellings.contains(&lower.as_str()));
+    // A lower case of V, A or W is no other unit.
+    let cased = ["V", "A", "W", "kW", "kWh", "Wh", "kV", "mV", "mA", "kVA", "VA", "Hz", "kHz", "var", "bar", "Nm"];
+    let cased = || cased.into_iter().find(|own| own.to_lowercase() == lower && !matches!(text, "a" | "mw"));
+    known.map(|&(symbol, _)| symbol).or_else(cased)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{is_known, usual};
+
+    #[test]
+    fn symbols_and_what_is_made_of_them() {
+        for symbol in ["rpm", "rev/s²", "kg·m²", "mNm/A", "mm/count", "°C", "µs", "kbit/s"] {
+            assert!(is_known(symbol), "{symbol}");
+        }
+        for symbol in ["", "velocity", "rev/", "m^2", "/s", "mms"] {
+            assert!(!is_known(symbol), "{symbol}");
+        }
+    }
+
+    #[test]
+    fn spellings_of_units() {
+        for (text, symbol) in [("degC", "°C"), ("Volts", "V"), ("KW", "kW"), ("1/min", "rpm"), ("m3/h", "m³/h")] {
+            assert_eq!(usual(text), Some(symbol), "{text}");
+        }
+        assert_eq!(usual("furlong"), None);
+    }
+}

@@ -1,0 +1,120 @@
+//! Literals to values of a type.
+
+use super::at::{At, Literal};
+use super::place;
+use super::tree::{text_of, Reader};
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{Type, Value};
+use crate::text::brief;
+
+/// The value of a literal, for a type that is no alias; a literal that can't be one is reported and kept as text.
+pub(super) fn value(reader: &mut Reader<'_, '_>, given: &At<Literal>, ty: Type) -> Value {
+    let is_pattern = reader.is_pattern(given);
+    match convert(&given.value, ty, is_pattern) {
+        Some(value) => {
+            super::lints::number(reader, given, &value, ty);
+            value
+        }
+        None => {
+            let text = text_of(&given.value);
+            let span = reader.span(given);
+            let diagnostic =
+                Diagnostic::new(&codes::TABLE_VALUE, span, format!("`{}` is no value of {ty}", brief(&text)));
+            let is_real = matches!(given.value, Literal::Real(_));
+            reader.diagnostics.push(match is_real {
+                true => diagnostic.help("limits and defaults are what the device holds, before `scale`"),
+                false => diagnostic,
+            });
+            Value::Raw(text.into())
+        }
+    }
+}
+
+/// The value of a literal; `is_pattern` where its digits are bits, of which the first is the sign.
+pub(super) fn convert(literal: &Literal, ty: Type, is_pattern: bool) -> Option<Value> {
+    if let Literal::Text(text) = literal {
+        return of_text(text, ty);
+    }
+    Some(match (ty, literal) {
+        (Type::Boolean, Literal::Int(value @ (0 | 1))) => Value::Bool(*value == 1),
+        (Type::Real32 | Type::Real64, Literal::Int(value)) => Value::Real(*value as f64),
+        (Type::Integer(bits), Literal::Int(value)) => Value::Int(signed(*value, bits, is_pattern)),
+        (Type::VisibleString(_) | Type::UnicodeString(_) | Type::OctetString(_), _) => return None,
+        (Type::Integer(_) | Type::Unsigned(_), Literal::Real(_)) => return None,
+        (_, Literal::Bool(value)) => Value::Bool(*value),
+        (_, Literal::Int(value)) => Value::Int(*value),
+        (_, Literal::Real(value)) => Value::Real(*value),
+        (_, Literal::Text(_)) => return None,
+    })
+}
+
+/// A bit pattern has no other way to be negative.
+fn signed(value: i128, bits: u8, is_pattern: bool) -> i128 {
+    let modulus = 1i128 << bits.min(64);
+    if is_pattern && value >= modulus / 2 && value < modulus {
+        value - modulus
+    } else {
+        value
+    }
+}
+
+fn of_text(text: &str, ty: Type) -> Option<Value> {
+    match ty {
+        Type::VisibleString(_) | Type::UnicodeString(_) | Type::Domain | Type::Opaque(_) => {
+            Some(Value::Text(text.into()))
+        }
+        Type::OctetString(_) => octets(text).map(Value::Bytes),
+        Type::Real32 | Type::Real64 => text.parse().ok().map(Value::Real),
+        Type::Boolean => None,
+        _ => node_id(text).map(Value::NodeId).or_else(|| {
+            let digits = text.trim_start_matches(['+', '-']);
+            let value = place::integer(text)?;
+            convert(&Literal::Int(value), ty, digits.starts_with("0x") || digits.starts_with("0b"))
+        }),
+    }
+}
+
+/// `$NODEID`, `$NODEID+0x80`, `0x80+$NODEID`.
+fn node_id(text: &str) -> Option<i128> {
+    let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
+    let rest = match (text.strip_prefix("$NODEID"), text.strip_suffix("+$NODEID")) {
+        (Some(rest), _) => rest,
+        (None, Some(rest)) => rest,
+        (None, None) => return None,
+    };
+    if rest.is_empty() {
+        return Some(0);
+    }
+    place::integer(rest)
+}
+
+/// `01 02`, `0x01,0x02`, `0102`.
+fn octets(text: &str) -> Option<Vec<u8>> {
+    let digits = text.replace("0x", "").replace([' ', ',', ':'], "");
+    if !digits.is_ascii() || !digits.len().is_multiple_of(2) {
+        return None;
+    }
+    (0..digits.len()).step_by(2).map(|at| u8::from_str_radix(digits.get(at..at + 2)?, 16).ok()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn literals_become_values_of_their_type() {
+        let int = |value| Literal::Int(value);
+        let text = |text: &str| Literal::Text(text.into());
+        assert_eq!(convert(&int(0x8000), Type::Integer(16), true), Some(Value::Int(-32768)));
+        assert_eq!(convert(&int(0x8000), Type::Integer(16), false), Some(Value::Int(0x8000)));
+        assert_eq!(convert(&int(1), Type::Boolean, false), Some(Value::Bool(true)));
+        assert_eq!(convert(&int(2), Type::Real32, false), Some(Value::Real(2.0)));
+        assert_eq!(convert(&int(2), Type::VisibleString(None), false), None);
+        assert_eq!(convert(&text("$NODEID+0x80"), Type::Unsigned(32), false), Some(Value::NodeId(0x80)));
+        assert_eq!(convert(&text("0x80 + $NODEID"), Type::Unsigned(32), false), Some(Value::NodeId(0x80)));
+        assert_eq!(convert(&text("0xFF"), Type::Integer(8), false), Some(Value::Int(-1)));
+        assert_eq!(convert(&text("x"), Type::Unsigned(8), false), None);
+        assert_eq!(convert(&text("01 02"), Type::OctetString(None), false), Some(Value::Bytes(vec![1, 2])));
+        assert_eq!(convert(&text("é"), Type::OctetString(None), false), None);
+    }
+}

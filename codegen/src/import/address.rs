@@ -1,0 +1,342 @@
+//! Where a register is: numbers, ranges, bits, tables of Modbus, objects.
+
+use super::cells::{self, hexadecimal};
+
+/// A table of Modbus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) enum Table {
+    Holding,
+    Input,
+    Coil,
+    Discrete,
+}
+
+impl Table {
+    /// Its word in the format.
+    pub fn name(self) -> &'static str {
+        match self {
+            Table::Holding => "holding",
+            Table::Input => "input",
+            Table::Coil => "coil",
+            Table::Discrete => "discrete",
+        }
+    }
+
+    /// Whether it is a table of bits.
+    pub fn is_bits(self) -> bool {
+        matches!(self, Table::Coil | Table::Discrete)
+    }
+
+    /// Whether a master can't write it.
+    pub fn is_read_only(self) -> bool {
+        matches!(self, Table::Input | Table::Discrete)
+    }
+
+    /// The table of a number with the table's digit in front (40001), and the number of its first register.
+    pub fn of_number(number: u32) -> Option<(Table, u32)> {
+        let found = match number {
+            1..=9_999 => (Table::Coil, 1),
+            10_001..=19_999 => (Table::Discrete, 10_001),
+            30_001..=39_999 => (Table::Input, 30_001),
+            40_001..=49_999 => (Table::Holding, 40_001),
+            100_001..=165_536 => (Table::Discrete, 100_001),
+            300_001..=365_536 => (Table::Input, 300_001),
+            400_001..=465_536 => (Table::Holding, 400_001),
+            _ => return None,
+        };
+        Some(found)
+    }
+
+    fn of_digit(digit: char) -> Option<Table> {
+        Some(match digit {
+            '0' => Table::Coil,
+            '1' => Table::Discrete,
+            '3' => Table::Input,
+            '4' => Table::Holding,
+            _ => return None,
+        })
+    }
+}
+
+/// What a cell says of an address.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Address {
+    pub first: u32,
+    /// The end of a range.
+    pub last: Option<u32>,
+    /// The table, where the cell names one.
+    pub table: Option<Table>,
+    /// Lowest and highest bit, for a part of a register.
+    pub bits: Option<(u8, u8)>,
+    pub is_hex: bool,
+}
+
+/// How a column writes its addresses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Style {
+    /// Bare digits are hexadecimal.
+    pub is_hex: bool,
+    /// `4x0001`, and so `0x0001` for coils.
+    pub is_x: bool,
+    /// A spreadsheet made fractions of all numbers: `40001.0`.
+    pub is_fraction: bool,
+}
+
+impl Style {
+    /// The style of a column.
+    pub fn of<'c>(cells: impl Iterator<Item = &'c str> + Clone, is_hex: bool) -> Style {
+        let mut filled = cells.filter(|text| !cells::is_blank(text));
+        let is_x = filled.clone().any(|text| x_notation(text).is_some_and(|(digit, _)| digit != '0'));
+        let is_fraction = filled.clone().next().is_some() && filled.clone().all(|text| text.ends_with(".0"));
+        // Letters in the digits of one number show that all are hexadecimal.
+        let letters = |text: &str| {
+            let is_plain = !text.is_empty() && text.chars().all(|digit| digit.is_ascii_hexdigit());
+            is_plain
+                && text.contains(|digit: char| digit.is_ascii_alphabetic())
+                && text.contains(|c: char| c.is_ascii_digit())
+        };
+        Style { is_hex: is_hex || filled.any(letters), is_x, is_fraction }
+    }
+}
+
+/// `4x0012`: the digit, and the number.
+fn x_notation(text: &str) -> Option<(char, u32)> {
+    let mut letters = text.chars();
+    let digit = letters.next().filter(|digit| matches!(digit, '0' | '1' | '3' | '4'))?;
+    letters.next().filter(|mark| matches!(mark, 'x' | 'X'))?;
+    let digits = letters.as_str();
+    let is_number = !digits.is_empty() && digits.chars().all(|digit| digit.is_ascii_digit());
+    is_number.then(|| Some((digit, digits.parse().ok()?))).flatten()
+}
+
+/// Reads the address of a cell.
+pub(super) fn read(text: &str, style: Style) -> Option<Address> {
+    let text = text.trim();
+    let text = if style.is_fraction { text.strip_suffix(".0").unwrap_or(text) } else { text };
+    let (place, bits) = part_of(text);
+    let (first, last) = ends(place);
+    let start = single(first, style)?;
+    let last = match last {
+        Some(last) => Some(end_of(start.first, last, style)?),
+        None => None,
+    };
+    let last = last.filter(|&last| last > start.first);
+    Some(Address { last, bits, ..start })
+}
+
+/// A number of a register and the bits of it: `40010.3`, `40010 bit 3`, `40010:0-3`.
+fn part_of(text: &str) -> (&str, Option<(u8, u8)>) {
+    let lower = text.to_ascii_lowercase();
+    let by_word = lower.find("bit").map(|at| (at, at + 3));
+    let by_mark = || {
+        let at = text.find(['.', ':'])?;
+        // `40001..40002` is a range.
+        let is_range = text.get(at + 1..).is_some_and(|rest| rest.starts_with('.'));
+        (!is_range).then_some((at, at + 1))
+    };
+    let divided = by_word.or_else(by_mark).and_then(|(end, start)| Some((text.get(..end)?, text.get(start..)?)));
+    let marks = |letter: char| letter.is_whitespace() || matches!(letter, '.' | ':' | '/' | '_' | '-' | 's');
+    match divided
+        .and_then(|(place, rest)| Some((place.trim_end_matches(marks), bit_range(rest.trim_start_matches(marks))?)))
+    {
+        Some((place, bits)) => (place, Some(bits)),
+        None => (text, None),
+    }
+}
+
+/// `3`, `0-3`, `15..8`: lowest and highest bit.
+pub(super) fn bit_range(text: &str) -> Option<(u8, u8)> {
+    let text = text.trim().trim_start_matches(['b', 'B']).trim_matches(['[', ']', ' ']);
+    let (one, other) = text.split_once("..").or_else(|| text.split_once(['-', '–', ':', '~'])).unwrap_or((text, text));
+    let (one, other): (u8, u8) = (one.trim().parse().ok()?, other.trim().parse().ok()?);
+    let (low, high) = (one.min(other), one.max(other));
+    (high < 64).then_some((low, high))
+}
+
+/// The bits that a mask has, where they are neighbours: `0x00F0` is `(4, 7)`.
+pub(super) fn mask(text: &str) -> Option<(u8, u8)> {
+    let value = u64::try_from(hexadecimal(text, false)?).ok().filter(|&value| value > 0)?;
+    let low = value.trailing_zeros();
+    let bits = (value >> low).trailing_ones();
+    let is_whole = bits == value.count_ones();
+    is_whole.then_some((low as u8, (low + bits - 1) as u8))
+}
+
+/// Start and end of a range.
+fn ends(text: &str) -> (&str, Option<&str>) {
+    let words = ["..", "…", "~", " to ", " bis ", "–", "-", "/", "&", "+"];
+    let divided = words.into_iter().find_map(|word| text.split_once(word));
+    let list = || {
+        // `40,001` has its thousands apart; `40001, 40002` are two.
+        let (first, rest) = text.split_once(',')?;
+        let is_number = rest.len() == 3 && rest.chars().all(|digit| digit.is_ascii_digit());
+        (!is_number || first.len() > 3).then(|| (first, rest.rsplit(',').next().unwrap_or(rest)))
+    };
+    match divided.or_else(list) {
+        Some((first, last)) if !first.trim().is_empty() => (first.trim(), Some(last.trim_start_matches('.').trim())),
+        _ => (text, None),
+    }
+}
+
+/// The end of a range; it may leave out what it shares with the start.
+fn end_of(first: u32, last: &str, style: Style) -> Option<u32> {
+    let end = single(last, style)?.first;
+    if end >= first {
+        return Some(end);
+    }
+    let modulus = 10u32.checked_pow(u32::try_from(last.len()).ok()?)?;
+    let end = first / modulus * modulus + end;
+    if end >= first {
+        Some(end)
+    } else {
+        end.checked_add(modulus)
+    }
+}
+
+fn single(text: &str, style: Style) -> Option<Address> {
+    let text = text.trim().trim_start_matches('%');
+    if let Some((digit, number)) = x_notation(text).filter(|&(digit, _)| digit != '0' || style.is_x) {
+        let table = Table::of_digit(digit)?;
+        return Some(Address { first: number, table: Some(table), ..Address::default() });
+    }
+    let upper = text.to_ascii_uppercase();
+    const MARKS: [(&str, Option<Table>); 9] = [
+        ("HREG", Some(Table::Holding)),
+        ("HR", Some(Table::Holding)),
+        ("IREG", Some(Table::Input)),
+        ("IR", Some(Table::Input)),
+        ("DI", Some(Table::Discrete)),
+        ("CO", Some(Table::Coil)),
+        ("MW", Some(Table::Holding)),
+        ("REG", None),
+        ("R", None),
+    ];
+    let marked = MARKS.iter().find_map(|&(mark, table)| Some((upper.strip_prefix(mark)?, table)));
+    let marked = marked.filter(|(rest, _)| rest.trim().starts_with(|digit: char| digit.is_ascii_digit()));
+    let (digits, table) = marked.unwrap_or((text, None));
+    if let Some(value) = hexadecimal(digits, style.is_hex) {
+        return Some(Address { first: u32::try_from(value).ok()?, table, is_hex: true, ..Address::default() });
+    }
+    let digits: String = digits.chars().filter(|letter| !matches!(letter, ' ' | ',' | '\'' | '\u{a0}' | '_')).collect();
+    let is_number = !digits.is_empty() && digits.chars().all(|digit| digit.is_ascii_digit());
+    is_number.then(|| Some(Address { first: digits.parse().ok()?, table, ..Address::default() })).flatten()
+}
+
+/// A table of Modbus by its name or by function codes, and the access that the codes tell.
+pub(super) fn table(text: &str) -> Option<(Table, Option<&'static str>)> {
+    let lower = text.to_lowercase();
+    let names = [
+        ("holding", Table::Holding),
+        ("discrete", Table::Discrete),
+        ("coil", Table::Coil),
+        ("input status", Table::Discrete),
+        ("input bit", Table::Discrete),
+        ("digital input", Table::Discrete),
+        ("input", Table::Input),
+    ];
+    if let Some((_, table)) = names.iter().find(|(name, _)| lower.contains(name)) {
+        return Some((*table, None));
+    }
+    let letters: String = lower.chars().filter(|letter| letter.is_alphanumeric()).collect();
+    match letters.as_str() {
+        "hr" | "hreg" | "4x" | "4xxxx" | "rw" => return Some((Table::Holding, None)),
+        "ir" | "ireg" | "3x" | "3xxxx" => return Some((Table::Input, None)),
+        "di" | "1x" | "1xxxx" => return Some((Table::Discrete, None)),
+        "co" | "0x" | "do" => return Some((Table::Coil, None)),
+        _ => {}
+    }
+    by_function(&lower)
+}
+
+fn by_function(text: &str) -> Option<(Table, Option<&'static str>)> {
+    let codes = text.split(|letter: char| !letter.is_ascii_alphanumeric()).filter_map(|word| {
+        let digits = word.trim_start_matches(|letter: char| letter.is_ascii_alphabetic());
+        match word.strip_prefix("0x") {
+            Some(digits) => u8::from_str_radix(digits, 16).ok(),
+            None => digits.trim_end_matches('h').parse::<u8>().ok(),
+        }
+    });
+    let codes: Vec<u8> = codes.collect();
+    let has = |list: &[u8]| codes.iter().any(|code| list.contains(code));
+    let table = if has(&[3, 6, 16, 22, 23]) {
+        Table::Holding
+    } else if has(&[4]) {
+        Table::Input
+    } else if has(&[1, 5, 15]) {
+        Table::Coil
+    } else if has(&[2]) {
+        Table::Discrete
+    } else {
+        return None;
+    };
+    let access = match (has(&[1, 2, 3, 4]), has(&[5, 6, 15, 16, 22, 23])) {
+        (true, true) => "rw",
+        (false, _) => "wo",
+        (true, false) => "ro",
+    };
+    Some((table, Some(access)))
+}
+
+/// Index and sub-index of an object, as the format writes them.
+pub(super) fn object(index: &str, sub: &str) -> Option<(u16, Option<u8>)> {
+    let (index, inner) = match index.split_once([':', '/', '.']) {
+        Some((index, inner)) => (index.trim(), inner.trim()),
+        None => (index.trim(), ""),
+    };
+    let sub = if cells::is_blank(sub) { inner } else { sub.trim() };
+    let sub = match sub {
+        "" => None,
+        text => Some(u8::try_from(hexadecimal(text, false).or_else(|| text.parse().ok())?).ok()?),
+    };
+    Some((u16::try_from(hexadecimal(index, true)?).ok()?, sub))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn number(first: u32) -> Address {
+        Address { first, ..Address::default() }
+    }
+
+    #[test]
+    fn addresses_in_every_notation() {
+        let plain = Style::default();
+        let hex = Address { is_hex: true, ..number(0x1000) };
+        assert_eq!(read("40001", plain), Some(number(40001)));
+        assert_eq!(read("40,001", plain), Some(number(40001)));
+        assert_eq!((read("0x1000", plain), read("1000h", plain)), (Some(hex), Some(hex)));
+        assert_eq!(read("1000", Style { is_hex: true, ..plain }), Some(hex));
+        for text in ["63-64", "63..64", "63 - 64", "63/64", "63, 64", "63 to 64", "63–64"] {
+            assert_eq!(read(text, plain), Some(Address { last: Some(64), ..number(63) }), "{text}");
+        }
+        assert_eq!(read("10099-100", plain), Some(Address { last: Some(10100), ..number(10099) }));
+        for text in ["40010.3", "40010:3", "40010 bit 3", "40010/bit3", "40010.b3"] {
+            assert_eq!(read(text, plain), Some(Address { bits: Some((3, 3)), ..number(40010) }), "{text}");
+        }
+        assert_eq!(read("40010.0-3", plain).and_then(|own| own.bits), Some((0, 3)));
+        assert_eq!(read("4x0012", plain), Some(Address { table: Some(Table::Holding), ..number(12) }));
+        assert_eq!(read("HR100", plain), Some(Address { table: Some(Table::Holding), ..number(100) }));
+        assert_eq!(read("40001.0", Style { is_fraction: true, ..plain }), Some(number(40001)));
+        for text in ["", "x", "-1", "TBD", "99999999999", "1.x", "é-é"] {
+            assert_eq!(read(text, plain), None, "{text}");
+        }
+        assert_eq!(Style::of(["10", "1A"].into_iter(), false), Style { is_hex: true, ..plain });
+        assert!(Style::of(["0x0001", "4x0001"].into_iter(), false).is_x);
+    }
+
+    #[test]
+    fn tables_masks_and_objects() {
+        assert_eq!(table("Holding register"), Some((Table::Holding, None)));
+        assert_eq!(table("03/06/16"), Some((Table::Holding, Some("rw"))));
+        assert_eq!(table("FC04"), Some((Table::Input, Some("ro"))));
+        assert_eq!(table("0x03"), Some((Table::Holding, Some("ro"))));
+        assert_eq!(table("Coil"), Some((Table::Coil, None)));
+        assert_eq!(table("motor"), None);
+        assert_eq!((mask("0x00F0"), mask("0x0101"), mask("0x0")), (Some((4, 7)), None, None));
+        assert_eq!(object("2000h", "1"), Some((0x2000, Some(1))));
+        assert_eq!(object("0x6040", "-"), Some((0x6040, None)));
+        assert_eq!(object("1018:02", ""), Some((0x1018, Some(2))));
+        assert_eq!((object("motor", ""), object("20000", "")), (None, None));
+    }
+}

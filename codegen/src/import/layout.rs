@@ -1,0 +1,245 @@
+//! Rows to chapters and spaces; names and addresses that occur twice.
+
+use std::collections::HashMap;
+
+use super::address::Table;
+use super::rows::{Definition, Place, Row, Rows};
+use super::types::Base;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::source::Span;
+
+/// A table of Modbus, as far as the rows tell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Space {
+    pub table: Table,
+    /// The number that it counts from.
+    pub first: i64,
+    /// Whether anything tells that.
+    pub is_first_known: bool,
+    /// What all its rows have in common.
+    pub low_first: bool,
+    pub swap: bool,
+}
+
+/// Rows that belong together.
+#[derive(Debug)]
+pub(super) struct Chapter {
+    pub title: String,
+    pub table: Option<Table>,
+    pub rows: Vec<Row>,
+}
+
+/// A list, in the order in which it is written.
+#[derive(Debug)]
+pub(super) struct Listing {
+    pub spaces: Vec<Space>,
+    pub chapters: Vec<Chapter>,
+    pub definitions: Vec<Definition>,
+    pub no_access: bool,
+}
+
+/// Gives every row its table, its own name and its chapter.
+pub(super) fn arrange(list: Rows, diagnostics: &mut Diagnostics) -> Listing {
+    let Rows { mut rows, definitions, no_access, from_one } = list;
+    let is_classic = is_classic(&rows);
+    for row in &mut rows {
+        if let Ok(Place::Register { table, address, .. }) = &mut row.place {
+            let by_number = || Table::of_number(address.first).filter(|_| is_classic).map(|(table, _)| table);
+            let found = table.or_else(by_number).unwrap_or(Table::Holding);
+            *table = Some(found);
+            row.access = row.access.or(found.is_read_only().then_some("ro"));
+        }
+    }
+    let mut spaces: Vec<Space> = Vec::new();
+    for table in rows.iter().filter_map(table_of) {
+        if !spaces.iter().any(|space| space.table == table) {
+            spaces.push(space(table, &rows, from_one, diagnostics));
+        }
+    }
+    distinct_places(&mut rows, &spaces, diagnostics);
+    distinct_names(&mut rows, diagnostics);
+    references(&mut rows, diagnostics);
+    let mut chapters: Vec<Chapter> = Vec::new();
+    for row in rows {
+        let table = table_of(&row);
+        // A line that is no row stays beside the one above it.
+        let of_row = |chapter: &Chapter| chapter.title == row.chapter && (chapter.table == table || row.place.is_err());
+        match chapters.iter().rposition(of_row) {
+            Some(at) => chapters[at].rows.push(row),
+            None => chapters.push(Chapter { title: row.chapter.clone(), table, rows: vec![row] }),
+        }
+    }
+    Listing { spaces, chapters, definitions, no_access }
+}
+
+fn table_of(row: &Row) -> Option<Table> {
+    match row.place {
+        Ok(Place::Register { table, .. }) => table,
+        _ => None,
+    }
+}
+
+/// Whether the first digit of all numbers is that of a table of Modbus.
+fn is_classic(rows: &[Row]) -> bool {
+    let mut any = false;
+    for row in rows {
+        let Ok(Place::Register { address, table: None, .. }) = row.place else { continue };
+        match Table::of_number(address.first) {
+            Some((Table::Holding | Table::Input, _)) => any = true,
+            Some(_) if row.ty.base == Base::Bool => {}
+            _ => return false,
+        }
+    }
+    any
+}
+
+/// What the rows of a table of Modbus have in common.
+fn space(table: Table, rows: &[Row], from_one: bool, diagnostics: &mut Diagnostics) -> Space {
+    let own = || rows.iter().filter(move |row| table_of(row) == Some(table));
+    let numbers = || {
+        own().filter_map(
+            |row| if let Ok(Place::Register { address, .. }) = row.place { Some(address.first) } else { None },
+        )
+    };
+    let mut bases =
+        numbers().map(|number| Table::of_number(number).filter(|(own, _)| *own == table).map(|(_, base)| base));
+    // Numbers from 1 on are those of coils by the old rule, and of anything else by a new one.
+    let base = bases.next().flatten().filter(|&base| base > 1 && bases.all(|own| own == Some(base)));
+    let first = wire(own(), diagnostics).or(base.map(i64::from)).or(from_one.then_some(1));
+    // Where all rows say it, the space does; a row that says nothing has the usual order.
+    let all = |matter: fn(&Row) -> bool, of: fn(&Row) -> Option<bool>| {
+        let mut rows = own().filter(|row| matter(row)).peekable();
+        rows.peek().is_some() && rows.all(|row| of(row) == Some(true))
+    };
+    Space {
+        table,
+        first: first.unwrap_or(0),
+        is_first_known: first.is_some(),
+        low_first: all(|row| row.ty.size().is_none_or(|bits| bits > 16), |row| row.order.low_first),
+        swap: all(|row| row.ty.base != Base::Bool, |row| row.order.swap),
+    }
+}
+
+/// What the numbers of the registers count from, by a second column of addresses.
+fn wire<'r>(rows: impl Iterator<Item = &'r Row>, diagnostics: &mut Diagnostics) -> Option<i64> {
+    let mut found: Option<(i64, Span)> = None;
+    for row in rows {
+        let Ok(Place::Register { address, wire: Some(wire), .. }) = row.place else { continue };
+        let difference = i64::from(address.first) - i64::from(wire);
+        match found {
+            None => found = Some((difference, row.span)),
+            Some((first, _)) if first == difference => {}
+            Some((first, span)) => {
+                let message = format!("the two addresses are {difference} apart, and {first} in the rows above");
+                let diagnostic = Diagnostic::new(&codes::CSV_UNREADABLE_CELL, row.span, message);
+                diagnostics.push(diagnostic.label("the first address is used").note_at(span, "the first row"));
+            }
+        }
+    }
+    // An address on the wire that is greater than the number can't be subtracted from it: `first` may be negative.
+    found.map(|(difference, _)| difference)
+}
+
+/// The addresses that a row takes, as texts that differ where the addresses do.
+fn places(row: &Row) -> Vec<String> {
+    let count = row.count.unwrap_or(1);
+    let stride = row.ty.size().unwrap_or(16).div_ceil(16).max(1);
+    let all = |text: &dyn Fn(u32) -> String| (0..count).map(text).collect();
+    match row.place {
+        Ok(Place::Register { address, table: Some(table), .. }) => {
+            let step = if table.is_bits() { 1 } else { stride };
+            all(&|number| format!("{} {}", table.name(), address.first.saturating_add(number * step)))
+        }
+        Ok(Place::Object { index, sub }) => {
+            all(&|number| format!("{} {}", u32::from(index) + number, sub.unwrap_or(0)))
+        }
+        Ok(Place::Parameter(code)) => all(&|number| format!("parameter {}", code.saturating_add(number))),
+        _ => Vec::new(),
+    }
+}
+
+/// Rows that can't be, because their address has none on the bus or is taken, become comments.
+fn distinct_places(rows: &mut [Row], spaces: &[Space], diagnostics: &mut Diagnostics) {
+    let mut taken: HashMap<String, Span> = HashMap::new();
+    for row in rows {
+        if let Some(reason) = no_address(row, spaces) {
+            let message = format!("{reason}: it has 65536 at most");
+            diagnostics.push(Diagnostic::new(&codes::CSV_NO_ROW, row.span, message).label("written down as a comment"));
+            row.place = Err("no such address");
+            continue;
+        }
+        // Parts of a register share it.
+        if row.facts.iter().any(|(key, _)| *key == "part") {
+            continue;
+        }
+        let own = places(row);
+        match own.iter().find_map(|place| taken.get(place)) {
+            Some(&first) => {
+                let message = "another row has this address";
+                let diagnostic = Diagnostic::new(&codes::CSV_NO_ROW, row.span, message);
+                diagnostics.push(diagnostic.label("written down as a comment").note_at(first, "the first is here"));
+                row.place = Err("the address is taken");
+            }
+            None => taken.extend(own.into_iter().map(|place| (place, row.span))),
+        }
+    }
+}
+
+/// Why a register can't be reached.
+fn no_address(row: &Row, spaces: &[Space]) -> Option<&'static str> {
+    let count = i64::from(row.count.unwrap_or(1)) - 1;
+    match row.place {
+        Ok(Place::Register { address, table, .. }) => {
+            let space = spaces.iter().find(|space| Some(space.table) == table)?;
+            let stride = i64::from(row.ty.size().unwrap_or(16).div_ceil(16).max(1));
+            let first = i64::from(address.first) - space.first;
+            let is_there = first >= 0 && first + count * stride <= 0xFFFF;
+            (!is_there).then_some("the number has no address on Modbus")
+        }
+        Ok(Place::Object { index, .. }) if i64::from(index) + count > 0xFFFF => {
+            Some("the index is beyond the dictionary")
+        }
+        _ => None,
+    }
+}
+
+/// Gives rows of the same name a number.
+fn distinct_names(rows: &mut [Row], diagnostics: &mut Diagnostics) {
+    let mut taken: HashMap<String, Span> = HashMap::new();
+    for row in rows.iter_mut().filter(|row| row.place.is_ok()) {
+        if row.count.is_some() {
+            row.name += " {n+1}";
+        }
+        let own = row.name.clone();
+        let mut number = 2;
+        let mut first = None;
+        while let Some(span) = names(row).iter().find_map(|name| taken.get(name)).copied() {
+            first = first.or(Some(span));
+            row.name = format!("{own} {number}");
+            number += 1;
+        }
+        if let Some(first) = first {
+            let message = format!("`{}` is the name of another row", crate::text::brief(&own));
+            let diagnostic = Diagnostic::new(&codes::CSV_SAME_NAME, row.span, message);
+            diagnostics.push(diagnostic.label(format!("called `{}`", row.name)).note_at(first, "the first is here"));
+        }
+        taken.extend(names(row).into_iter().map(|name| (name, row.span)));
+    }
+}
+
+/// The names of the items of a row.
+fn names(row: &Row) -> Vec<String> {
+    let count = row.count.unwrap_or(1);
+    (1..=count).map(|number| row.name.replace("{n+1}", &number.to_string())).collect()
+}
+
+/// A factor that another row holds needs that row.
+fn references(rows: &mut [Row], diagnostics: &mut Diagnostics) {
+    let kept: Vec<String> = rows.iter().filter(|row| row.place.is_ok()).map(|row| row.name.clone()).collect();
+    for row in rows {
+        let Some(reference) = row.scale.take_if(|own| !kept.contains(&own.name)) else { continue };
+        let message = format!("`{}` is no row of the table", crate::text::brief(&reference.name));
+        let diagnostic = Diagnostic::new(&codes::CSV_UNREADABLE_CELL, reference.span, message);
+        diagnostics.push(diagnostic.label("left out; the rest of the row is kept"));
+    }
+}

@@ -1,0 +1,62 @@
+//! What only all cells of a column tell.
+
+use super::address;
+use super::cells;
+use super::columns::{Columns, Field, Hint};
+use super::records::Record;
+use super::types::{self, Base};
+
+/// How a list is written.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Style {
+    /// A comma is the decimal point.
+    pub comma: bool,
+    /// How the number of the register is written, and a second address.
+    pub addresses: [address::Style; 2],
+    /// Minimum, maximum and default are in physical units.
+    pub physical: bool,
+    /// A gain is what the raw value is divided by.
+    pub gain_divides: bool,
+}
+
+impl Style {
+    pub fn of(records: &[&Record], columns: &Columns) -> Style {
+        let texts = |field: Field, place: usize| {
+            let column = columns.all(field).nth(place);
+            let cells = column.into_iter().flat_map(|column| records.iter().map(move |record| record.text(column.at)));
+            (cells, column.is_some_and(|column| column.is_hex))
+        };
+        let address = |place: usize| {
+            let (cells, is_hex) = texts(Field::Reg, place);
+            address::Style::of(cells, is_hex)
+        };
+        let numbers = [Field::Scale, Field::Divisor, Field::Offset, Field::Min, Field::Max, Field::Default];
+        let marks = || numbers.into_iter().flat_map(|field| texts(field, 0).0).filter_map(cells::decimal_mark);
+        let comma = marks().any(|comma| comma) && !marks().any(|comma| !comma);
+        let gains: Vec<f64> =
+            texts(Field::Divisor, 0).0.filter_map(|text| Some(cells::number(text, comma)?.real())).collect();
+        Style {
+            comma,
+            addresses: [address(0), address(1)],
+            physical: records.iter().any(|record| has_physical_limit(record, columns, comma)),
+            gain_divides: columns.get(Field::Divisor).is_some_and(|column| column.hint != Hint::Gain)
+                || gains.iter().all(|gain| *gain >= 1.0 && gain.fract() == 0.0),
+        }
+    }
+}
+
+/// Whether a limit of an integer has a fraction: then the scale is in it already.
+fn has_physical_limit(record: &Record, columns: &Columns, comma: bool) -> bool {
+    let text = |field| columns.get(field).map_or("", |column| record.text(column.at));
+    let factors = [Field::Scale, Field::Divisor, Field::Decimals, Field::Exponent];
+    let is_scaled = factors.into_iter().any(|field| !cells::is_blank(text(field)))
+        || cells::unit(text(Field::Unit), comma).1.is_some();
+    let is_integer = types::read(text(Field::Type)).is_none_or(|ty| ty.base != Base::Float);
+    let is_fraction = |number: cells::Number| number.int().is_none();
+    let limits = [Field::Min, Field::Max, Field::Default];
+    let mut numbers = limits.into_iter().filter_map(|field| cells::quantity(text(field), text(Field::Unit), comma));
+    let range = || cells::range(text(Field::Range), text(Field::Unit), comma);
+    is_scaled
+        && is_integer
+        && (numbers.any(is_fraction) || range().is_some_and(|(low, high)| is_fraction(low) || is_fraction(high)))
+}

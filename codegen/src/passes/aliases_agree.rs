@@ -1,0 +1,131 @@
+//! After this pass what a register table says is the same value under two names was compared, and the access of what
+//! replaces an item.
+
+use std::collections::BTreeSet;
+
+use super::owner::{Index, Owner};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{BitMeaning, Device, Item, Shape};
+use crate::text::brief;
+
+pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
+    let groups = [device.groups.as_slice()];
+    let owner = Owner { types: &device.types, groups: &groups };
+    let items = Index::new(owner);
+    for item in owner.items() {
+        replacement(&items, item, diagnostics);
+        for alias in item.extensions.iter().filter(|own| own.key == "same_as") {
+            let Some(other) = items.find(&alias.value).filter(|other| !std::ptr::eq(*other, item)) else { continue };
+            let differences = differences(owner, item, other);
+            if differences.is_empty() {
+                continue;
+            }
+            let message = format!(
+                "`{}` is the same value as `{}`, but differs: {}",
+                brief(&item.name),
+                brief(&alias.value),
+                differences.join("; ")
+            );
+            let found = Diagnostic::new(&codes::SAME_VALUE_DIFFERS, item.origin.span, message);
+            diagnostics.push(found.note_at(other.origin.span, "the other one"));
+        }
+    }
+}
+
+/// An item and its replacement are used alike. What only a default says of either isn't compared.
+fn replacement(items: &Index<'_>, item: &Item, diagnostics: &mut Diagnostics) {
+    let name = item.availability.as_ref().and_then(|own| own.replaced_by.as_ref());
+    let Some(other) = name.and_then(|name| items.find(name)) else { return };
+    let is_stated = |item: &Item| {
+        let (row, access) = (item.origin.span, item.at.access);
+        !access.is_empty() && row.start <= access.start && access.end <= row.end
+    };
+    let rights = |item: &Item| (item.access.readable(), item.access.writable());
+    if is_stated(item) && is_stated(other) && rights(item) != rights(other) {
+        let (own, its) = (item.access.name(), other.access.name());
+        let message =
+            format!("`{}` is {own}, and `{}`, which replaces it, {its}", brief(&item.name), brief(&other.name));
+        let found = Diagnostic::new(&codes::SAME_VALUE_DIFFERS, item.at.access, message);
+        diagnostics.push(found.note_at(other.at.access, "the replacement"));
+    }
+}
+
+/// What two descriptions of one value disagree on.
+fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
+    let mut found = Vec::new();
+    let types = (owner.basic(one.ty), owner.basic(other.ty));
+    if types.0 != types.1 {
+        found.push(format!("{} and {}", types.0, types.1));
+    }
+    let limits =
+        [("lower limit", &one.limits.low, &other.limits.low), ("upper limit", &one.limits.high, &other.limits.high)];
+    for (what, one, other) in limits {
+        if let (Some(one), Some(other)) = (one, other) {
+            if one.as_real().is_some() && one.as_real() != other.as_real() {
+                found.push(format!("{what} {one} and {other}"));
+            }
+        }
+    }
+    let shapes = (owner.definition(one.ty).map(|own| &own.shape), owner.definition(other.ty).map(|own| &own.shape));
+    if let (Some(one), Some(other)) = shapes {
+        found.extend(meanings(one, other));
+    }
+    found
+}
+
+/// What is named in one of two types and not in the other.
+fn meanings(one: &Shape, other: &Shape) -> Option<String> {
+    let (what, one, other) = match (one, other) {
+        (Shape::Enumeration { .. }, Shape::Enumeration { .. }) => ("values", named(one), named(other)),
+        (Shape::BitField { .. }, Shape::BitField { .. }) => ("bits", named(one), named(other)),
+        _ => return Some("one is an enumeration, the other a bit field".to_owned()),
+    };
+    let only: Vec<String> = one.symmetric_difference(&other).map(range).collect();
+    (!only.is_empty()).then(|| format!("the {what} {} have a meaning in one of them only", only.join(", ")))
+}
+
+fn range(own: &(i128, i128)) -> String {
+    match own {
+        (first, last) if first == last => first.to_string(),
+        (first, last) => format!("{first} to {last}"),
+    }
+}
+
+/// First and last of the values, or of the bits, that have a meaning.
+fn named(shape: &Shape) -> BTreeSet<(i128, i128)> {
+    match shape {
+        Shape::Enumeration { values, .. } => {
+            let named = values.iter().filter(|value| value.zone.is_none());
+            named.map(|value| (value.value, value.last.unwrap_or(value.value))).collect()
+        }
+        Shape::BitField { fields, .. } => {
+            let named = fields.iter().filter(|field| !matches!(field.meaning, BitMeaning::Reserved { .. }));
+            let last = |offset: u8, bits: u8| i128::from(offset) + i128::from(bits.max(1)) - 1;
+            named.map(|field| (i128::from(field.offset), last(field.offset, field.bits))).collect()
+        }
+        _ => BTreeSet::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::{Binding, Type, Value};
+
+    #[test]
+    fn type_and_limits_are_compared() {
+        let item = |ty, low, high| {
+            let mut item = Item::new(Binding::canopen(0x2000, 0));
+            item.ty = ty;
+            (item.limits.low, item.limits.high) = (Some(Value::Int(low)), Some(Value::Int(high)));
+            item
+        };
+        let owner = Owner { types: &[], groups: &[] };
+        let one = item(Type::Integer(32), 0, 200_000);
+        assert_eq!(differences(owner, &one, &one), [""; 0]);
+        assert_eq!(
+            differences(owner, &one, &item(Type::Unsigned(32), 0, 500_000)),
+            ["INTEGER32 and UNSIGNED32", "upper limit 200000 and 500000"]
+        );
+    }
+}

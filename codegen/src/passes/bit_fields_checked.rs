@@ -1,0 +1,154 @@
+//! After this pass the fields of every bit field were held against the integer below and against each other.
+
+use super::firmware_comparable::apart;
+use super::owner::Owner;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{BitFieldEntry, BitMeaning, Shape, Type, TypeDef, TypeId};
+use crate::text::brief;
+
+pub(super) fn run(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
+    for (definition, id) in owner.types.iter().zip(0..) {
+        let Shape::BitField { base, fields } = &definition.shape else { continue };
+        let Some(width) = base.bits().filter(|&bits| bits <= 64) else { continue };
+        outside(owner, TypeId(id), definition, (*base, width), fields, diagnostics);
+        overlaps(definition, fields, diagnostics);
+        unnamed(definition, width, fields, diagnostics);
+    }
+}
+
+/// What a message calls a field.
+pub(super) fn called(field: &BitFieldEntry) -> String {
+    let bits = match field.bits {
+        1 => format!("bit {}", field.offset),
+        bits => format!("bits {}-{}", u32::from(field.offset) + u32::from(bits) - 1, field.offset),
+    };
+    match (&field.meaning, field.name.is_empty()) {
+        (BitMeaning::Reserved { .. }, _) => format!("{bits} (reserved)"),
+        (_, true) => bits,
+        _ => format!("{bits} (`{}`)", brief(&field.name)),
+    }
+}
+
+/// The bits of a field.
+pub(super) fn mask(field: &BitFieldEntry) -> u64 {
+    let bits = u64::MAX.checked_shr(64u32.saturating_sub(field.bits.into())).unwrap_or(0);
+    bits.checked_shl(field.offset.into()).unwrap_or(0)
+}
+
+fn outside(
+    owner: Owner<'_>,
+    id: TypeId,
+    definition: &TypeDef,
+    (base, width): (Type, u32),
+    fields: &[BitFieldEntry],
+    diagnostics: &mut Diagnostics,
+) {
+    let mut beyond = fields.iter().filter(|field| u32::from(field.offset) + u32::from(field.bits) > width);
+    let Some(first) = beyond.next() else { return };
+    let others = match beyond.count() {
+        0 => String::new(),
+        others => format!(", and {others} more fields reach further too"),
+    };
+    let message = format!("{base} has {width} bits, and `{}` names {}{others}", brief(&definition.name), called(first));
+    let found = Diagnostic::new(&codes::BIT_OUTSIDE_TYPE, owner.place(id), message);
+    diagnostics.push(found.note_at(definition.origin.span, "the bits are named here"));
+}
+
+fn overlaps(definition: &TypeDef, fields: &[BitFieldEntry], diagnostics: &mut Diagnostics) {
+    for (at, one) in fields.iter().enumerate() {
+        for other in fields.iter().skip(at + 1) {
+            if mask(one) & mask(other) != 0 && !told_apart(one, other) {
+                let message =
+                    format!("{} and {} of `{}` share bits", called(one), called(other), brief(&definition.name));
+                let found = Diagnostic::new(&codes::BITS_OVERLAP, definition.origin.span, message);
+                diagnostics
+                    .push(found.help("bits of several meanings have a `when`, `since`, `until` or `models` in each"));
+            }
+        }
+    }
+}
+
+/// Whether never both meanings hold, or one is the rule and the other its case.
+fn told_apart(one: &BitFieldEntry, other: &BitFieldEntry) -> bool {
+    let by_condition = match (&one.when, &other.when) {
+        (None, None) => false,
+        (Some(one), Some(other)) => {
+            one.item != other.item || !one.values.iter().any(|value| other.values.contains(value))
+        }
+        _ => true,
+    };
+    by_condition || apart(one.availability.as_deref(), other.availability.as_deref())
+}
+
+fn unnamed(definition: &TypeDef, width: u32, fields: &[BitFieldEntry], diagnostics: &mut Diagnostics) {
+    if fields.is_empty() || !diagnostics.wants(&codes::UNNAMED_BITS) {
+        return;
+    }
+    let named = fields.iter().fold(0, |bits, field| bits | mask(field));
+    let missing: Vec<String> = (0..width).filter(|bit| named >> bit & 1 == 0).map(|bit| bit.to_string()).collect();
+    if !missing.is_empty() {
+        let message = format!("`{}` says nothing of the bits {}", brief(&definition.name), missing.join(", "));
+        diagnostics.push(Diagnostic::new(&codes::UNNAMED_BITS, definition.origin.span, message));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostics::{Level, Levels};
+    use crate::ir::{Condition, Value};
+
+    fn field(name: &str, offset: u8, bits: u8) -> BitFieldEntry {
+        BitFieldEntry {
+            name: name.into(),
+            names: Default::default(),
+            offset,
+            bits,
+            meaning: BitMeaning::Number,
+            when: None,
+            trigger: None,
+            availability: None,
+            documentation: None,
+        }
+    }
+
+    fn found(fields: Vec<BitFieldEntry>) -> Vec<String> {
+        let mut levels = Levels::lenient();
+        levels.set("unnamed-bits", Level::Warn).unwrap();
+        let mut diagnostics = Diagnostics::new(levels);
+        let definition = TypeDef {
+            name: "Status".into(),
+            code: None,
+            shape: Shape::BitField { base: Type::Unsigned(8), fields },
+            bits: Some(8),
+            documentation: None,
+            origin: Default::default(),
+        };
+        run(Owner { types: &[definition], groups: &[] }, &mut diagnostics);
+        diagnostics.list().iter().map(|found| found.message.clone()).collect()
+    }
+
+    #[test]
+    fn fields_lie_within_the_integer_and_apart() {
+        assert_eq!(found(vec![field("low", 0, 4), field("high", 4, 4)]), [""; 0]);
+        assert_eq!(
+            found(vec![field("low", 0, 5), field("high", 4, 5)]),
+            [
+                "UNSIGNED8 has 8 bits, and `Status` names bits 8-4 (`high`)",
+                "bits 4-0 (`low`) and bits 8-4 (`high`) of `Status` share bits"
+            ]
+        );
+        assert_eq!(found(vec![field("all but two", 2, 6)]), ["`Status` says nothing of the bits 0, 1"]);
+        assert_eq!(mask(&field("", 0, 64)), u64::MAX);
+        assert_eq!(mask(&field("", 63, 1)), 1 << 63);
+    }
+
+    #[test]
+    fn a_condition_tells_two_meanings_apart() {
+        let when = |mode| Some(Condition { item: "mode".into(), values: vec![Value::Int(mode)] });
+        let one = BitFieldEntry { when: when(1), ..field("all", 0, 8) };
+        assert_eq!(found(vec![one.clone(), BitFieldEntry { when: when(2), ..field("part", 0, 1) }]), [""; 0]);
+        assert_eq!(found(vec![one.clone(), field("part", 0, 1)]), [""; 0]);
+        assert_eq!(found(vec![one, BitFieldEntry { when: when(1), ..field("part", 0, 1) }]).len(), 1);
+    }
+}

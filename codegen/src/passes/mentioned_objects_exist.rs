@@ -1,0 +1,110 @@
+//! After this pass every object that the texts of a register table mention was looked up in its dictionary.
+
+use std::collections::HashSet;
+use std::ops::RangeInclusive;
+
+use super::owner::{Index, Owner};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{AxisStep, Device, Documentation, Item, Shape, Step, TypeDef};
+use crate::source::Span;
+
+/// Indices that are told from other numbers by themselves: those of the first axis of a drive profile.
+const PROFILE: RangeInclusive<u16> = 0x6000..=0x67FF;
+
+pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
+    let groups = [device.groups.as_slice()];
+    let owner = Owner { types: &device.types, groups: &groups };
+    let mut known = Index::new(owner).indices();
+    if known.is_empty() {
+        return;
+    }
+    known.extend(device.groups.iter().filter_map(|group| group.index()));
+    known.extend(device.process_data.pdos.iter().map(|pdo| pdo.mapping_index));
+    of_axes(device, &mut known);
+    let mut check = |span: Span, text: &str| {
+        for index in mentions(text).filter(|index| !known.contains(index)) {
+            let message = format!("object 0x{index:04X} is mentioned, and the table doesn't have it");
+            diagnostics.push(Diagnostic::new(&codes::MENTIONED_OBJECT, span, message));
+        }
+    };
+    for group in &device.groups {
+        words(&group.documentation, |text| check(group.origin.span, text));
+        group.items.iter().for_each(|item| of_item(item, |text| check(item.origin.span, text)));
+    }
+    for definition in &device.types {
+        of_definition(definition, |text| check(definition.origin.span, text));
+    }
+    for procedure in &device.procedures {
+        words(&procedure.documentation, |text| check(procedure.origin.span, text));
+        for step in &procedure.steps {
+            if let Step::Manual(text) = step {
+                check(procedure.origin.span, text);
+            }
+        }
+    }
+}
+
+fn words(documentation: &Option<Box<Documentation>>, check: impl FnMut(&str)) {
+    documentation.as_deref().map(|own| own.text.as_str()).into_iter().for_each(check);
+}
+
+fn of_item(item: &Item, mut check: impl FnMut(&str)) {
+    words(&item.documentation, &mut check);
+    for effect in item.behaviour.iter().flat_map(|behaviour| &behaviour.side_effects) {
+        check(effect);
+    }
+}
+
+fn of_definition(definition: &TypeDef, mut check: impl FnMut(&str)) {
+    words(&definition.documentation, &mut check);
+    match &definition.shape {
+        Shape::BitField { fields, .. } => fields.iter().for_each(|field| {
+            check(&field.name);
+            words(&field.documentation, &mut check);
+        }),
+        Shape::Enumeration { values, .. } => values.iter().for_each(|value| {
+            check(&value.name);
+            words(&value.documentation, &mut check);
+        }),
+        _ => {}
+    }
+}
+
+/// The indices of further axes.
+fn of_axes(device: &Device, known: &mut HashSet<u16>) {
+    let Some(axes) = &device.axes else { return };
+    for own in known.clone() {
+        let rule = axes.rules.iter().find(|rule| (rule.indices.0..=rule.indices.1).contains(&own));
+        if let Some(AxisStep::Index(step)) = rule.map(|rule| rule.step) {
+            known.extend((1..u16::from(axes.axes)).filter_map(|axis| own.checked_add(axis.checked_mul(step)?)));
+        }
+    }
+}
+
+/// The indices that a text mentions: `0x60D0`, `object 0x2010`, `0x1003:1`.
+fn mentions(text: &str) -> impl Iterator<Item = u16> + '_ {
+    text.match_indices("0x").filter_map(|(at, _)| {
+        let rest = text.get(at + 2..)?;
+        let digits = rest.find(|c: char| !c.is_ascii_hexdigit()).unwrap_or(rest.len());
+        let index = u16::from_str_radix(rest.get(..digits).filter(|digits| digits.len() == 4)?, 16).ok()?;
+        let before = text.get(..at).unwrap_or_default();
+        let mut after = rest.get(digits..).unwrap_or_default().chars();
+        let has_sub = after.next() == Some(':') && after.next().is_some_and(|c| c.is_ascii_digit());
+        let is_called = before.ends_with("object ") || before.ends_with("Object ");
+        let follows_letter = before.ends_with(|c: char| c.is_alphanumeric());
+        (!follows_letter && (PROFILE.contains(&index) || has_sub || is_called)).then_some(index)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::mentions;
+
+    #[test]
+    fn objects_are_told_from_other_numbers() {
+        let found = |text| mentions(text).collect::<Vec<_>>();
+        assert_eq!(found("source in 0x60D0, not 0x60D01"), [0x60D0]);
+        assert_eq!(found("object 0x2010 and 0x1003:1"), [0x2010, 0x1003]);
+        assert_eq!(found("0x8000 to 0xFFFF; 0x1000, 0x12 and x0x6040"), [0; 0]);
+    }
+}

@@ -1,0 +1,121 @@
+//! What has items and types of its own: a device, a module, or all submodules of a catalogue.
+
+use std::collections::{HashMap, HashSet};
+
+use crate::ir::{EnumValue, Group, Item, Shape, Type, TypeDef, TypeId, Value, Zone};
+use crate::source::Span;
+
+/// How many names of types may lead from one to the next.
+const MAX_ALIASES: usize = 16;
+
+/// Groups of items, and the types that the items name.
+#[derive(Clone, Copy)]
+pub(super) struct Owner<'a> {
+    pub types: &'a [TypeDef],
+    pub groups: &'a [&'a [Group]],
+}
+
+impl<'a> Owner<'a> {
+    pub fn items(self) -> impl Iterator<Item = &'a Item> {
+        self.groups.iter().flat_map(|groups| groups.iter()).flat_map(|group| &group.items)
+    }
+
+    /// The definition of a type, below other names of it.
+    pub fn definition(self, ty: Type) -> Option<&'a TypeDef> {
+        let mut ty = ty;
+        for _ in 0..MAX_ALIASES {
+            let Type::Named(TypeId(id)) = ty else { return None };
+            let definition = self.types.get(id as usize)?;
+            match definition.shape {
+                Shape::Alias(other) => ty = other,
+                _ => return Some(definition),
+            }
+        }
+        None
+    }
+
+    /// The type below other names, bit fields, enumerations and scales.
+    pub fn basic(self, ty: Type) -> Type {
+        let mut ty = ty;
+        for _ in 0..MAX_ALIASES {
+            let Type::Named(TypeId(id)) = ty else { break };
+            match self.types.get(id as usize).map(|definition| &definition.shape) {
+                Some(Shape::Alias(base) | Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => ty = *base,
+                Some(Shape::Scaled { base, .. }) => ty = *base,
+                _ => break,
+            }
+        }
+        ty
+    }
+
+    /// The values of an enumeration, and whether there are no others.
+    pub fn enumeration(self, ty: Type) -> Option<(&'a [EnumValue], bool)> {
+        match &self.definition(ty)?.shape {
+            Shape::Enumeration { values, closed, .. } => Some((values, *closed)),
+            _ => None,
+        }
+    }
+
+    /// Where a type is used first, else where it is defined.
+    pub fn place(self, id: TypeId) -> Span {
+        let user = self.items().find(|item| item.ty == Type::Named(id));
+        let defined = self.types.get(id.0 as usize).map(|definition| definition.origin.span).unwrap_or_default();
+        user.map_or(defined, |item| item.at.ty.or(item.origin.span))
+    }
+}
+
+/// Items by what refers to them.
+pub(super) struct Index<'a> {
+    names: HashMap<&'a str, &'a Item>,
+    objects: HashMap<(u16, u8), &'a Item>,
+}
+
+impl<'a> Index<'a> {
+    /// Of the items that share a name, the first counts. An object of one value goes by the object's name too.
+    pub fn new(owner: Owner<'a>) -> Self {
+        let groups = || owner.groups.iter().flat_map(|groups| groups.iter());
+        let own = groups().flat_map(|group| group.items.iter().map(|item| (item.name.as_str(), item)));
+        let first = groups().filter_map(|group| Some((group.name.as_str(), group.items.first()?)));
+        let mut names = HashMap::new();
+        for (name, item) in own.chain(first).filter(|(name, _)| !name.is_empty()) {
+            names.entry(name).or_insert(item);
+        }
+        let objects = owner.items().filter_map(|item| Some((item.object()?, item))).collect();
+        Index { names, objects }
+    }
+
+    /// The item that goes by this name, or is at this place: `0x6040`, `0x1018:1`.
+    pub fn find(&self, name: &str) -> Option<&'a Item> {
+        let by_name = || self.names.get(name).copied();
+        by_name().or_else(|| self.objects.get(&object(name)?).copied())
+    }
+
+    /// Whether there is an object with this index.
+    pub fn indices(&self) -> HashSet<u16> {
+        self.objects.keys().map(|(index, _)| *index).collect()
+    }
+}
+
+/// Index and sub-index of `0x6040`, `0x1018:1`.
+fn object(text: &str) -> Option<(u16, u8)> {
+    let (index, sub_index) = text.split_once(':').unwrap_or((text, "0"));
+    let number = |text: &str| match text.strip_prefix("0x") {
+        Some(digits) => u16::from_str_radix(digits, 16).ok(),
+        None => text.parse().ok(),
+    };
+    Some((number(index)?, u8::try_from(number(sub_index)?).ok()?))
+}
+
+/// Whether a value is reserved; `None` where it has no name at all. A name within a reserved zone counts.
+pub(super) fn reserved(labels: &[EnumValue], value: i128) -> Option<bool> {
+    let own = |label: &&EnumValue| (label.value..=label.last.unwrap_or(label.value)).contains(&value);
+    let mut own = labels.iter().filter(own).map(|label| label.zone == Some(Zone::Reserved));
+    let first = own.next()?;
+    Some(first && own.all(|is_reserved| is_reserved))
+}
+
+/// The only value that an item may have.
+pub(super) fn fixed(item: &Item) -> Option<i128> {
+    let low = item.limits.low.as_ref().and_then(Value::as_int)?;
+    (item.limits.high.as_ref().and_then(Value::as_int) == Some(low)).then_some(low)
+}

@@ -1,0 +1,426 @@
+//! Lists of registers become register tables that `check` accepts and `generate` takes.
+
+use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::diagnostics::{Levels, Severity};
+use lexibus_codegen::import::{self, import, mapping, Import};
+use lexibus_codegen::ir::{Access, Binding, Device, Item, RegisterBinding, RegisterSpace, Scale, Shape, Type, Value};
+use lexibus_codegen::source::Source;
+use proptest::prelude::*;
+
+/// The import of a list called `name`.
+fn read_as(name: &str, text: impl Into<Vec<u8>>, options: &import::Options) -> Import {
+    import(Source::new(name, text.into()), options)
+}
+
+fn read(text: &str) -> Import {
+    read_as("list.csv", text, &import::Options::default())
+}
+
+/// The findings of an import: line, column, code.
+fn findings(import: &Import) -> Vec<(u32, u32, &'static str)> {
+    let source = &import.compilation.sources[0];
+    let list = import.compilation.diagnostics.list().iter();
+    list.map(|own| {
+        let at = source.position(own.span.start);
+        (at.line, at.column, own.code.id)
+    })
+    .collect()
+}
+
+/// The device of a list that has nothing to find fault with, nor its table.
+fn device(text: &str) -> Device {
+    let import = read(text);
+    assert_eq!(findings(&import), [], "{text}");
+    accepted(&import)
+}
+
+/// The device of a table: `check` has nothing against it, and `generate` makes something of it.
+fn accepted(import: &Import) -> Device {
+    let table = import.table.as_ref().expect("a table");
+    let options = Options::default();
+    let compilation: Compilation = check(Source::new("list.toml", table.clone().into_bytes()), &options);
+    let said: Vec<String> = compilation.diagnostics.list().iter().map(|own| compilation.one_line(own)).collect();
+    assert_eq!(said, Vec::<String>::new(), "{table}");
+    assert!(compilation.rust(&options.rust).is_some(), "{table}");
+    compilation.catalog.expect("a catalogue").devices.remove(0)
+}
+
+fn item<'d>(device: &'d Device, name: &str) -> &'d Item {
+    let mut items = device.groups.iter().flat_map(|group| &group.items);
+    items.find(|item| item.name == name).unwrap_or_else(|| panic!("no {name}"))
+}
+
+fn register<'d>(device: &'d Device, name: &str) -> &'d RegisterBinding {
+    match &item(device, name).bindings[0] {
+        Binding::Register(own) => own,
+        other => panic!("{name} is {other:?}"),
+    }
+}
+
+#[test]
+fn a_list_as_vendors_write_it() {
+    let list = "Name,Register,Data Type,R/W,Unit,Scale,Min,Max,Default,Description\n\
+                Speed setpoint,40001,UINT16,R/W,rpm,1,0,3000,1500,Speed wanted\n\
+                Temperature,40002,INT16,R,0.1 °C,,,,,\n\
+                Mode,40003,ENUM16,RW,,,,,,\"0=Off, 1=Speed, 2=Pressure\"\n\
+                Running time,40004-40005,uint32_t,RO,h,,,,,\n\
+                Status,40006,BITFIELD16,R,,,,,,\"Bit 0: running; Bit 1: fault; Bits 2-15: reserved\"\n\
+                Position,40007,INT32 swapped,R/W,mm,/1000,,,,\n\
+                Serial,40010-40017,string16,R,,,,,,\n";
+    let import = read(list);
+    insta::assert_snapshot!(import.table.as_deref().unwrap_or_default());
+    let device = device(list);
+    assert_eq!(register(&device, "Speed setpoint").address, 0);
+    assert_eq!((register(&device, "Running time").count, register(&device, "Serial").count), (2, 8));
+    assert!(register(&device, "Position").low_word_first && !register(&device, "Running time").low_word_first);
+    assert_eq!(item(&device, "Speed setpoint").limits.high, Some(Value::Int(3000)));
+    assert_eq!(item(&device, "Speed setpoint").default, Some(Value::Int(1500)));
+    let scale = item(&device, "Temperature").quantity.as_ref().and_then(|own| own.scale.clone());
+    assert_eq!(scale, Some(Scale::Linear { factor: 0.1, offset: 0.0 }));
+    let shapes: Vec<&Shape> = device.types.iter().map(|ty| &ty.shape).collect();
+    assert!(matches!(shapes[..], [Shape::Enumeration { .. }, Shape::BitField { .. }]), "{shapes:?}");
+}
+
+#[test]
+fn german_and_italian_lists() {
+    let german = device(
+        "Bezeichnung;Adresse;Datentyp;Zugriff;Einheit;Faktor;Minimalwert;Maximalwert\n\
+         Drehzahl;100;UINT16;Lesen/Schreiben;U/min;0,5;0;3000\nTemperatur;101;INT16;Lesen;°C;0,1;;\n",
+    );
+    assert_eq!(item(&german, "Drehzahl").access, Access::ReadWrite);
+    assert_eq!(item(&german, "Drehzahl").quantity.as_ref().map(|own| own.unit.as_str()), Some("rpm"));
+    let italian = device(
+        "Indirizzo;Descrizione;Tipo;U.M.;Fattore;Valore Minimo;Valore Massimo;Accesso\n;Misure;;;;;;\n\
+         1000;Tensione L1;UINT16;V;0,1;;;Lettura\n;Impostazioni;;;;;;\n1100;Soglia;INT16;V;1;-5;5;L/S\n",
+    );
+    let titles: Vec<&str> = italian.groups.iter().map(|group| group.name.as_str()).collect();
+    assert_eq!(titles, ["Misure", "Impostazioni"]);
+    assert_eq!(item(&italian, "Soglia").limits.low, Some(Value::Int(-5)));
+}
+
+#[test]
+fn any_delimiter_encoding_and_order_of_columns() {
+    for list in [
+        "Type,Name,Access,Address\nu16,Größe,ro,5\n",
+        "sep=;\nType;Name;Access;Address\nu16;Größe;ro;5\n",
+        "\u{feff}Access\tAddress\tName\tType\r\nro\t5\tGröße\tu16\r\n",
+        "Pump 3000|||\n|||\nAddress|Access|Name|Type\n5|ro|Größe|u16\n",
+        "Address;Access;Name;Type\n5;ro;\"Größe\";u16\n\nAddress;Access;Name;Type\n6;ro;b;u16\n",
+    ] {
+        assert_eq!(register(&device(list), "Größe").address, 5, "{list}");
+    }
+    let bytes = b"Name;Address;Type;Access\nGr\xF6\xDFe;5;u16;ro\n";
+    let import = read_as("list.csv", *bytes, &import::Options::default());
+    assert_eq!(register(&accepted(&import), "Größe").address, 5);
+}
+
+#[test]
+fn tables_of_modbus_and_what_numbers_count_from() {
+    let by_digit = device("Name,Address,Type,Access\na,40001,u16,rw\nb,30005,i16,\nc,10003,bool,\nd,00002,bool,rw\n");
+    let place = |device: &Device, name| (register(device, name).space, register(device, name).address);
+    assert_eq!(place(&by_digit, "a"), (RegisterSpace::Holding, 0));
+    assert_eq!(place(&by_digit, "b"), (RegisterSpace::Input, 4));
+    assert_eq!(place(&by_digit, "c"), (RegisterSpace::DiscreteInput, 2));
+    let by_function = device("Name,Address,Type,FC\na,1,u16,03/06/16\nb,1,u16,FC04\nc,1,,1 / 5\n");
+    assert_eq!(
+        (place(&by_function, "b"), item(&by_function, "a").access),
+        ((RegisterSpace::Input, 1), Access::ReadWrite)
+    );
+    assert_eq!((place(&by_function, "c"), item(&by_function, "c").ty), ((RegisterSpace::Coil, 1), Type::Boolean));
+    let by_x = device("Name,Address,Type,Access\na,4x0001,u16,rw\nb,3x0010,u16,ro\n");
+    assert_eq!((place(&by_x, "a").1, place(&by_x, "b")), (0, (RegisterSpace::Input, 9)));
+    let by_two = device("Name,Register,Address (hex),Type,Access\na,1001,03E7,u16,rw\nb,1002,03E8,u16,ro\n");
+    assert_eq!(place(&by_two, "b"), (RegisterSpace::Holding, 1000));
+    let plain = device("Name,Address,Type,Access\nSunSpec,40000,u32,ro\nModel,40002,u16,ro\n");
+    assert_eq!(place(&plain, "SunSpec").1, 40000);
+}
+
+#[test]
+fn what_gateways_and_integrations_have() {
+    let sunspec = device(
+        "Address,Name,Type,Size,Scale Factor,Units,RW Access\n40072,A,uint16,1,A_SF,A,R\n40076,A_SF,sunssf,1,,,R\n\
+         40094,WH,acc32,2,A_SF,Wh,R\n40020,Mn,string,16,,,R\n",
+    );
+    let scale = item(&sunspec, "A").quantity.as_ref().and_then(|own| own.scale.clone());
+    assert_eq!(scale, Some(Scale::Exponent { exponent: "A_SF".into() }));
+    assert_eq!(item(&sunspec, "Mn").ty, Type::VisibleString(Some(32)));
+    let parts = device("Name,Address,Type,Access\na,10.0,bool,ro\nb,10.1,bool,ro\nc,10.2-4,u16,ro\nd,11,u16,ro\n");
+    assert_eq!((register(&parts, "b").bit_offset, item(&parts, "c").ty), (Some(1), Type::Unsigned(3)));
+    let masks = device("Name,Address,Mask,Access\nlow,10,0x00FF,ro\nhigh,10,0xFF00,ro\n");
+    assert_eq!((register(&masks, "high").bit_offset, item(&masks, "high").ty), (Some(8), Type::Unsigned(8)));
+    let orders = device("Name,Address,Type,Word order,Access\na,1,float32,CDAB,ro\nb,3,float32,ABCD,ro\n");
+    assert!(register(&orders, "a").low_word_first && !register(&orders, "b").low_word_first);
+    let rest = device("Name,Address,Type,Invalid value,Repeat,Access\nt,1,int16,0x7FFF,,ro\nbuf,10,u32,,3,ro\n");
+    assert_eq!(item(&rest, "t").quantity.as_ref().map(|own| own.sentinels.len()), Some(1));
+    assert_eq!(register(&rest, "buf 3").address, 14);
+}
+
+#[test]
+fn lists_of_objects_and_parameters() {
+    let objects = device(
+        "Index;Sub;Name;Type;Access;Default\n1000h;0;Device type;UNSIGNED32;ro;0x192\n2000h;1;Speed;INTEGER16;rw;-5\n",
+    );
+    assert_eq!(objects.groups[0].items[1].object(), Some((0x2000, 1)));
+    assert_eq!(item(&objects, "Device type").default, Some(Value::Int(0x192)));
+    let parameters = device("Parameter number,Name,Type,Access\n58,Ramp,u16,rw\n");
+    assert!(matches!(item(&parameters, "Ramp").bindings[0], Binding::Parameter { code: 58, .. }));
+}
+
+#[test]
+fn every_cell_that_cannot_be_read_is_told() {
+    let import = read(
+        "Name,Address,Type,Access,Scale,Min,Default,Values,Owner\n\
+         a,1,pippo,ro,,,,,x\n\
+         b,x,u16,ro,,,,,\n\
+         c,3,u16,perhaps,,,,,\n\
+         d,4,u8,rw,none of it,-1,300,,\n\
+         e,5,u16,rw,,,,Off/On,\n\
+         f,6,u16\n\
+         a,7,u16,ro,,,,,\n\
+         g,7,u16,ro,,,,,\n\
+         h,8,u8,rw,,,,\"0=off, 300=on\",\n\
+         i,,u16,ro,,,,,\n",
+    );
+    let expected = [
+        (1, 51, "CSV002"),
+        (2, 5, "CSV003"),
+        (3, 3, "CSV004"),
+        (4, 9, "CSV003"),
+        (5, 11, "CSV003"),
+        (5, 22, "CSV003"),
+        (5, 25, "CSV003"),
+        (6, 15, "CSV003"),
+        (7, 1, "CSV005"),
+        (8, 1, "CSV006"),
+        (9, 1, "CSV004"),
+        (10, 15, "CSV003"),
+        (11, 1, "CSV004"),
+    ];
+    assert_eq!(findings(&import), expected);
+    let table = import.table.expect("a table");
+    for line in
+        ["# the address can't be read: b | x", "\"a 2\" = {", "# the address is taken: g | 7", "# no address: i |"]
+    {
+        assert!(table.contains(line), "{line}\n{table}");
+    }
+    // A row that lost a cell is kept, and so are the words of a cell that is no list.
+    assert!(table.contains("doc = \"Off/On\"") && table.contains("reg = 4, type = \"u8\""), "{table}");
+}
+
+#[test]
+fn what_is_assumed_is_told_once() {
+    let codes = |text: &str| findings(&read(text)).into_iter().map(|(.., code)| code).collect::<Vec<_>>();
+    assert_eq!(codes("Name,Address,Type,Access,Scale\na,1,u16,ro,x10\nb,2,u16,ro,x10\n"), ["CSV007"]);
+    assert_eq!(codes("Name,Address,Type,Access,Gain\na,1,u16,ro,10\nb,2,u16,ro,100\n"), ["CSV007"]);
+    assert_eq!(codes("Name,Address,Access\na,1,ro\nb,2,ro\n"), ["CSV007"]);
+    assert_eq!(codes("Name,Address,Type\na,1,u16\nb,2,u16\n"), ["CSV007"]);
+    assert_eq!(codes("Name,Address,Type,Access\n\"a,1,u16,ro\nb,2,u16,ro\n").last(), Some(&"CSV008"));
+    let physical = read("Name;Address;Type;Access;Scale;Max\na;1;u16;ro;0,1;400,5\nb;2;u16;ro;0,1;10\n");
+    let table = physical.table.as_deref().unwrap_or_default();
+    assert!(table.contains("max = 4005") && table.contains("max = 100"), "{table}");
+    let gain = read("Name,Address,Type,Access,Gain\na,1,u16,ro,10\n").table.unwrap_or_default();
+    assert!(gain.contains("scale = 0.1"), "{gain}");
+}
+
+#[test]
+fn columns_that_the_caller_names() {
+    let options = |map: &[&str]| import::Options {
+        map: map.iter().map(|one| mapping(one).expect("a field")).collect(),
+        ..import::Options::default()
+    };
+    let list = "Pos,What,Kind of value\n40001,Speed,u16\n40002,Power,i16\n";
+    assert_eq!(findings(&read(list)), [(1, 1, "CSV001")]);
+    let named = read_as("l.csv", list, &options(&["reg=pos", "name=What", "type=#3"]));
+    assert!(named.table.is_some_and(|table| table.contains("Power = { reg = 40002, type = \"i16\" }")));
+    let headless = "40001,Speed,u16\n40002,Power,i16\n";
+    let numbered = read_as("l.csv", headless, &options(&["reg=#1", "name=#2", "type=#3"]));
+    assert!(numbered.table.is_some_and(|table| table.contains("Speed = { reg = 40001,")));
+    let wrong = read_as("l.csv", list, &options(&["reg=Nowhere"]));
+    assert_eq!((findings(&wrong), wrong.table), (vec![(1, 1, "CSV009")], None));
+    assert!(mapping("adress=x").is_err_and(|error| error.contains("there is no field")));
+    assert!(mapping("nme=x").is_err_and(|error| error.contains("did you mean `name`?")));
+    assert!(mapping("name").is_err());
+    assert_eq!((import::delimiter("tab"), import::delimiter(";")), (Ok(b'\t'), Ok(b';')));
+    assert!(import::delimiter("é").is_err());
+}
+
+#[test]
+fn strict_imports_nothing_that_was_not_read() {
+    let options = import::Options { levels: Levels::strict(), ..import::Options::default() };
+    let import = read_as("l.csv", "Name,Address,Type,Access\na,1,what,ro\n", &options);
+    assert!(import.table.is_none() && import.compilation.diagnostics.count(Severity::Error) == 1);
+}
+
+/// A cell as lists have them, right and wrong.
+fn cell() -> impl Strategy<Value = String> {
+    const CELLS: [&str; 70] = [
+        "",
+        "-",
+        "0",
+        "1",
+        "2",
+        "40001",
+        "40002-40003",
+        "30001",
+        "10001",
+        "0x10",
+        "10h",
+        "12.3",
+        "4x0001",
+        "65535",
+        "70000",
+        "u16",
+        "INT16",
+        "uint32",
+        "float32",
+        "bool",
+        "string16",
+        "string",
+        "u8[3]",
+        "REAL",
+        "BYTE",
+        "uint64",
+        "R",
+        "R/W",
+        "WO",
+        "const",
+        "rpm",
+        "0.1 V",
+        "°C",
+        "x/y",
+        "0.1",
+        "0,1",
+        "x10",
+        "/100",
+        "1/10",
+        "10^-2",
+        "-1",
+        "-5",
+        "3.5",
+        "400,5",
+        "1e9",
+        "0=Off, 1=On",
+        "Bit 0: a; Bit 1: b",
+        "0..100",
+        "-40-85",
+        "0xFFFF",
+        "0x8000",
+        "CDAB",
+        "little endian",
+        "03/06",
+        "holding",
+        "coil",
+        "a",
+        "b",
+        "Speed",
+        "{n}",
+        "$x",
+        "\"q\"",
+        "a\nb",
+        "é",
+        "2000h",
+        "18446744073709551615",
+        "true",
+        "reserved",
+        "3-7: x",
+        "0: a; 0: b",
+    ];
+    prop_oneof![4 => prop::sample::select(&CELLS[..]).prop_map(str::to_owned), 1 => "\\PC{0,12}"]
+}
+
+const TITLES: [&str; 30] = [
+    "Name",
+    "Address",
+    "Register",
+    "Index",
+    "Sub",
+    "Parameter number",
+    "Bit",
+    "FC",
+    "Type",
+    "Length",
+    "Bytes",
+    "Byte order",
+    "Word order",
+    "Unit",
+    "Scale",
+    "Gain",
+    "SF",
+    "Decimals",
+    "Offset",
+    "Min",
+    "Max",
+    "Range",
+    "Default",
+    "R/W",
+    "Invalid",
+    "Values",
+    "Bits",
+    "Chapter",
+    "Notes",
+    "Repeat",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+
+    /// Whatever stands in the cells, the table is one: no error is left for `check` to find.
+    #[test]
+    fn tables_of_any_cells_are_accepted(
+        titles in prop::sample::subsequence(&TITLES[..], 4..16).prop_shuffle(),
+        lines in prop::collection::vec(prop::collection::vec(cell(), 16), 1..12),
+    ) {
+        let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
+        let line = |cells: Vec<String>| cells.join(";") + "\n";
+        let mut list = line(titles.iter().map(|title| quoted(title)).collect());
+        for cells in &lines {
+            list += &line(cells.iter().take(titles.len()).map(|cell| quoted(cell)).collect());
+        }
+        if let Some(table) = read(&list).table {
+            let options = Options::default();
+            let compilation = check(Source::new("list.toml", table.clone().into_bytes()), &options);
+            let errors = compilation.diagnostics.list().iter().filter(|own| own.severity == Severity::Error);
+            let errors: Vec<String> = errors.map(|own| compilation.one_line(own)).collect();
+            prop_assert_eq!(errors, Vec::<String>::new(), "{}\n{}", list, table);
+            prop_assert!(compilation.rust(&options.rust).is_some());
+        }
+    }
+
+    /// No text makes it panic.
+    #[test]
+    fn any_text_is_read(text in "\\PC*|(Name|Address|Type|[0-9.x,;\t\"\n-]){0,60}") {
+        read(&text);
+    }
+}
+
+#[test]
+fn the_command_line_imports() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("import");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    let call = |arguments: &[&str]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_lexibus"));
+        command.current_dir(&folder).args(arguments).output().expect("lexibus runs")
+    };
+    std::fs::write(folder.join("pump.csv"), "Nom;Address;Type;Access\nSpeed;1;u16;rw\nTorque;2;what;ro\n")
+        .expect("a list");
+    let made = call(&["import", "pump.csv", "--map", "name=Nom", "--out", "pump.toml"]);
+    let said = String::from_utf8_lossy(&made.stderr).into_owned();
+    assert_eq!(made.status.code(), Some(0), "{said}");
+    assert!(said.contains("pump.csv:3:10") && said.contains("warning[CSV003]") && said.contains("1 warning"), "{said}");
+    assert_eq!(call(&["check", "pump.toml"]).status.code(), Some(0));
+    let printed = call(&["import", "pump.csv", "-A", "warnings"]);
+    assert_eq!(printed.stdout, std::fs::read(folder.join("pump.toml")).expect("the table"));
+    assert!(printed.stderr.is_empty());
+    for (arguments, code) in [
+        (&["import", "pump.csv", "--out", "pump.toml"][..], 2),
+        (&["import", "none.csv"], 2),
+        (&["import", "pump.csv", "--delimiter", "xx"], 2),
+        (&["import", "pump.csv", "--map", "nme=Nom"], 2),
+        (&["import", "pump.csv", "--map", "name=Name"], 1),
+        (&["import", "pump.csv", "--strict"], 1),
+        (&["import", "pump.csv", "--delimiter", ","], 1),
+    ] {
+        assert_eq!(call(arguments).status.code(), Some(code), "{arguments:?}");
+    }
+}

@@ -1,0 +1,361 @@
+//! Overlays: what they change, what they keep, and what they are told to be wrong about.
+
+use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::ir::{Access, Device, Item, Shape, Type, Value};
+use lexibus_codegen::source::Source;
+use lexibus_codegen::Builder;
+
+const EDS: &str = "[DeviceInfo]\nVendorNumber=0x6A\nProductName=Pump 3\nProductNumber=7\nRevisionNumber=2\n\
+    [1018]\nParameterName=Identity\nObjectType=9\nSubNumber=2\n\
+    [1018sub0]\nParameterName=Entries\nDataType=5\nAccessType=ro\nDefaultValue=1\n\
+    [1018sub1]\nParameterName=Vendor\nDataType=7\nAccessType=ro\nDefaultValue=0x6A\n\
+    [2000]\nParameterName=Speed\nDataType=6\nAccessType=rw\nDefaultValue=5\n\
+    [2001]\nParameterName=Mode\nDataType=5\nAccessType=rw\n\
+    [2002]\nParameterName=Flags\nDataType=6\nAccessType=ro\n\
+    [2003]\nParameterName=Name\nDataType=9\nAccessType=const\n\
+    [2010]\nParameterName=Gains\nObjectType=8\nSubNumber=3\n\
+    [2010sub0]\nParameterName=Entries\nDataType=5\nAccessType=ro\nDefaultValue=2\n\
+    [2010sub1]\nParameterName=P\nDataType=6\nAccessType=rw\n\
+    [2010sub2]\nParameterName=I\nDataType=6\nAccessType=rw\n";
+
+const HEAD: &str = "lexibus = 1\n[overlay]\nwhy = \"as the manual has it\"\n[[chapters]]\n";
+
+fn apply(text: &str) -> Compilation {
+    apply_to("pump.eds", EDS, text)
+}
+
+fn apply_to(name: &str, description: &str, text: &str) -> Compilation {
+    let overlays = vec![Source::new("pump.overlay.toml", text.as_bytes().to_vec())];
+    let options = Options { overlays, no_profiles: true, ..Options::default() };
+    check(Source::new(name, description.as_bytes().to_vec()), &options)
+}
+
+fn rows(rows: &str) -> String {
+    format!("{HEAD}[chapters.objects]\n{rows}")
+}
+
+fn device(compilation: &Compilation) -> &Device {
+    &compilation.catalog.as_ref().expect("a catalogue").devices[0]
+}
+
+fn item(compilation: &Compilation, index: u16, sub: u8) -> &Item {
+    device(compilation).entry(index, sub).unwrap_or_else(|| panic!("0x{index:04X}:{sub} exists"))
+}
+
+/// Codes of the findings in the overlay, with what they mark.
+fn findings(compilation: &Compilation) -> Vec<(&'static str, String)> {
+    let own = compilation.diagnostics.list().iter().filter(|finding| finding.span.file.0 == 1);
+    own.map(|finding| (finding.code.id, compilation.sources[1].text()[finding.span.range()].to_owned())).collect()
+}
+
+fn words(item: &Item) -> &str {
+    item.documentation.as_ref().map_or("", |documentation| documentation.text.as_str())
+}
+
+#[test]
+fn a_row_changes_what_it_says_and_nothing_else() {
+    let text = rows(
+        "0x2000 = { unit = \"rpm\", min = 1, max = 3000, why = \"page 12\" }\n\
+         \"0x2010:1..2\" = { type = \"i16\", name = \"Gain {sub}\", doc = \"A gain.\" }\n",
+    );
+    let compilation = apply(&text);
+    assert_eq!(findings(&compilation), []);
+    let before = apply(HEAD);
+    let (old, new) = (item(&before, 0x2000, 0), item(&compilation, 0x2000, 0));
+    assert_eq!(new.quantity.as_ref().expect("a unit").unit, "rpm");
+    assert_eq!((&new.limits.low, &new.limits.high), (&Some(Value::Int(1)), &Some(Value::Int(3000))));
+    assert_eq!((&new.name, new.ty, new.access, &new.default), (&old.name, old.ty, old.access, &old.default));
+    assert_eq!((new.origin, new.at.name, new.at.ty), (old.origin, old.at.name, old.at.ty));
+    assert_eq!(words(new), "Changed by an overlay: page 12.");
+    assert!(new.extensions.iter().any(|own| own.key == "overlay" && own.value == "page 12"));
+    assert_eq!(&compilation.sources[1].text()[new.at.low.range()], "1", "the limit stands in the overlay");
+    let gain = item(&compilation, 0x2010, 2);
+    assert_eq!((gain.name.as_str(), gain.ty), ("Gain 2", Type::Integer(16)));
+    assert_eq!(words(gain), "A gain.\nChanged by an overlay: as the manual has it.");
+    assert_eq!(compilation.catalog.as_ref().map(|catalog| catalog.files.len()), Some(2));
+    let rust = compilation.rust(&Options::default().rust).expect("bindings");
+    assert!(rust.contains("Changed by an overlay: page 12."), "the generated documentation tells why");
+}
+
+#[test]
+fn bits_and_values_get_their_names() {
+    let text = rows("0x2001 = { enum = \"Mode\" }\n0x2002 = { bits = { 0 = \"on\", \"3-1\" = { name = \"phase\", number = true } } }\n")
+        + "[enums.Mode.values]\n0 = \"off\"\n1 = \"on\"\n";
+    let compilation = apply(&text);
+    assert_eq!(findings(&compilation), []);
+    let shape = |index| match item(&compilation, index, 0).ty {
+        Type::Named(id) => &device(&compilation).types[id.0 as usize].shape,
+        ty => panic!("{ty}"),
+    };
+    assert!(matches!(shape(0x2001), Shape::Enumeration { base: Type::Unsigned(8), values, .. } if values.len() == 2));
+    assert!(matches!(shape(0x2002), Shape::BitField { base: Type::Unsigned(16), fields } if fields.len() == 2));
+    let rust = compilation.rust(&Options::default().rust).expect("bindings");
+    assert!(rust.contains("pub enum Mode"), "{rust}");
+}
+
+#[test]
+fn items_go_by_name_too() {
+    let text = format!("{HEAD}[chapters.registers]\nSpeed = {{ unit = \"rpm\" }}\n\"Gains/I\" = {{ unit = \"ms\" }}\n");
+    let compilation = apply(&text);
+    assert_eq!(findings(&compilation), []);
+    assert_eq!(item(&compilation, 0x2010, 2).quantity.as_ref().expect("a unit").unit, "ms");
+    let text = format!("{HEAD}[chapters.registers]\nEntries = {{ unit = \"rpm\" }}\nSped = {{ unit = \"rpm\" }}\n");
+    let compilation = apply(&text);
+    assert_eq!(findings(&compilation), [("TAB006", "Entries".to_owned()), ("TAB030", "Sped".to_owned())]);
+    let help =
+        compilation.diagnostics.list().iter().find(|found| found.code.id == "TAB030").and_then(|own| own.help.clone());
+    assert_eq!(help.as_deref(), Some("did you mean `Speed`?"));
+}
+
+#[test]
+fn what_matches_or_changes_nothing_is_told() {
+    let text = rows(
+        "0x2100 = { unit = \"rpm\" }\n0x2000 = { type = \"u16\", access = \"rw\", default = 5 }\n\"0x2010:9\" = { remove = true }\n\
+         0x2001 = { add = true, type = \"u8\", access = \"rw\" }\n\"0x1018:1\" = { name = \"Vendor\" }\n",
+    );
+    let expected = [("TAB030", "0x2100"), ("TAB031", "0x2000"), ("TAB030", "\"0x2010:9\""), ("TAB031", "0x2001")];
+    let mut expected: Vec<_> = expected.map(|(code, mark)| (code, mark.to_owned())).to_vec();
+    expected.push(("TAB031", "\"0x1018:1\"".to_owned()));
+    assert_eq!(findings(&apply(&text)), expected);
+    let unused = rows("0x2000 = { unit = \"rpm\" }\n")
+        + "[enums.Nobody.values]\n0 = \"x\"\n[units]\nlost = { symbol = \"m\" }\n";
+    let expected = [("TAB030", "Nobody".to_owned()), ("TAB030", "lost".to_owned())];
+    assert_eq!(findings(&apply(&unused)), expected);
+}
+
+#[test]
+fn objects_are_added_and_removed() {
+    let text = rows(
+        "0x2003 = { remove = true, why = \"it was never there\" }\n\"0x2010:2\" = { remove = true }\n\
+         0x2005 = { add = true, name = \"Temperature\", type = \"i16\", access = \"ro\", unit = \"°C\" }\n\
+         \"0x2010:5\" = { add = true, name = \"D\", type = \"u16\", access = \"rw\" }\n",
+    );
+    let compilation = apply(&text);
+    assert_eq!(findings(&compilation), []);
+    let device = device(&compilation);
+    assert!(device.object(0x2003).is_none() && device.entry(0x2010, 2).is_none());
+    assert!(device
+        .extensions
+        .iter()
+        .any(|own| own.key == "overlay/removed 0x2003" && own.value == "it was never there"));
+    let added = item(&compilation, 0x2005, 0);
+    assert_eq!((added.name.as_str(), added.ty, added.access), ("Temperature", Type::Integer(16), Access::ReadOnly));
+    assert_eq!(words(added), "Added by an overlay: as the manual has it.");
+    assert_eq!(item(&compilation, 0x2010, 5).name, "D");
+    assert_eq!(words(item(&compilation, 0x2010, 1)), "", "its neighbour is as it was");
+    assert!(device.groups.is_sorted_by_key(|group| group.index()));
+    compilation.rust(&Options::default().rust).expect("bindings");
+}
+
+#[test]
+fn tables_of_the_device_are_added_or_replaced() {
+    let text = rows("0x2000 = { unit = \"rpm\" }\n")
+        + "[codes.alarm.rows]\n1 = \"hot\"\n\
+           [machines.pump]\nstatus = \"0x2002\"\ncontrol = \"Mode\"\n[machines.pump.states]\noff = { mask = 1, value = 0 }\n\
+           [procedures.start]\nsteps = [{ write = \"Mode\", value = 1 }]\n\
+           [[doubts]]\nsays = \"a\"\nchose = \"b\"\nwhy = \"c\"\n";
+    let compilation = apply(&text);
+    assert_eq!(findings(&compilation), []);
+    let device = device(&compilation);
+    assert_eq!((device.code_tables.len(), device.procedures.len(), device.doubts.len()), (1, 1, 1));
+    assert_eq!(device.machines[0].status_item, "Flags", "an object stands for the item there");
+    // A second overlay of the same names replaces rows and machines.
+    let first = Source::new("a.toml", text.as_bytes().to_vec());
+    let more = "lexibus = 1\n[overlay]\n[codes.alarm.rows]\n1 = \"too hot\"\n2 = \"cold\"\n[machines.pump]\nstatus = \"Flags\"\n";
+    let second = Source::new("b.toml", more.as_bytes().to_vec());
+    let options = Options { overlays: vec![first, second], no_profiles: true, ..Options::default() };
+    let compilation = check(Source::new("pump.eds", EDS.into()), &options);
+    assert!(!compilation.diagnostics.has_errors());
+    let device = self::device(&compilation);
+    let names: Vec<&str> = device.code_tables[0].rows.iter().map(|row| row.name.as_str()).collect();
+    assert_eq!((names, device.machines.len()), (vec!["too hot", "cold"], 1));
+    assert!(device.machines[0].states.is_empty());
+}
+
+#[test]
+fn mistakes_are_told_at_their_place() {
+    let cases: [(String, &str, &str); 9] = [
+        (rows("0x2000 = { unti = \"rpm\" }\n"), "TAB003", "unti"),
+        (rows("x2000 = { unit = \"rpm\" }\n"), "TAB006", "x2000"),
+        (rows("0x1018 = { type = \"u8\" }\n"), "TAB006", "0x1018"),
+        (rows("0x2000 = { enum = \"None\" }\n"), "TAB005", "\"None\""),
+        (rows("0x2003 = { bits = { 0 = \"on\" } }\n"), "TAB004", "{ 0 = \"on\" }"),
+        (rows("0x2000 = { bits = \"B\" }\n") + "[bits.B]\nbase = \"u32\"\nat = { 0 = \"x\" }\n", "TAB004", "\"B\""),
+        (rows("0x2000 = { add = true, remove = true }\n"), "TAB004", "0x2000"),
+        (rows("0x2000 = { when = { Nothing = [1] } }\n"), "TAB005", "Nothing"),
+        (
+            "lexibus = 1\n[overlay]\n[[chapters]]\n[chapters.objects]\n0x2000 = { unit = \"rpm\" }\n".into(),
+            "TAB004",
+            "0x2000",
+        ),
+    ];
+    for (text, code, mark) in cases {
+        let compilation = apply(&text);
+        assert_eq!(findings(&compilation), [(code, mark.to_owned())], "{text}");
+        assert!(compilation.diagnostics.has_errors());
+    }
+    let compilation = apply(&format!("{HEAD}[spaces.x]\nbits = 8\n"));
+    assert_eq!(findings(&compilation).first().map(|(code, _)| *code), Some("TAB003"), "an overlay has no spaces");
+    let compilation = apply("lexibus = 1\n[device]\nname = \"x\"\n");
+    let mut messages = compilation.diagnostics.list().iter().map(|finding| finding.message.as_str());
+    assert!(messages.any(|message| message == "the table has no `[overlay]`"));
+    let input = check(Source::new("o.toml", HEAD.into()), &Options::default());
+    assert!(input.diagnostics.list()[0].help.as_deref().is_some_and(|help| help.contains("--overlay")));
+}
+
+#[test]
+fn an_overlay_is_for_some_devices() {
+    let with = |applies: &str| {
+        let text = format!(
+            "lexibus = 1\n[overlay]\nwhy = \"w\"\nfor = {{ {applies} }}\n[[chapters]]\n[chapters.objects]\n0x2000 = {{ unit = \"rpm\" }}\n"
+        );
+        let compilation = apply(&text);
+        (
+            item(&compilation, 0x2000, 0).quantity.is_some(),
+            findings(&compilation).iter().map(|(code, _)| *code).collect(),
+        )
+    };
+    let none: Vec<&str> = Vec::new();
+    for fits in [
+        "vendor_id = 0x6A",
+        "product_code = 7, revision = 2",
+        "device = \"pump*\"",
+        "vendor_id = 0x6A, device = \"*3\"",
+    ] {
+        assert_eq!(with(fits), (true, none.clone()), "{fits}");
+    }
+    for other in ["vendor_id = 1", "product_code = 7, revision = 3", "device = \"valve*\"", "module = \"*\""] {
+        assert_eq!(with(other), (false, vec!["TAB032"]), "{other}");
+    }
+}
+
+const ESI: &str = "<EtherCATInfo><Vendor><Id>1</Id></Vendor><Descriptions><Devices>\
+    <Device><Type ProductCode=\"1\" RevisionNo=\"1\">A</Type>DICT</Device>\
+    <Device><Type ProductCode=\"2\" RevisionNo=\"1\">B</Type>DICT\
+    <Slots><Slot MinInstances=\"0\" MaxInstances=\"1\"><ModuleIdent>#x10</ModuleIdent></Slot></Slots></Device>\
+    </Devices><Modules><Module><Type ModuleIdent=\"#x10\">M</Type><Name>Analogue in</Name>DICT</Module></Modules>\
+    </Descriptions></EtherCATInfo>";
+
+const DICTIONARY: &str =
+    "<Profile><Dictionary><DataTypes><DataType><Name>UINT</Name><BitSize>16</BitSize></DataType></DataTypes>\
+    <Objects><Object><Index>#x2000</Index><Name>Value</Name><Type>UINT</Type><BitSize>16</BitSize></Object></Objects>\
+    </Dictionary></Profile>";
+
+#[test]
+fn several_devices_and_modules_are_told_apart() {
+    let esi = ESI.replace("DICT", DICTIONARY);
+    let text = rows("0x2000 = { unit = \"V\", scale = 0.01, nonsense = 1 }\n");
+    let compilation = apply_to("x.xml", &esi, &text);
+    assert_eq!(findings(&compilation).len(), 1, "a mistake is told once for both devices");
+    let unit = |item: Option<&Item>| item.and_then(|item| item.quantity.as_ref()).map(|own| own.unit.to_string());
+    let catalog = compilation.catalog.as_ref().expect("a catalogue");
+    assert!(catalog.devices.iter().all(|device| unit(device.entry(0x2000, 0)).as_deref() == Some("V")));
+    let of_module = |compilation: &Compilation| {
+        let module = &compilation.catalog.as_ref().expect("a catalogue").modules[0];
+        unit(module.groups.iter().find(|group| group.index() == Some(0x2000)).and_then(|group| group.items.first()))
+    };
+    assert_eq!(of_module(&compilation), None);
+    let text = text.replace(", nonsense = 1", "");
+    for module in ["module = \"analogue*\"", "module = \"M\"", "module = \"0x10\"", "module = \"M\", product_code = 2"]
+    {
+        let text = text.replace("why =", &format!("for = {{ {module} }}\nwhy ="));
+        let compilation = apply_to("x.xml", &esi, &text);
+        assert_eq!((of_module(&compilation).as_deref(), findings(&compilation)), (Some("V"), vec![]), "{module}");
+    }
+    let text = text.replace("why =", "for = { module = \"M\", product_code = 1 }\nwhy =");
+    assert_eq!(findings(&apply_to("x.xml", &esi, &text)).len(), 1, "the first device takes no module");
+}
+
+#[test]
+fn a_corrected_type_is_what_process_data_have() {
+    let eds = format!(
+        "{EDS}[1A00]\nParameterName=Mapping\nObjectType=9\nSubNumber=2\n\
+         [1A00sub0]\nParameterName=n\nDataType=5\nAccessType=ro\nDefaultValue=1\n\
+         [1A00sub1]\nParameterName=e\nDataType=7\nAccessType=ro\nDefaultValue=0x20020010\n"
+    );
+    let compilation = apply_to("pump.eds", &eds, &rows("0x2002 = { type = \"i16\", pdo = \"tx\" }\n"));
+    assert_eq!(device(&compilation).process_data.pdos[0].entries[0].ty, Type::Integer(16));
+}
+
+#[test]
+fn parameters_of_profinet_go_by_name() {
+    let gsdml = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/corpus/gsdml"));
+    let Ok(files) = gsdml else {
+        eprintln!("skipped: there is no corpus");
+        return;
+    };
+    let options = Options { no_profiles: true, ..Options::default() };
+    let mut tried = 0;
+    for path in
+        files.filter_map(|file| Some(file.ok()?.path())).filter(|path| path.extension().is_some_and(|e| e == "xml"))
+    {
+        let source = Source::read(&path).expect("a file of the corpus");
+        let compilation = check(source.clone(), &options);
+        let Some(catalog) = compilation.catalog.as_ref() else { continue };
+        let unique = |own: &&lexibus_codegen::ir::Submodule| {
+            !own.id.is_empty() && own.records.len() == 1 && own.records[0].items.len() == 1
+        };
+        let Some(submodule) = catalog.submodules.iter().find(unique) else { continue };
+        let (item, id) = (&submodule.records[0].items[0], submodule.id.clone());
+        if item.name.contains(['"', '\\', '/']) || id.contains(['"', '\\', '*']) || item.name.is_empty() {
+            continue;
+        }
+        let text = format!(
+            "lexibus = 1\n[overlay]\nwhy = \"w\"\nfor = {{ module = \"{id}\" }}\n[[chapters]]\n[chapters.registers]\n\"{}\" = {{ doc = \"Told.\" }}\n",
+            item.name
+        );
+        let overlays = vec![Source::new("o.toml", text.clone().into_bytes())];
+        let compilation = check(source, &Options { overlays, ..options.clone() });
+        let changed = compilation.catalog.as_ref().expect("a catalogue").submodules.iter().find(|own| own.id == id);
+        let told = changed.is_some_and(|own| words(&own.records[0].items[0]).starts_with("Told.\nChanged"));
+        assert!(told, "{}: {text}\n{:?}", path.display(), findings(&compilation));
+        tried += 1;
+    }
+    assert!(tried > 5, "only {tried} submodules with one parameter");
+}
+
+#[test]
+fn the_builder_takes_overlays() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("overlay-builder");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let (input, overlay) = (folder.join("pump.eds"), folder.join("pump.toml"));
+    std::fs::write(&input, EDS).expect("the description");
+    std::fs::write(&overlay, rows("0x2000 = { unit = \"rpm\" }\n")).expect("the overlay");
+    let builder = Builder::new().quiet();
+    let text = builder.clone().overlay(&overlay).generate(&input).expect("bindings");
+    assert!(text.contains("in rpm") && !builder.generate(&input).expect("bindings").contains("in rpm"));
+    let missing = builder.overlay(folder.join("none.toml")).generate(&input).expect_err("no such file");
+    assert!(missing.to_string().contains("none.toml"), "{missing}");
+}
+
+#[cfg(feature = "cli")]
+#[test]
+fn the_command_line_takes_overlays() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("overlay-cli");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let (input, overlay) = (folder.join("pump.eds"), folder.join("pump.toml"));
+    std::fs::write(&input, EDS).expect("the description");
+    std::fs::write(&overlay, rows("0x2000 = { unit = \"rpm\" }\n0x2999 = { unit = \"rpm\" }\n")).expect("the overlay");
+    let run = |command: &str| {
+        let mut call = std::process::Command::new(env!("CARGO_BIN_EXE_lexibus"));
+        call.arg(command)
+            .arg(&input)
+            .arg("--overlay")
+            .arg(&overlay)
+            .args(["-A", "warnings", "-W", "TAB030"])
+            .output()
+            .expect("lexibus runs")
+    };
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let generated = run("generate");
+    assert!(generated.status.success() && text(&generated.stdout).contains("in rpm"));
+    assert!(text(&generated.stderr).contains("pump.toml:7:1"), "{}", text(&generated.stderr));
+    assert!(text(&run("dump").stdout).contains("\"overlay\""));
+    assert!(text(&run("info").stdout).contains("TAB030"));
+    assert!(text(&run("check").stderr).contains("TAB030"));
+    let missing = std::process::Command::new(env!("CARGO_BIN_EXE_lexibus"))
+        .args(["check", &input.to_string_lossy(), "--overlay", "nowhere.toml"])
+        .output()
+        .expect("lexibus runs");
+    assert_eq!(missing.status.code(), Some(2));
+}

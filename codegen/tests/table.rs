@@ -1,0 +1,282 @@
+//! Register tables: what their mistakes look like, and what the examples of their documentation become.
+
+mod table_support;
+
+use lexibus_codegen::backend::json;
+use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::diagnostics::{render, Severity};
+use lexibus_codegen::ir::{Access, Binding, Item, RegisterSpace, Scale, Type, Value};
+use lexibus_codegen::source::Source;
+use proptest::prelude::*;
+use proptest::sample::Index;
+use table_support::{examples, whole};
+
+fn read(text: &str) -> Compilation {
+    read_with(text, &[])
+}
+
+fn read_with(text: &str, choices: &[(&str, &str)]) -> Compilation {
+    let choices = choices.iter().map(|(name, choice)| ((*name).to_owned(), (*choice).to_owned())).collect();
+    check(Source::new("t.toml", text.into()), &Options { choices, ..Options::default() })
+}
+
+/// The findings, a line each.
+fn said(compilation: &Compilation) -> Vec<String> {
+    let line = |own: &lexibus_codegen::diagnostics::Diagnostic| {
+        let help = own.help.as_ref().map(|help| format!(" ({help})")).unwrap_or_default();
+        format!("{} {}{help}", own.severity.name(), compilation.one_line(own))
+    };
+    compilation.diagnostics.list().iter().map(line).collect()
+}
+
+const HEAD: &str = "lexibus = 1\n[device]\nname = \"Pump\"\n[spaces.register]\nmodbus = { table = \"holding\" }\n";
+
+/// A table with these lines in its only chapter.
+fn rows(rows: &str) -> String {
+    format!("{HEAD}[[chapters]]\n[chapters.registers]\n{rows}\n")
+}
+
+/// A table with one row that says this besides.
+fn a(more: &str) -> String {
+    rows(&format!("a = {{ reg = 1, type = \"u16\", access = \"ro\"{more} }}"))
+}
+
+#[test]
+fn mistakes_and_what_is_said_of_them() {
+    let objects = |rows: &str| format!("{HEAD}[[chapters]]\n[chapters.objects]\n{rows}\n");
+    let option = "[options.gain]\ndefault = \"low\"\n[options.gain.choices]\nlow = 1\nhigh = 2\n";
+    let b = "b = { reg = 2, type = \"u16\", access = \"ro\" }";
+    let object = "0x2000 = { name = \"a\", type = \"u16\", access = \"ro\" }";
+    let cases = [
+        ("no TOML", "lexibus = 1\n[device\n".to_owned()),
+        ("a name of two words", rows("pump speed = { reg = 1 }")),
+        ("a range without quotes", rows("a = { reg = 40004-40005 }")),
+        ("a fraction", a(", scale = 0.1, max = 65.5")),
+        ("a spelling of a unit", a(", unit = \"degC\"")),
+        ("bits without `at`", format!("{HEAD}[bits.A]\n0 = \"on\"\n")),
+        ("a part", rows("a = { reg = 1, type = \"bool\", access = \"ro\", part = 3 }")),
+        ("no part", rows("a = { reg = 1, type = \"bool\", access = \"ro\", part = \"x\" }")),
+        ("no version", "[device]\nname = \"x\"\n".to_owned()),
+        ("another version", "lexibus = 2\n[device]\nname = \"x\"\n".to_owned()),
+        ("no device", "lexibus = 1\n".to_owned()),
+        ("no name", "lexibus = 1\n[device]\nvendor = \"x\"\n".to_owned()),
+        ("a top key", format!("{HEAD}[chapter]\n")),
+        ("a key of a row", rows(&format!("a = {{ reg = 1, type = \"u16\", acess = \"ro\" }}\n{b}"))),
+        ("a key far off", a(", colour = \"red\"")),
+        ("a wrong kind", rows(&format!("a = {{ reg = 1, type = 16, access = \"ro\" }}\n{b}"))),
+        ("a type", rows("a = { reg = 1, type = \"uint16\", access = \"ro\" }")),
+        ("no type", rows("a = { reg = 1, access = \"ro\" }")),
+        ("an access", rows("a = { reg = 1, type = \"u16\", access = \"r/w\" }")),
+        ("no access", rows("a = { reg = 1, type = \"u16\" }")),
+        ("a limit", a(", min = \"low\"")),
+        ("a place", rows("a = { reg = \"one\", type = \"u16\", access = \"ro\" }")),
+        ("a negative place", rows("a = { reg = -1, type = \"u16\", access = \"ro\" }")),
+        ("a place that the bus lacks", rows("a = { reg = 65536, type = \"u16\", access = \"ro\" }")),
+        ("no place", rows("a = { type = \"u16\", access = \"ro\" }")),
+        ("a span", rows("a = { reg = \"1-2\", type = \"u16\", access = \"ro\" }")),
+        ("an address twice", rows(&format!("{b}\n{}", b.replacen('b', "c", 1)))),
+        ("a name twice", format!("{}[[chapters]]\n[chapters.registers]\n{b}\n", rows(&b.replacen('2', "3", 1)))),
+        ("bits that don't exist", format!("{}[bits.Status.at]\n0 = \"on\"\n", a(", bits = \"Statsu\""))),
+        ("an item that doesn't exist", a(", same_as = \"aa\"")),
+        ("a unit", a(", unit = \"furlong\"")),
+        ("a space", format!("{HEAD}[[chapters]]\nspace = \"registers\"\n")),
+        ("bits", format!("{}[bits.A.at]\nx = \"on\"\n", rows(""))),
+        ("a value", format!("{}[enums.A.values]\n\"1-2\" = \"on\"\n", rows(""))),
+        ("an object", objects("motor = { type = \"u16\", access = \"ro\" }")),
+        ("an object twice", objects(&format!("{object}\n{}", object.replacen("0x2000", "8192", 1)))),
+        ("a sub-entry alone", objects(&object.replacen("0x2000", "\"0x2000:1\"", 1))),
+        ("a sub-entry of a value", objects(&format!("{object}\n{}", object.replacen("0x2000", "\"0x2000:1\"", 1)))),
+        ("an option that doesn't exist", a(", scale = \"$gian\"") + option),
+        ("an option without default", format!("{HEAD}[options.x.choices]\na = 1\n")),
+        ("a chapter that is no table", "lexibus = 1\nchapters = [1]\n[device]\nname = \"x\"\n".to_owned()),
+    ];
+    let mut text = String::new();
+    for (what, table) in cases {
+        text += &format!("# {what}\n{}\n\n", said(&read(&table)).join("\n"));
+    }
+    insta::assert_snapshot!(text);
+}
+
+#[test]
+fn a_mistake_as_a_terminal_shows_it() {
+    let table = rows("temperature = { reg = 2, typ = \"i16\", access = \"ro\" }");
+    let compilation = read(&table);
+    let list = compilation.diagnostics.list().iter();
+    let shown: Vec<String> = list.map(|own| render::terminal::render(own, &compilation.sources, false)).collect();
+    insta::assert_snapshot!(shown.join("\n\n"));
+}
+
+#[test]
+fn choices_of_options() {
+    let table = "lexibus = 1\n[device]\nname = \"x\"\n[options.place]\ndefault = \"low\"\n\
+                 [options.place.choices]\nlow = 1\nhigh = 2\n[spaces.s]\nmodbus = { add = \"$place\" }\n\
+                 [[chapters]]\nregisters.a = { reg = 10, type = \"u16\", access = \"ro\" }\n";
+    let address = |compilation: &Compilation| match &item(compilation, "a").bindings[0] {
+        Binding::Register(own) => own.address,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(address(&read(table)), 11);
+    assert_eq!(address(&read_with(table, &[("place", "high")])), 12);
+    let wrong = said(&read_with(table, &[("place", "hihg")]));
+    assert_eq!(
+        wrong,
+        ["error t.toml:4:10: there is no choice of the option `place` called `hihg` [TAB005] (there are: low, high)"]
+    );
+    let unknown = said(&read_with(table, &[("plaec", "low")]));
+    assert_eq!(unknown, ["error t.toml: there is no option of this table called `plaec` [TAB005] (there are: place)"]);
+}
+
+fn item<'c>(compilation: &'c Compilation, name: &str) -> &'c Item {
+    let devices = compilation.catalog.iter().flat_map(|catalog| &catalog.devices);
+    let mut items = devices.flat_map(|device| &device.groups).flat_map(|group| &group.items);
+    items.find(|item| item.name == name).unwrap_or_else(|| panic!("no {name}"))
+}
+
+/// The first example of the documentation: a whole device.
+#[test]
+fn the_worked_example() {
+    let (_, block) = examples().swap_remove(0);
+    let compilation = read(&block);
+    assert_eq!(said(&compilation), Vec::<String>::new());
+    let register = |name| match &item(&compilation, name).bindings[0] {
+        Binding::Register(own) => (own.space, own.address, own.count),
+        other => panic!("{name} is {other:?}"),
+    };
+    assert_eq!(register("speed_setpoint"), (RegisterSpace::Holding, 0, 1));
+    assert_eq!(register("running_time"), (RegisterSpace::Holding, 3, 2));
+    let setpoint = item(&compilation, "speed_setpoint");
+    assert_eq!(
+        (setpoint.ty, setpoint.access, &setpoint.limits.high),
+        (Type::Unsigned(16), Access::ReadWrite, &Some(Value::Int(3000)))
+    );
+    let temperature = item(&compilation, "temperature").quantity.clone().expect("a unit");
+    assert_eq!(temperature.scale, Some(Scale::Linear { factor: 0.1, offset: 0.0 }));
+    assert_eq!(temperature.sentinels, [(Value::Int(0x7FFF), "no sensor".into())]);
+    let info = json::info(&compilation);
+    let device = &info.devices[0];
+    assert_eq!((info.format, device.name.as_str(), device.registers), (Some("table"), "Pump controller", Some(6)));
+    assert_eq!((device.objects, device.entries), (0, 0));
+    assert!(compilation.rust(&Options::default().rust).is_some());
+}
+
+#[test]
+fn the_examples_of_the_documentation_are_tables() {
+    let examples = examples();
+    assert!(examples.len() > 5);
+    // An overlay is no device: the schema is what it is held against here.
+    for (line, block) in examples.iter().filter(|(_, block)| !block.contains("[overlay]")) {
+        let compilation = read(&whole(block));
+        let errors = compilation.diagnostics.list().iter().filter(|own| own.severity == Severity::Error);
+        let errors: Vec<String> = errors.map(|own| compilation.one_line(own)).collect();
+        assert_eq!(errors, Vec::<String>::new(), "README.md:{line}");
+    }
+}
+
+#[test]
+fn info_counts_objects_and_registers() {
+    let table = rows(
+        "a = { reg = 1, type = \"u16\", access = \"ro\" }\n\
+         \"b{n}\" = { reg = 2, count = 3, type = \"u32\", access = \"ro\" }\n\
+         [chapters.objects]\n0x2000 = { name = \"o\", code = \"record\" }\n\
+         \"0x2000:1\" = { name = \"s\", type = \"u8\", access = \"ro\" }\n",
+    );
+    let compilation = read(&table);
+    let device = &json::info(&compilation).devices[0];
+    assert_eq!((device.registers, device.objects, device.entries), (Some(4), 1, 1), "{:?}", said(&compilation));
+}
+
+/// What tables are made of, to be cut and put together anew.
+fn pieces() -> Vec<String> {
+    let mut lines: Vec<String> =
+        examples().iter().flat_map(|(_, block)| whole(block).lines().map(str::to_owned).collect::<Vec<_>>()).collect();
+    lines.sort();
+    lines.dedup();
+    lines
+}
+
+/// A value of TOML, for any place.
+fn value() -> impl Strategy<Value = String> {
+    const VALUES: [&str; 34] = [
+        "0",
+        "1",
+        "-1",
+        "65536",
+        "0xFFFFFFFFFFFFFFFF",
+        "9223372036854775807",
+        "-9223372036854775808",
+        "1e308",
+        "nan",
+        "-inf",
+        "true",
+        "\"\"",
+        "\"u64\"",
+        "\"u64[4294967295]\"",
+        "\"str(4294967295)\"",
+        "\"0x2000:255\"",
+        "\"0x0000..0xFFFF\"",
+        "\"0..4294967295\"",
+        "\"63-0\"",
+        "\"$NODEID\"",
+        "\"$x\"",
+        "\"{n+99999999999}\"",
+        "\"item\"",
+        "\"pad/4294967295\"",
+        "[]",
+        "[[]]",
+        "[1, \"a\"]",
+        "{}",
+        "{ a = 1 }",
+        "{ name = \"x\" }",
+        "1979-05-27",
+        "\"\\u0000\"",
+        "\"é\"",
+        "4294967295",
+    ];
+    prop::sample::select(&VALUES[..]).prop_map(str::to_owned)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
+
+    /// Whatever stands in a table, it is read, checked and, where it has no errors, generated without a panic.
+    #[test]
+    fn mutated_tables_do_not_panic(
+        block in 0usize..16,
+        changes in prop::collection::vec((any::<Index>(), 0u8..5, value(), any::<Index>()), 1..8),
+    ) {
+        let examples = examples();
+        let pieces = pieces();
+        let mut lines: Vec<String> = whole(&examples[block % examples.len()].1).lines().map(str::to_owned).collect();
+        for (place, kind, value, other) in changes {
+            if lines.is_empty() {
+                break;
+            }
+            let at = place.index(lines.len());
+            match kind {
+                0 => drop(lines.remove(at)),
+                1 => lines.insert(at, pieces[other.index(pieces.len())].clone()),
+                // Another value in the place of one that follows a `=`.
+                2 | 3 => {
+                    let places: Vec<usize> = lines[at].match_indices(" = ").map(|(at, _)| at + 3).collect();
+                    let Some(&start) = places.get(other.index(places.len().max(1))) else { continue };
+                    let rest = &lines[at][start..];
+                    let end = start + rest.find([',', '}', '#']).unwrap_or(rest.len());
+                    lines[at].replace_range(start..end, &(value + " "));
+                }
+                _ => lines[at] = lines[at].chars().rev().collect(),
+            }
+        }
+        let text = lines.join("\n");
+        let compilation = read(&text);
+        for own in compilation.diagnostics.list().iter().take(20) {
+            render::terminal::render(own, &compilation.sources, false);
+        }
+        json::info(&compilation);
+        let _ = compilation.rust(&Options::default().rust);
+    }
+
+    #[test]
+    fn any_text_is_read(text in "lexibus = 1\n\\PC*|\\PC*") {
+        read(&text);
+    }
+}

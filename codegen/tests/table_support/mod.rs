@@ -1,0 +1,56 @@
+//! What the tests of register tables share: the examples of `dictionaries/README.md`, as tables.
+
+#![allow(dead_code)]
+
+use std::path::{Path, PathBuf};
+
+/// The folder of the dictionaries.
+pub fn dictionaries() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries")
+}
+
+/// The blocks of TOML in the format's documentation, each with its line.
+pub fn examples() -> Vec<(usize, String)> {
+    let text = std::fs::read_to_string(dictionaries().join("README.md")).expect("the format's documentation");
+    let mut blocks = Vec::new();
+    let mut block: Option<(usize, String)> = None;
+    for (number, line) in text.lines().enumerate() {
+        match (&mut block, line) {
+            (None, "```toml") => block = Some((number + 2, String::new())),
+            (Some(_), "```") => blocks.extend(block.take()),
+            (Some((_, text)), line) => *text += &(line.to_owned() + "\n"),
+            _ => {}
+        }
+    }
+    blocks
+}
+
+/// The items and names that examples refer to without having them.
+const SURROUNDINGS: &str = r#"
+[[messages]]
+name = "CmdReset"
+[[chapters]]
+title = "What the examples refer to"
+[chapters.registers]
+Rloadsav = { param = 1, type = "u8", access = "wo" }
+Reepsts  = { param = 2, type = "u8", access = "ro" }
+"position" = { param = 3, type = "u8", access = "ro" }
+[[chapters]]
+title = "Objects that the examples refer to"
+[chapters.objects]
+0x6040 = { name = "Controlword", type = "u16", access = "rw", pdo = "rx" }
+0x6041 = { name = "Statusword", type = "u16", access = "ro", pdo = "tx" }
+0x6060 = { name = "Modes of operation", type = "i8", access = "rw", pdo = "rx" }
+0x60C1 = { name = "Interpolation data", code = "record" }
+"0x60C1:1" = { name = "Position", type = "i32", access = "rw", pdo = "rx" }
+"#;
+
+/// A block as a whole table.
+pub fn whole(block: &str) -> String {
+    if block.contains("lexibus = 1") {
+        return block.to_owned();
+    }
+    let head = "lexibus = 1\n[device]\nname = \"Example\"\n";
+    let chapter = if block.starts_with("[chapters") { "[[chapters]]\n" } else { "" };
+    format!("{head}{chapter}{block}{SURROUNDINGS}")
+}

@@ -1,0 +1,183 @@
+//! Access to values that stand for physical ones.
+
+use super::Accessor;
+use crate::access::{Readable, Writable};
+use crate::client::{AsyncClient, Client};
+use crate::error::Error;
+use crate::location::On;
+use crate::quantity::Quantity;
+
+impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
+    /// Reads the value in its unit: an `f64`, or `None` where the raw number means something else.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`read`](Accessor::read).
+    pub fn read_scaled(&mut self) -> Result<V::Physical, Error<C::Error>>
+    where
+        A: Readable,
+        C: Client,
+        L: On<C::Bus>,
+    {
+        self.read().map(|raw| V::physical(raw, ()))
+    }
+
+    /// Reads the value in its unit without blocking.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`read`](Accessor::read).
+    pub async fn read_scaled_async(&mut self) -> Result<V::Physical, Error<C::Error>>
+    where
+        A: Readable,
+        C: AsyncClient,
+        L: On<C::Bus>,
+    {
+        self.read_async().await.map(|raw| V::physical(raw, ()))
+    }
+
+    /// Writes the value that is nearest to `physical`, which is in the item's unit.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutOfRange`] where that is outside the item's range, doesn't fit its type, or means something else; nothing
+    /// is sent then.
+    pub fn write_scaled(&mut self, physical: f64) -> Result<(), Error<C::Error>>
+    where
+        A: Writable,
+        C: Client,
+        L: On<C::Bus>,
+    {
+        self.write(V::raw(physical, ())?)
+    }
+
+    /// Writes the value that is nearest to `physical`, which is in the item's unit, without blocking.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`write_scaled`](Accessor::write_scaled).
+    pub async fn write_scaled_async(&mut self, physical: f64) -> Result<(), Error<C::Error>>
+    where
+        A: Writable,
+        C: AsyncClient,
+        L: On<C::Bus>,
+    {
+        self.write_async(V::raw(physical, ())?).await
+    }
+}
+
+/// Values whose scale depends on another one, which the caller gives: the documentation of the item says which one.
+impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
+    /// Reads the value in its unit. `other` is the value that its scale depends on.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`read`](Accessor::read).
+    pub fn read_scaled_by(&mut self, other: f64) -> Result<V::Physical, Error<C::Error>>
+    where
+        A: Readable,
+        C: Client,
+        L: On<C::Bus>,
+    {
+        self.read().map(|raw| V::physical(raw, other))
+    }
+
+    /// Reads the value in its unit without blocking. `other` is the value that its scale depends on.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`read`](Accessor::read).
+    pub async fn read_scaled_by_async(&mut self, other: f64) -> Result<V::Physical, Error<C::Error>>
+    where
+        A: Readable,
+        C: AsyncClient,
+        L: On<C::Bus>,
+    {
+        self.read_async().await.map(|raw| V::physical(raw, other))
+    }
+
+    /// Writes the value that is nearest to `physical`. `other` is the value that its scale depends on.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`write_scaled`](Accessor::write_scaled).
+    pub fn write_scaled_by(&mut self, physical: f64, other: f64) -> Result<(), Error<C::Error>>
+    where
+        A: Writable,
+        C: Client,
+        L: On<C::Bus>,
+    {
+        self.write(V::raw(physical, other)?)
+    }
+
+    /// Writes the value that is nearest to `physical` without blocking. `other` is the value that its scale depends on.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`write_scaled`](Accessor::write_scaled).
+    pub async fn write_scaled_by_async(&mut self, physical: f64, other: f64) -> Result<(), Error<C::Error>>
+    where
+        A: Writable,
+        C: AsyncClient,
+        L: On<C::Bus>,
+    {
+        self.write_async(V::raw(physical, other)?).await
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{item, now, Device};
+    use crate::{Error, Flags, Fraction, Initial, Item, OnCanOpen, OrNone, OutOfRange, Range, Rw, Scaled};
+
+    const VELOCITY: Item<Scaled<i16, 1, 100>, Rw, OnCanOpen> = Item::new(
+        OnCanOpen::canopen(0x6081, 0),
+        "Profile velocity",
+        Range::Between(0, 1500),
+        Initial::Unknown,
+        "rev/s",
+        Flags::NONE,
+    );
+
+    #[test]
+    fn physical_values() {
+        let mut device = Device::answering(&[0xC8, 0x00]);
+        assert_eq!(VELOCITY.at(&mut device).read_scaled(), Ok(2.0));
+        assert_eq!(now(VELOCITY.at(&mut device).read_scaled_async()), Ok(2.0));
+        assert_eq!(VELOCITY.at(&mut device).read(), Ok(200));
+        assert_eq!(VELOCITY.at(&mut device).write_scaled(15.004), Ok(()));
+        assert_eq!(device.written.take().as_deref(), Some([0xDC, 0x05].as_slice()));
+        let refused = Err(Error::OutOfRange(OutOfRange));
+        assert_eq!(VELOCITY.at(&mut device).write_scaled(15.006), refused);
+        assert_eq!(now(VELOCITY.at(&mut device).write_scaled_async(1e9)), refused);
+        assert_eq!(device.written, None);
+    }
+
+    #[test]
+    fn conversions_without_a_device() {
+        assert_eq!((VELOCITY.physical(150), VELOCITY.raw(1.5)), (1.5, Ok(150)));
+        assert_eq!(VELOCITY.raw(-1.0), Err(OutOfRange));
+        let torque = item::<Fraction<i16, 15>, Rw>();
+        assert_eq!((torque.physical_by(16_384, 5.0), torque.raw_by(2.5, 5.0)), (2.5, Ok(16_384)));
+    }
+
+    #[test]
+    fn values_that_are_no_numbers() {
+        let mut device = Device::answering(&[0xFF, 0xFF]);
+        let temperature = item::<OrNone<Scaled<u16, 1, 10>, 0xFFFF>, Rw>();
+        assert_eq!(temperature.at(&mut device).read_scaled(), Ok(None));
+        assert_eq!(temperature.at(&mut device).write_scaled(6553.5), Err(Error::OutOfRange(OutOfRange)));
+        assert_eq!(temperature.at(&mut device).write(0xFFFF), Ok(()));
+    }
+
+    #[test]
+    fn values_that_depend_on_others() {
+        let mut device = Device::answering(&[0x00, 0x40]);
+        let current = item::<Fraction<i16, 15>, Rw>();
+        assert_eq!(current.at(&mut device).read_scaled_by(11.0), Ok(5.5));
+        assert_eq!(now(current.at(&mut device).read_scaled_by_async(11.0)), Ok(5.5));
+        assert_eq!(current.at(&mut device).write_scaled_by(-5.5, 11.0), Ok(()));
+        assert_eq!(device.written.take().as_deref(), Some([0x00, 0xC0].as_slice()));
+        assert_eq!(now(current.at(&mut device).write_scaled_by_async(-5.5, 11.0)), Ok(()));
+    }
+}

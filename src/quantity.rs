@@ -1,0 +1,391 @@
+//! Numbers that stand for physical ones: raw counts with a unit and a scale.
+
+use core::marker::PhantomData;
+
+use crate::data_type::DataType;
+use crate::error::{LengthError, OutOfRange};
+use crate::range::Range;
+use crate::value::{Fixed, Value};
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+/// The numbers that Rust has types for. Sealed.
+pub trait Number: Copy + sealed::Sealed {
+    /// The number as a real one; integers beyond 2⁵³ lose their lowest bits.
+    #[must_use]
+    fn real(self) -> f64;
+
+    /// The number as an integer; reals lose their fraction.
+    #[must_use]
+    fn integer(self) -> i128;
+
+    /// The nearest number that the type has, halves away from zero; `None` where it is beyond the type's limits or no
+    /// number at all.
+    #[must_use]
+    fn nearest(real: f64) -> Option<Self>;
+}
+
+macro_rules! integers {
+    ($($integer:ty)*) => {$(
+        impl sealed::Sealed for $integer {}
+
+        impl Number for $integer {
+            #[inline]
+            fn real(self) -> f64 {
+                self as f64
+            }
+
+            #[inline]
+            fn integer(self) -> i128 {
+                self.into()
+            }
+
+            #[inline]
+            fn nearest(real: f64) -> Option<Self> {
+                // Both limits are powers of two, or one below: the upper one of 64 bits is rounded up to the power.
+                let low = Self::MIN as f64;
+                if !((real >= low || real > low - 0.5) && real < Self::MAX as f64 + 0.5) {
+                    return None;
+                }
+                let whole = real as Self;
+                Some(match real - whole as f64 {
+                    rest if rest >= 0.5 => whole + 1,
+                    rest if rest <= -0.5 => whole - 1,
+                    _ => whole,
+                })
+            }
+        }
+    )*};
+}
+
+integers! { u8 u16 u32 u64 i8 i16 i32 i64 }
+
+macro_rules! reals {
+    ($($real:ty)*) => {$(
+        impl sealed::Sealed for $real {}
+
+        impl Number for $real {
+            #[inline]
+            fn real(self) -> f64 {
+                self.into()
+            }
+
+            #[inline]
+            fn integer(self) -> i128 {
+                self as i128
+            }
+
+            #[inline]
+            fn nearest(real: f64) -> Option<Self> {
+                let nearest = real as Self;
+                nearest.is_finite().then_some(nearest)
+            }
+        }
+    )*};
+}
+
+reals! { f32 f64 }
+
+/// The type of a number that stands for a physical one: what [`Accessor::read_scaled`](crate::Accessor::read_scaled) and
+/// [`Item::physical`](crate::Item::physical) work with.
+///
+/// [`read`](crate::Accessor::read) and [`write`](crate::Accessor::write) deal in the raw number all the same.
+pub trait Quantity: Fixed {
+    /// The physical number: `f64`, or `Option<f64>` where some raw numbers mean something else.
+    type Physical: Copy + Into<Option<f64>>;
+
+    /// What else has to be known: `()`, or `f64` where the scale depends on another value.
+    type Other: Copy;
+
+    /// The physical number.
+    #[must_use]
+    fn physical(raw: Self::Native, other: Self::Other) -> Self::Physical;
+
+    /// The nearest raw number.
+    ///
+    /// # Errors
+    ///
+    /// [`OutOfRange`] where the type has no such number, or where it means something else.
+    fn raw(physical: f64, other: Self::Other) -> Result<Self::Native, OutOfRange>;
+}
+
+/// physical = (raw × `NUM` + `OFFSET`) / `DEN`, rounded once.
+///
+/// ```
+/// use lexibus::{Quantity, Scaled};
+///
+/// type HundredthsOfRevolutions = Scaled<i32, 1, 100>;
+/// assert_eq!(HundredthsOfRevolutions::physical(-1234, ()), -12.34);
+/// assert_eq!(HundredthsOfRevolutions::raw(15.0, ()), Ok(1500));
+/// ```
+pub struct Scaled<B, const NUM: i64, const DEN: i64 = 1, const OFFSET: i64 = 0>(PhantomData<B>);
+
+/// physical = `NUM` / `DEN` / raw. Raw 0 is infinite, and can't be written.
+pub struct Reciprocal<B, const NUM: i64, const DEN: i64 = 1>(PhantomData<B>);
+
+/// physical = raw / 2^`BITS` × the base that the other value is.
+pub struct Fraction<B, const BITS: u32>(PhantomData<B>);
+
+/// physical = raw × `NUM` / `DEN` / the other value.
+pub struct PerItem<B, const NUM: i64, const DEN: i64 = 1>(PhantomData<B>);
+
+/// physical = raw × 10^(the other value, a whole number).
+pub struct Exponential<B>(PhantomData<B>);
+
+/// A quantity whose raw number `RAW` isn't one, as 0xFFFF that means "no sensor".
+pub struct OrNone<V, const RAW: i128>(PhantomData<V>);
+
+/// The value is that of the type below: it travels in the same way.
+macro_rules! like_its_base {
+    ([$($generics:tt)*] $quantity:ty, $base:ident) => {
+        impl<$($generics)*> Value for $quantity {
+            type Native = $base::Native;
+            const DATA_TYPE: DataType = $base::DATA_TYPE;
+        }
+
+        impl<$($generics)*> Fixed for $quantity {
+            const BITS: u32 = $base::BITS;
+
+            #[inline]
+            fn encode(native: Self::Native, buffer: &mut [u8; 8]) -> Result<usize, OutOfRange> {
+                $base::encode(native, buffer)
+            }
+
+            #[inline]
+            fn decode(bytes: &[u8]) -> Result<Self::Native, LengthError> {
+                $base::decode(bytes)
+            }
+
+            #[inline]
+            fn in_range(value: Self::Native, range: &Range<Self::Native>) -> bool {
+                $base::in_range(value, range)
+            }
+        }
+    };
+}
+
+like_its_base!([B: Fixed, const NUM: i64, const DEN: i64, const OFFSET: i64] Scaled<B, NUM, DEN, OFFSET>, B);
+like_its_base!([B: Fixed, const NUM: i64, const DEN: i64] Reciprocal<B, NUM, DEN>, B);
+like_its_base!([B: Fixed, const BITS_OF_FRACTION: u32] Fraction<B, BITS_OF_FRACTION>, B);
+like_its_base!([B: Fixed, const NUM: i64, const DEN: i64] PerItem<B, NUM, DEN>, B);
+like_its_base!([B: Fixed] Exponential<B>, B);
+like_its_base!([V: Fixed, const RAW: i128] OrNone<V, RAW>, V);
+
+fn nearest<N: Number>(real: f64) -> Result<N, OutOfRange> {
+    N::nearest(real).ok_or(OutOfRange)
+}
+
+impl<B, const NUM: i64, const DEN: i64, const OFFSET: i64> Quantity for Scaled<B, NUM, DEN, OFFSET>
+where
+    B: Fixed,
+    B::Native: Number,
+{
+    type Physical = f64;
+    type Other = ();
+
+    #[inline]
+    fn physical(raw: B::Native, (): ()) -> f64 {
+        (raw.real() * NUM as f64 + OFFSET as f64) / DEN as f64
+    }
+
+    #[inline]
+    fn raw(physical: f64, (): ()) -> Result<B::Native, OutOfRange> {
+        nearest((physical * DEN as f64 - OFFSET as f64) / NUM as f64)
+    }
+}
+
+impl<B, const NUM: i64, const DEN: i64> Quantity for Reciprocal<B, NUM, DEN>
+where
+    B: Fixed,
+    B::Native: Number,
+{
+    type Physical = f64;
+    type Other = ();
+
+    #[inline]
+    fn physical(raw: B::Native, (): ()) -> f64 {
+        NUM as f64 / (DEN as f64 * raw.real())
+    }
+
+    #[inline]
+    fn raw(physical: f64, (): ()) -> Result<B::Native, OutOfRange> {
+        let raw: B::Native = nearest(NUM as f64 / (DEN as f64 * physical))?;
+        if raw.real() == 0.0 {
+            return Err(OutOfRange);
+        }
+        Ok(raw)
+    }
+}
+
+impl<B, const BITS_OF_FRACTION: u32> Quantity for Fraction<B, BITS_OF_FRACTION>
+where
+    B: Fixed,
+    B::Native: Number,
+{
+    type Physical = f64;
+    type Other = f64;
+
+    #[inline]
+    fn physical(raw: B::Native, base: f64) -> f64 {
+        raw.real() * base / one_shifted(BITS_OF_FRACTION)
+    }
+
+    #[inline]
+    fn raw(physical: f64, base: f64) -> Result<B::Native, OutOfRange> {
+        nearest(physical * one_shifted(BITS_OF_FRACTION) / base)
+    }
+}
+
+impl<B, const NUM: i64, const DEN: i64> Quantity for PerItem<B, NUM, DEN>
+where
+    B: Fixed,
+    B::Native: Number,
+{
+    type Physical = f64;
+    type Other = f64;
+
+    #[inline]
+    fn physical(raw: B::Native, divisor: f64) -> f64 {
+        raw.real() * NUM as f64 / (DEN as f64 * divisor)
+    }
+
+    #[inline]
+    fn raw(physical: f64, divisor: f64) -> Result<B::Native, OutOfRange> {
+        nearest(physical * (DEN as f64 * divisor) / NUM as f64)
+    }
+}
+
+impl<B> Quantity for Exponential<B>
+where
+    B: Fixed,
+    B::Native: Number,
+{
+    type Physical = f64;
+    type Other = f64;
+
+    #[inline]
+    fn physical(raw: B::Native, exponent: f64) -> f64 {
+        match exponent < 0.0 {
+            true => raw.real() / power_of_ten(-exponent),
+            false => raw.real() * power_of_ten(exponent),
+        }
+    }
+
+    #[inline]
+    fn raw(physical: f64, exponent: f64) -> Result<B::Native, OutOfRange> {
+        nearest(match exponent < 0.0 {
+            true => physical * power_of_ten(-exponent),
+            false => physical / power_of_ten(exponent),
+        })
+    }
+}
+
+impl<V, const RAW: i128> Quantity for OrNone<V, RAW>
+where
+    V: Quantity,
+    V::Native: Number,
+{
+    type Physical = Option<f64>;
+    type Other = V::Other;
+
+    #[inline]
+    fn physical(raw: V::Native, other: V::Other) -> Option<f64> {
+        if raw.integer() == RAW {
+            return None;
+        }
+        V::physical(raw, other).into()
+    }
+
+    #[inline]
+    fn raw(physical: f64, other: V::Other) -> Result<V::Native, OutOfRange> {
+        let raw = V::raw(physical, other)?;
+        if raw.integer() == RAW {
+            return Err(OutOfRange);
+        }
+        Ok(raw)
+    }
+}
+
+const fn one_shifted(bits: u32) -> f64 {
+    // 63 bits are more than the mantissa has.
+    (1_u64 << if bits > 63 { 63 } else { bits }) as f64
+}
+
+/// 10^`exponent`. Without the standard library there is no `powi`; 400 is beyond all that there is.
+fn power_of_ten(exponent: f64) -> f64 {
+    (0..exponent.min(400.0) as u32).fold(1.0, |power, _| power * 10.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Int;
+
+    #[test]
+    fn nearest_numbers() {
+        assert_eq!(u8::nearest(254.5), Some(255));
+        assert_eq!(u8::nearest(255.49), Some(255));
+        assert_eq!(u8::nearest(255.5), None);
+        assert_eq!(u8::nearest(-0.49), Some(0));
+        assert_eq!(u8::nearest(-0.5), None);
+        assert_eq!(i8::nearest(-128.49), Some(-128));
+        assert_eq!(i8::nearest(-128.5), None);
+        assert_eq!(i32::nearest(-2.5), Some(-3));
+        assert_eq!(i32::nearest(0.499_999_999_999_999_94), Some(0));
+        assert_eq!(i32::nearest(f64::NAN), None);
+        assert_eq!(i32::nearest(f64::INFINITY), None);
+        assert_eq!(i64::nearest(9.3e18), None);
+        assert_eq!(i64::nearest(-9_223_372_036_854_775_808.0), Some(i64::MIN));
+        assert_eq!(i64::nearest(9_223_372_036_854_775_808.0), None);
+        assert_eq!(u64::nearest(18_446_744_073_709_549_568.0), Some(18_446_744_073_709_549_568));
+        assert_eq!(u64::nearest(18_446_744_073_709_551_616.0), None);
+        assert_eq!(f32::nearest(1e300), None);
+    }
+
+    #[test]
+    fn linear() {
+        type Celsius = Scaled<i16, 1, 10, -400>;
+        assert_eq!((Celsius::physical(655, ()), Celsius::raw(25.5, ())), (25.5, Ok(655)));
+        // 35 × 0.01 isn't 0.35; 35 / 100 is.
+        assert_eq!(Scaled::<u16, 1, 100>::physical(35, ()), 0.35);
+        assert_eq!(Scaled::<u16, 20>::raw(1_310_720.0, ()), Err(OutOfRange));
+        assert_eq!(Scaled::<u16, 1, 100>::raw(f64::NAN, ()), Err(OutOfRange));
+        assert_eq!(Scaled::<Int<24>, 1, 10>::physical(-5, ()), -0.5);
+        assert_eq!(Scaled::<f32, 1, 2>::raw(0.75, ()), Ok(1.5));
+    }
+
+    #[test]
+    fn reciprocal() {
+        type Frequency = Reciprocal<u16, 25_000_000>;
+        assert_eq!((Frequency::physical(2500, ()), Frequency::raw(10_000.0, ())), (10_000.0, Ok(2500)));
+        assert_eq!(Frequency::raw(1e12, ()), Err(OutOfRange));
+        assert_eq!(Frequency::raw(0.0, ()), Err(OutOfRange));
+        assert_eq!(Frequency::physical(0, ()), f64::INFINITY);
+    }
+
+    #[test]
+    fn scales_that_depend_on_another_value() {
+        assert_eq!(Fraction::<i16, 15>::physical(16_384, 11.0), 5.5);
+        assert_eq!(Fraction::<i16, 15>::raw(-5.5, 11.0), Ok(-16_384));
+        assert_eq!(PerItem::<i32, 1, 100>::physical(600, 2.0), 3.0);
+        assert_eq!(PerItem::<i32, 1, 100>::raw(3.0, 2.0), Ok(600));
+        assert_eq!((Exponential::<i32>::physical(5, -3.0), Exponential::<i32>::physical(5, 2.0)), (0.005, 500.0));
+        assert_eq!((Exponential::<i32>::raw(0.005, -3.0), Exponential::<i32>::raw(500.0, 2.0)), (Ok(5), Ok(5)));
+        assert_eq!(Exponential::<i32>::raw(1.0, f64::NEG_INFINITY), Err(OutOfRange));
+    }
+
+    #[test]
+    fn numbers_that_are_none() {
+        type Ramp = OrNone<OrNone<Scaled<u32, 1, 10>, 0>, 0xFFFF>;
+        assert_eq!(
+            (Ramp::physical(15, ()), Ramp::physical(0, ()), Ramp::physical(0xFFFF, ())),
+            (Some(1.5), None, None)
+        );
+        assert_eq!(
+            (Ramp::raw(1.5, ()), Ramp::raw(0.0, ()), Ramp::raw(6553.5, ())),
+            (Ok(15), Err(OutOfRange), Err(OutOfRange))
+        );
+    }
+}

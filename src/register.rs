@@ -1,0 +1,303 @@
+//! Registers of Modbus, and how a value lies in them.
+
+use crate::error::LengthError;
+use crate::pdo::mask;
+use crate::value::byte_len;
+
+/// The four tables of Modbus.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum RegisterTable {
+    /// Holding registers (4x): functions 3, 6, 16 and 22.
+    #[default]
+    Holding,
+    /// Input registers (3x): function 4.
+    Input,
+    /// Coils (0x), single bits: functions 1, 5 and 15.
+    Coil,
+    /// Discrete inputs (1x), single bits: function 2.
+    DiscreteInput,
+}
+
+/// Which register of several holds which part of a value.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum WordOrder {
+    /// A number, its most significant word at the lowest address.
+    #[default]
+    HighFirst,
+    /// A number, its least significant word at the lowest address.
+    LowFirst,
+    /// A text or other bytes, one after the other: the first one is the upper half of the register at the lowest address.
+    Bytes,
+}
+
+/// Some bits of a register.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct RegisterPart {
+    /// The first bit; bit 0 is the least significant one.
+    pub first: u8,
+    /// How many bits.
+    pub bits: u8,
+}
+
+/// One or more consecutive registers, or bits, of a table of Modbus.
+///
+/// A [`Client`](crate::Client) deals in bytes, the least significant first; what travels are words. [`Register::decode`]
+/// and [`Register::encode`] turn the one into the other:
+///
+/// ```
+/// use lexibus::Register;
+///
+/// const POSITION: Register = Register::low_first(8, 2);
+/// let mut bytes = [0; 4];
+/// assert_eq!(POSITION.decode(&[0x5678, 0x1234], &mut bytes), Ok(4));
+/// assert_eq!(u32::from_le_bytes(bytes), 0x1234_5678);
+///
+/// let mut words = [0; 2];
+/// POSITION.encode(&0x1234_5678_u32.to_le_bytes(), &mut words)?;
+/// assert_eq!(words, [0x5678, 0x1234]);
+/// # Ok::<(), lexibus::LengthError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Register {
+    /// The table.
+    pub table: RegisterTable,
+    /// The first register's address as it is on the wire, counted from 0.
+    pub address: u16,
+    /// How many registers of 16 bits the value takes; of a table of bits, how many bits.
+    pub count: u16,
+    /// Which of them holds what.
+    pub order: WordOrder,
+    /// Whether the two bytes of each register are swapped.
+    pub bytes_swapped: bool,
+    /// The bits of the number that the value is, where it isn't all of it. Who writes it has to read the others first.
+    pub part: Option<RegisterPart>,
+}
+
+impl Register {
+    /// `count` registers or bits of a table that hold a number, the most significant word first.
+    #[must_use]
+    pub const fn new(table: RegisterTable, address: u16, count: u16) -> Self {
+        Self { table, address, count, order: WordOrder::HighFirst, bytes_swapped: false, part: None }
+    }
+
+    /// One holding register.
+    #[must_use]
+    pub const fn holding(address: u16) -> Self {
+        Self::new(RegisterTable::Holding, address, 1)
+    }
+
+    /// Holding registers, the most significant word first.
+    #[must_use]
+    pub const fn high_first(address: u16, count: u16) -> Self {
+        Self::new(RegisterTable::Holding, address, count)
+    }
+
+    /// Holding registers, the least significant word first.
+    #[must_use]
+    pub const fn low_first(address: u16, count: u16) -> Self {
+        Self { order: WordOrder::LowFirst, ..Self::new(RegisterTable::Holding, address, count) }
+    }
+
+    /// The same registers with the words in this order.
+    #[must_use]
+    pub const fn ordered(self, order: WordOrder) -> Self {
+        Self { order, ..self }
+    }
+
+    /// The same registers with the bytes of each swapped.
+    #[must_use]
+    pub const fn swapped(self) -> Self {
+        Self { bytes_swapped: true, ..self }
+    }
+
+    /// `bits` bits of the number, from bit `first` on.
+    #[must_use]
+    pub const fn part(self, first: u8, bits: u8) -> Self {
+        Self { part: Some(RegisterPart { first, bits }), ..self }
+    }
+
+    /// Puts the value that is in `words` to the start of `buffer`, the least significant byte first (a text from its first
+    /// byte on), and returns how many bytes it has.
+    ///
+    /// A number in more bytes than `buffer` has loses the upper ones, as one byte does that has a register for itself. A
+    /// text doesn't: as [`Client::read`](crate::Client::read) asks for, the length is that of all of it.
+    ///
+    /// Tables of bits don't need this: Modbus packs bits with the first one lowest, which is the order of the buffer.
+    ///
+    /// # Errors
+    ///
+    /// [`LengthError`], in bytes, where `words` aren't as many as [`count`](Register::count), or where the value is some bits
+    /// of a number of more than four words.
+    pub fn decode(&self, words: &[u16], buffer: &mut [u8]) -> Result<usize, LengthError> {
+        self.check(words)?;
+        let length = 2 * words.len();
+        if let Some(part) = self.part {
+            let bits = self.number(words)? >> (part.first & 63) & mask(part.bits.into());
+            let filled = buffer.len().min(byte_len(part.bits.into()));
+            buffer[..filled].copy_from_slice(&bits.to_le_bytes()[..filled]);
+            return Ok(filled);
+        }
+        for (pair, at) in buffer.chunks_mut(2).zip(0..words.len()) {
+            let bytes = self.bytes(words[self.position(at, words.len())]);
+            pair.copy_from_slice(&bytes[..pair.len()]);
+        }
+        Ok(if self.order == WordOrder::Bytes { length } else { length.min(buffer.len()) })
+    }
+
+    /// Puts the value that is in `data`, as [`decode`](Register::decode) gives it, into `words`. Bytes that `data` doesn't
+    /// have are 0. Of a [`part`](Register::part), only its bits change: `words` are those that the registers hold.
+    ///
+    /// # Errors
+    ///
+    /// [`LengthError`], in bytes, where `words` aren't as many as [`count`](Register::count), where `data` is longer than they
+    /// are, or where the value is some bits of a number of more than four words.
+    pub fn encode(&self, data: &[u8], words: &mut [u16]) -> Result<(), LengthError> {
+        self.check(words)?;
+        let count = words.len();
+        if data.len() > 2 * count {
+            return Err(LengthError::new(2 * count, data.len()));
+        }
+        let Some(part) = self.part else {
+            for at in 0..count {
+                let byte = |offset: usize| data.get(2 * at + offset).copied().unwrap_or(0);
+                words[self.position(at, count)] = self.word([byte(0), byte(1)]);
+            }
+            return Ok(());
+        };
+        let (first, bits) = (part.first & 63, mask(part.bits.into()));
+        let mut value = [0; 8];
+        let length = data.len().min(8);
+        value[..length].copy_from_slice(&data[..length]);
+        let number = self.number(words)? & !(bits << first) | (u64::from_le_bytes(value) & bits) << first;
+        for (at, pair) in (0..count).zip(number.to_le_bytes().chunks(2)) {
+            words[self.position(at, count)] = self.word([pair[0], pair[1]]);
+        }
+        Ok(())
+    }
+
+    fn check(&self, words: &[u16]) -> Result<(), LengthError> {
+        let count = usize::from(self.count);
+        if words.len() == count {
+            Ok(())
+        } else {
+            Err(LengthError::new(2 * count, 2 * words.len()))
+        }
+    }
+
+    /// Where, among `count` words, the one is that is `at`-th in the value.
+    const fn position(&self, at: usize, count: usize) -> usize {
+        match self.order {
+            WordOrder::HighFirst => count - 1 - at,
+            WordOrder::LowFirst | WordOrder::Bytes => at,
+        }
+    }
+
+    /// The bytes of a word, in the order of the value.
+    const fn bytes(&self, word: u16) -> [u8; 2] {
+        if self.is_big_endian() {
+            word.to_be_bytes()
+        } else {
+            word.to_le_bytes()
+        }
+    }
+
+    const fn word(&self, bytes: [u8; 2]) -> u16 {
+        if self.is_big_endian() {
+            u16::from_be_bytes(bytes)
+        } else {
+            u16::from_le_bytes(bytes)
+        }
+    }
+
+    /// Whether the upper half of a word comes first in the value: that of a text does, and that of a number whose bytes
+    /// are swapped.
+    const fn is_big_endian(&self) -> bool {
+        matches!(self.order, WordOrder::Bytes) != self.bytes_swapped
+    }
+
+    fn number(&self, words: &[u16]) -> Result<u64, LengthError> {
+        const WORDS: usize = 4;
+        if words.len() > WORDS {
+            return Err(LengthError::new(2 * WORDS, 2 * words.len()));
+        }
+        let mut bytes = [0; 2 * WORDS];
+        for (at, pair) in (0..words.len()).zip(bytes.chunks_mut(2)) {
+            pair.copy_from_slice(&self.bytes(words[self.position(at, words.len())]));
+        }
+        Ok(u64::from_le_bytes(bytes))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn round_trip(register: Register, words: &[u16], data: &[u8]) {
+        let (mut buffer, mut back) = ([0xAA; 16], [0; 8]);
+        let count = words.len();
+        assert_eq!(register.decode(words, &mut buffer[..data.len()]), Ok(data.len()));
+        assert_eq!(&buffer[..data.len()], data);
+        assert_eq!(register.encode(data, &mut back[..count]), Ok(()));
+        assert_eq!(&back[..count], words);
+    }
+
+    #[test]
+    fn numbers_of_several_words() {
+        round_trip(Register::holding(0), &[0x1234], &[0x34, 0x12]);
+        round_trip(Register::high_first(0, 2), &[0x1234, 0x5678], &[0x78, 0x56, 0x34, 0x12]);
+        round_trip(Register::low_first(0, 2), &[0x5678, 0x1234], &[0x78, 0x56, 0x34, 0x12]);
+        round_trip(Register::low_first(0, 2).swapped(), &[0x7856, 0x3412], &[0x78, 0x56, 0x34, 0x12]);
+        round_trip(Register::high_first(0, 2).swapped(), &[0x3412, 0x7856], &[0x78, 0x56, 0x34, 0x12]);
+        round_trip(Register::high_first(0, 4), &[1, 2, 3, 4], &[4, 0, 3, 0, 2, 0, 1, 0]);
+    }
+
+    #[test]
+    fn a_byte_is_the_lower_half_of_its_register() {
+        round_trip(Register::holding(0), &[0x0012], &[0x12]);
+        round_trip(Register::high_first(0, 2), &[0x0012, 0x3456], &[0x56, 0x34, 0x12]);
+        let mut byte = [0];
+        assert_eq!(Register::holding(0).decode(&[0xFF12], &mut byte), Ok(1));
+        assert_eq!(byte, [0x12]);
+    }
+
+    #[test]
+    fn texts_run_on() {
+        let text = Register::new(RegisterTable::Holding, 0, 2).ordered(WordOrder::Bytes);
+        round_trip(text, &[0x4142, 0x4344], b"ABCD");
+        round_trip(text.swapped(), &[0x4241, 0x4443], b"ABCD");
+        let mut words = [0xFFFF; 2];
+        assert_eq!(text.encode(b"A", &mut words), Ok(()));
+        assert_eq!(words, [0x4100, 0]);
+        // What doesn't fit is the caller's to notice.
+        assert_eq!(text.decode(&[0x4142, 0x4344], &mut [0; 3]), Ok(4));
+    }
+
+    #[test]
+    fn parts_leave_the_rest_alone() {
+        let part = Register::holding(0).part(4, 8);
+        let mut byte = [0];
+        assert_eq!(part.decode(&[0xABCD], &mut byte), Ok(1));
+        assert_eq!(byte, [0xBC]);
+        let mut words = [0xABCD];
+        assert_eq!(part.encode(&[0x12], &mut words), Ok(()));
+        assert_eq!(words, [0xA12D]);
+        let across = Register::high_first(0, 2).part(12, 8);
+        let mut words = [0xFFF0, 0x0FFF];
+        assert_eq!(across.encode(&[0x5A], &mut words), Ok(()));
+        assert_eq!(words, [0xFFF5, 0xAFFF]);
+        assert_eq!(across.decode(&words, &mut byte), Ok(1));
+        assert_eq!(byte, [0x5A]);
+        assert!(Register::high_first(0, 5).part(0, 1).decode(&[0; 5], &mut byte).is_err());
+        assert!(Register::holding(0).part(255, 255).decode(&[0], &mut [0; 64]).is_ok());
+    }
+
+    #[test]
+    fn other_lengths_are_errors() {
+        let register = Register::high_first(0, 2);
+        assert_eq!(register.decode(&[1], &mut [0; 4]), Err(LengthError::new(4, 2)));
+        assert_eq!(register.encode(&[0; 4], &mut [0; 3]), Err(LengthError::new(4, 6)));
+        assert_eq!(register.encode(&[0; 5], &mut [0; 2]), Err(LengthError::new(4, 5)));
+        assert_eq!(register.decode(&[1, 2], &mut [0; 9]), Ok(4));
+    }
+}

@@ -1,0 +1,14 @@
+//! Of a device that is on several buses, an item that isn't on the client's.
+
+use lexibus::{Client, Flags, Item, Modbus, OnCanOpenAndCoE, OnCanOpenCoEAndModbus, Register, Ro};
+
+const POSITION: Item<i32, Ro, OnCanOpenCoEAndModbus> =
+    Item::register(0x2008, 1, Register::low_first(8, 2), "Position", Flags::TPDO);
+const DEVICE_TYPE: Item<u32, Ro, OnCanOpenAndCoE> = Item::shared_object(0x1000, 0, "Device type");
+
+fn read<C: Client<Bus = Modbus>>(mut client: C) {
+    let _ = POSITION.at(&mut client).read();
+    let _ = DEVICE_TYPE.at(&mut client).read();
+}
+
+fn main() {}
