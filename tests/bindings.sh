@@ -1,6 +1,10 @@
 #!/usr/bin/env bash
-# Generates the bindings that are checked in under generated/src; with --check, compares them instead.
+# Generates what is checked in: the bindings under generated/src and the schema of register tables; with --check,
+# compares them instead.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 cargo run --quiet -p lexibus-codegen --features cli -- generate dictionaries/demo-drive.eds --table feature=table \
     --out generated/src/demo_drive.rs "$@"
+cargo run --quiet -p lexibus-codegen --features cli -- generate dictionaries/aec-vector-step.toml --table feature=table \
+    --out generated/src/vector_step.rs "$@"
+cargo run --quiet -p lexibus-codegen --features cli -- schema --out dictionaries/table.schema.json "$@"

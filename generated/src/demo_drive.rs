@@ -32,11 +32,13 @@ impl<C> DemoDrive<C> {
         self.client
     }
     /// Device type: 0x1000.
-    pub fn device_type(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
+    pub fn device_type(&mut self) -> objects::ReadOnlyAccess<'_, C, types::DeviceType> {
         objects::DEVICE_TYPE.at(&mut self.client)
     }
     /// Error register: 0x1001.
-    pub fn error_register(&mut self) -> objects::ReadOnlyAccess<'_, C, u8> {
+    pub fn error_register(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, types::ErrorRegister> {
         objects::ERROR_REGISTER.at(&mut self.client)
     }
     /// Pre-defined error field: 0x1003.
@@ -48,7 +50,9 @@ impl<C> DemoDrive<C> {
         }
     }
     /// COB-ID SYNC message: 0x1005.
-    pub fn cob_id_sync_message(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
+    pub fn cob_id_sync_message(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, types::SyncIdentifier> {
         objects::COB_ID_SYNC_MESSAGE.at(&mut self.client)
     }
     /// Manufacturer device name: 0x1008.
@@ -70,7 +74,9 @@ impl<C> DemoDrive<C> {
         }
     }
     /// COB-ID EMCY: 0x1014.
-    pub fn cob_id_emcy(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
+    pub fn cob_id_emcy(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, types::EmergencyIdentifier> {
         objects::COB_ID_EMCY.at(&mut self.client)
     }
     /// Producer heartbeat time: 0x1017.
@@ -164,19 +170,25 @@ impl<C> DemoDrive<C> {
         objects::ENCODER_COUNTS.at(&mut self.client)
     }
     /// Controlword: 0x6040.
-    pub fn controlword(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
+    pub fn controlword(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, types::Controlword> {
         objects::CONTROLWORD.at(&mut self.client)
     }
     /// Statusword: 0x6041.
-    pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
+    pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
     /// Modes of operation: 0x6060.
-    pub fn modes_of_operation(&mut self) -> objects::ReadWriteAccess<'_, C, i8> {
+    pub fn modes_of_operation(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, types::ModesOfOperation> {
         objects::MODES_OF_OPERATION.at(&mut self.client)
     }
     /// Modes of operation display: 0x6061.
-    pub fn modes_of_operation_display(&mut self) -> objects::ReadOnlyAccess<'_, C, i8> {
+    pub fn modes_of_operation_display(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, types::ModesOfOperation> {
         objects::MODES_OF_OPERATION_DISPLAY.at(&mut self.client)
     }
     /// Position actual value: 0x6064.
@@ -204,6 +216,1727 @@ impl<C> DemoDrive<C> {
         objects::PROFILE_ACCELERATION.at(&mut self.client)
     }
 }
+/// Values and bits that have names.
+pub mod types {
+    use ::lexibus as rt;
+    /// ModesOfOperation.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum ModesOfOperation {
+        /// 0: no mode.
+        NoMode,
+        /// 1: profile position.
+        ProfilePosition,
+        /// 2: velocity.
+        Velocity,
+        /// 3: profile velocity.
+        ProfileVelocity,
+        /// 4: profile torque.
+        ProfileTorque,
+        /// 6: homing.
+        Homing,
+        /// 7: interpolated position.
+        InterpolatedPosition,
+        /// 8: cyclic synchronous position.
+        CyclicSynchronousPosition,
+        /// 9: cyclic synchronous velocity.
+        CyclicSynchronousVelocity,
+        /// 10: cyclic synchronous torque.
+        CyclicSynchronousTorque,
+        /// 11: cyclic synchronous torque with angle. With the commutation angle from the controller.
+        CyclicSynchronousTorqueWithAngle,
+        /// Any other number.
+        Unknown(i8),
+    }
+    impl ModesOfOperation {
+        /// The value of a number.
+        pub const fn from_raw(raw: i8) -> Self {
+            match raw {
+                0 => Self::NoMode,
+                1 => Self::ProfilePosition,
+                2 => Self::Velocity,
+                3 => Self::ProfileVelocity,
+                4 => Self::ProfileTorque,
+                6 => Self::Homing,
+                7 => Self::InterpolatedPosition,
+                8 => Self::CyclicSynchronousPosition,
+                9 => Self::CyclicSynchronousVelocity,
+                10 => Self::CyclicSynchronousTorque,
+                11 => Self::CyclicSynchronousTorqueWithAngle,
+                other => Self::Unknown(other),
+            }
+        }
+        /// The number of a value.
+        pub const fn raw(self) -> i8 {
+            match self {
+                Self::NoMode => 0,
+                Self::ProfilePosition => 1,
+                Self::Velocity => 2,
+                Self::ProfileVelocity => 3,
+                Self::ProfileTorque => 4,
+                Self::Homing => 6,
+                Self::InterpolatedPosition => 7,
+                Self::CyclicSynchronousPosition => 8,
+                Self::CyclicSynchronousVelocity => 9,
+                Self::CyclicSynchronousTorque => 10,
+                Self::CyclicSynchronousTorqueWithAngle => 11,
+                Self::Unknown(other) => other,
+            }
+        }
+    }
+    impl rt::Enumeration for ModesOfOperation {
+        type Base = i8;
+        fn from_native(native: i8) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> i8 {
+            self.raw()
+        }
+    }
+    /// StoreParameters.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum StoreParameters {
+        /// 0: never. Read: parameters are not kept.
+        Never,
+        /// 1: on command. Read: parameters are kept on command.
+        OnCommand,
+        /// 2: at once. Read: the device keeps parameters by itself.
+        AtOnce,
+        /// 3: on command and at once. Read: both.
+        OnCommandAndAtOnce,
+        /// 0x65766173: save. To write: the letters s, a, v, e.
+        Save,
+        /// Any other number.
+        Unknown(u32),
+    }
+    impl StoreParameters {
+        /// The value of a number.
+        pub const fn from_raw(raw: u32) -> Self {
+            match raw {
+                0 => Self::Never,
+                1 => Self::OnCommand,
+                2 => Self::AtOnce,
+                3 => Self::OnCommandAndAtOnce,
+                0x65766173 => Self::Save,
+                other => Self::Unknown(other),
+            }
+        }
+        /// The number of a value.
+        pub const fn raw(self) -> u32 {
+            match self {
+                Self::Never => 0,
+                Self::OnCommand => 1,
+                Self::AtOnce => 2,
+                Self::OnCommandAndAtOnce => 3,
+                Self::Save => 0x65766173,
+                Self::Unknown(other) => other,
+            }
+        }
+    }
+    impl rt::Enumeration for StoreParameters {
+        type Base = u32;
+        fn from_native(native: u32) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u32 {
+            self.raw()
+        }
+    }
+    /// ReceiveType.
+    ///
+    /// When what was received takes effect.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum ReceiveType {
+        /// 254: event of the manufacturer. At once, or as the manufacturer says.
+        EventOfTheManufacturer,
+        /// 255: event of the profile. At once, or as the profile says.
+        EventOfTheProfile,
+        /// Any other number.
+        Unknown(u8),
+    }
+    impl ReceiveType {
+        /// The value of a number.
+        pub const fn from_raw(raw: u8) -> Self {
+            match raw {
+                254 => Self::EventOfTheManufacturer,
+                255 => Self::EventOfTheProfile,
+                other => Self::Unknown(other),
+            }
+        }
+        /// The number of a value.
+        pub const fn raw(self) -> u8 {
+            match self {
+                Self::EventOfTheManufacturer => 254,
+                Self::EventOfTheProfile => 255,
+                Self::Unknown(other) => other,
+            }
+        }
+    }
+    impl rt::Enumeration for ReceiveType {
+        type Base = u8;
+        fn from_native(native: u8) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u8 {
+            self.raw()
+        }
+    }
+    /// TransmitType.
+    ///
+    /// When it is sent. From 1 to 240, with every so many SYNC.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum TransmitType {
+        /// 0: synchronous acyclic. With the SYNC that follows an event.
+        SynchronousAcyclic,
+        /// 252: remote request, synchronous. Sampled with SYNC, sent when asked for.
+        RemoteRequestSynchronous,
+        /// 253: remote request. Sampled and sent when asked for.
+        RemoteRequest,
+        /// 254: event of the manufacturer. When the manufacturer says.
+        EventOfTheManufacturer,
+        /// 255: event of the profile. When the profile says.
+        EventOfTheProfile,
+        /// Any other number.
+        Unknown(u8),
+    }
+    impl TransmitType {
+        /// The value of a number.
+        pub const fn from_raw(raw: u8) -> Self {
+            match raw {
+                0 => Self::SynchronousAcyclic,
+                252 => Self::RemoteRequestSynchronous,
+                253 => Self::RemoteRequest,
+                254 => Self::EventOfTheManufacturer,
+                255 => Self::EventOfTheProfile,
+                other => Self::Unknown(other),
+            }
+        }
+        /// The number of a value.
+        pub const fn raw(self) -> u8 {
+            match self {
+                Self::SynchronousAcyclic => 0,
+                Self::RemoteRequestSynchronous => 252,
+                Self::RemoteRequest => 253,
+                Self::EventOfTheManufacturer => 254,
+                Self::EventOfTheProfile => 255,
+                Self::Unknown(other) => other,
+            }
+        }
+    }
+    impl rt::Enumeration for TransmitType {
+        type Base = u8;
+        fn from_native(native: u8) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u8 {
+            self.raw()
+        }
+    }
+    /// Controlword.
+    ///
+    /// Bits 0x400 are written as 0.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct Controlword(u16);
+    impl Controlword {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u16) -> Self {
+            Self(raw)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u16 {
+            self.0
+        }
+        /// Bit 0: switch on.
+        pub const fn switch_on(self) -> bool {
+            self.0 & 0x1 != 0
+        }
+        /// The same with another [`switch_on`](Self::switch_on).
+        #[must_use]
+        pub const fn with_switch_on(self, value: bool) -> Self {
+            Self((self.0 & !0x1) | (value as u16))
+        }
+        /// Bit 1: enable voltage.
+        pub const fn enable_voltage(self) -> bool {
+            self.0 & 0x2 != 0
+        }
+        /// The same with another [`enable_voltage`](Self::enable_voltage).
+        #[must_use]
+        pub const fn with_enable_voltage(self, value: bool) -> Self {
+            Self((self.0 & !0x2) | ((value as u16) << 1))
+        }
+        /// Bit 2: quick stop. Holds while the bit is 0. 0 asks for a quick stop.
+        pub const fn quick_stop(self) -> bool {
+            self.0 & 0x4 == 0
+        }
+        /// The same with another [`quick_stop`](Self::quick_stop).
+        #[must_use]
+        pub const fn with_quick_stop(self, value: bool) -> Self {
+            Self((self.0 & !0x4) | ((!value as u16) << 2))
+        }
+        /// Bit 3: enable operation.
+        pub const fn enable_operation(self) -> bool {
+            self.0 & 0x8 != 0
+        }
+        /// The same with another [`enable_operation`](Self::enable_operation).
+        #[must_use]
+        pub const fn with_enable_operation(self, value: bool) -> Self {
+            Self((self.0 & !0x8) | ((value as u16) << 3))
+        }
+        /// Bit 7: fault reset. Acts on the change from 0 to 1.
+        pub const fn fault_reset(self) -> bool {
+            self.0 & 0x80 != 0
+        }
+        /// The same with another [`fault_reset`](Self::fault_reset).
+        #[must_use]
+        pub const fn with_fault_reset(self, value: bool) -> Self {
+            Self((self.0 & !0x80) | ((value as u16) << 7))
+        }
+        /// Bit 8: halt. Stops the axis as the halt option code says.
+        pub const fn halt(self) -> bool {
+            self.0 & 0x100 != 0
+        }
+        /// The same with another [`halt`](Self::halt).
+        #[must_use]
+        pub const fn with_halt(self, value: bool) -> Self {
+            Self((self.0 & !0x100) | ((value as u16) << 8))
+        }
+        /// Bits 15 to 11: manufacturer specific.
+        pub const fn manufacturer_specific(self) -> u8 {
+            ((self.0 >> 11) & 0x1F) as u8
+        }
+        /// The same with another [`manufacturer_specific`](Self::manufacturer_specific).
+        #[must_use]
+        pub const fn with_manufacturer_specific(self, value: u8) -> Self {
+            Self((self.0 & !0xF800) | (((value as u16) << 11) & 0xF800))
+        }
+        /// The bits that have their meaning while Modes of operation is profile position (1).
+        pub const fn in_profile_position(self) -> ControlwordInProfilePosition {
+            ControlwordInProfilePosition(self.0)
+        }
+        /// The bits that have their meaning while Modes of operation is velocity (2).
+        pub const fn in_velocity(self) -> ControlwordInVelocity {
+            ControlwordInVelocity(self.0)
+        }
+        /// The bits that have their meaning while Modes of operation is homing (6).
+        pub const fn in_homing(self) -> ControlwordInHoming {
+            ControlwordInHoming(self.0)
+        }
+        /// The bits that have their meaning while Modes of operation is interpolated position (7).
+        pub const fn in_interpolated_position(
+            self,
+        ) -> ControlwordInInterpolatedPosition {
+            ControlwordInInterpolatedPosition(self.0)
+        }
+    }
+    impl Default for Controlword {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for Controlword {
+        type Base = u16;
+        fn from_native(native: u16) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u16 {
+            self.0 & !0x400
+        }
+    }
+    impl core::fmt::Debug for Controlword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "Controlword", self.0 as u64);
+            let bits = rt::DebugBits::flag(bits, "switch_on", 0x1);
+            let bits = rt::DebugBits::flag(bits, "enable_voltage", 0x2);
+            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x4);
+            let bits = rt::DebugBits::flag(bits, "enable_operation", 0x8);
+            let bits = rt::DebugBits::flag(bits, "fault_reset", 0x80);
+            let bits = rt::DebugBits::flag(bits, "halt", 0x100);
+            let bits = rt::DebugBits::field(
+                bits,
+                "manufacturer_specific",
+                0xF800,
+                &self.manufacturer_specific(),
+            );
+            bits.finish()
+        }
+    }
+    /// [`Controlword`] while Modes of operation is profile position (1).
+    #[derive(Clone, Copy)]
+    pub struct ControlwordInProfilePosition(u16);
+    impl ControlwordInProfilePosition {
+        /// All bits.
+        pub const fn controlword(self) -> Controlword {
+            Controlword(self.0)
+        }
+        /// Bit 4: new set-point. Acts on the change from 0 to 1. Takes the target position.
+        pub const fn new_set_point(self) -> bool {
+            self.0 & 0x10 != 0
+        }
+        /// The same with another [`new_set_point`](Self::new_set_point).
+        #[must_use]
+        pub const fn with_new_set_point(self, value: bool) -> Self {
+            Self((self.0 & !0x10) | ((value as u16) << 4))
+        }
+        /// Bit 5: change set immediately. The set-point replaces the one under way; otherwise it follows it.
+        pub const fn change_set_immediately(self) -> bool {
+            self.0 & 0x20 != 0
+        }
+        /// The same with another [`change_set_immediately`](Self::change_set_immediately).
+        #[must_use]
+        pub const fn with_change_set_immediately(self, value: bool) -> Self {
+            Self((self.0 & !0x20) | ((value as u16) << 5))
+        }
+        /// Bit 6: relative. The target position is a distance.
+        pub const fn relative(self) -> bool {
+            self.0 & 0x40 != 0
+        }
+        /// The same with another [`relative`](Self::relative).
+        #[must_use]
+        pub const fn with_relative(self, value: bool) -> Self {
+            Self((self.0 & !0x40) | ((value as u16) << 6))
+        }
+        /// Bit 9: change on set-point. The previous target is passed with its profile velocity.
+        pub const fn change_on_set_point(self) -> bool {
+            self.0 & 0x200 != 0
+        }
+        /// The same with another [`change_on_set_point`](Self::change_on_set_point).
+        #[must_use]
+        pub const fn with_change_on_set_point(self, value: bool) -> Self {
+            Self((self.0 & !0x200) | ((value as u16) << 9))
+        }
+    }
+    /// [`Controlword`] while Modes of operation is velocity (2).
+    #[derive(Clone, Copy)]
+    pub struct ControlwordInVelocity(u16);
+    impl ControlwordInVelocity {
+        /// All bits.
+        pub const fn controlword(self) -> Controlword {
+            Controlword(self.0)
+        }
+        /// Bit 4: enable ramp.
+        pub const fn enable_ramp(self) -> bool {
+            self.0 & 0x10 != 0
+        }
+        /// The same with another [`enable_ramp`](Self::enable_ramp).
+        #[must_use]
+        pub const fn with_enable_ramp(self, value: bool) -> Self {
+            Self((self.0 & !0x10) | ((value as u16) << 4))
+        }
+        /// Bit 5: unlock ramp.
+        pub const fn unlock_ramp(self) -> bool {
+            self.0 & 0x20 != 0
+        }
+        /// The same with another [`unlock_ramp`](Self::unlock_ramp).
+        #[must_use]
+        pub const fn with_unlock_ramp(self, value: bool) -> Self {
+            Self((self.0 & !0x20) | ((value as u16) << 5))
+        }
+        /// Bit 6: reference ramp.
+        pub const fn reference_ramp(self) -> bool {
+            self.0 & 0x40 != 0
+        }
+        /// The same with another [`reference_ramp`](Self::reference_ramp).
+        #[must_use]
+        pub const fn with_reference_ramp(self, value: bool) -> Self {
+            Self((self.0 & !0x40) | ((value as u16) << 6))
+        }
+    }
+    /// [`Controlword`] while Modes of operation is homing (6).
+    #[derive(Clone, Copy)]
+    pub struct ControlwordInHoming(u16);
+    impl ControlwordInHoming {
+        /// All bits.
+        pub const fn controlword(self) -> Controlword {
+            Controlword(self.0)
+        }
+        /// Bit 4: homing start. Starts homing, and interrupts it when 0.
+        pub const fn homing_start(self) -> bool {
+            self.0 & 0x10 != 0
+        }
+        /// The same with another [`homing_start`](Self::homing_start).
+        #[must_use]
+        pub const fn with_homing_start(self, value: bool) -> Self {
+            Self((self.0 & !0x10) | ((value as u16) << 4))
+        }
+    }
+    /// [`Controlword`] while Modes of operation is interpolated position (7).
+    #[derive(Clone, Copy)]
+    pub struct ControlwordInInterpolatedPosition(u16);
+    impl ControlwordInInterpolatedPosition {
+        /// All bits.
+        pub const fn controlword(self) -> Controlword {
+            Controlword(self.0)
+        }
+        /// Bit 4: enable interpolation.
+        pub const fn enable_interpolation(self) -> bool {
+            self.0 & 0x10 != 0
+        }
+        /// The same with another [`enable_interpolation`](Self::enable_interpolation).
+        #[must_use]
+        pub const fn with_enable_interpolation(self, value: bool) -> Self {
+            Self((self.0 & !0x10) | ((value as u16) << 4))
+        }
+    }
+    /// Statusword.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct Statusword(u16);
+    impl Statusword {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u16) -> Self {
+            Self(raw)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u16 {
+            self.0
+        }
+        /// Bit 0: ready to switch on.
+        pub const fn ready_to_switch_on(self) -> bool {
+            self.0 & 0x1 != 0
+        }
+        /// The same with another [`ready_to_switch_on`](Self::ready_to_switch_on).
+        #[must_use]
+        pub const fn with_ready_to_switch_on(self, value: bool) -> Self {
+            Self((self.0 & !0x1) | (value as u16))
+        }
+        /// Bit 1: switched on.
+        pub const fn switched_on(self) -> bool {
+            self.0 & 0x2 != 0
+        }
+        /// The same with another [`switched_on`](Self::switched_on).
+        #[must_use]
+        pub const fn with_switched_on(self, value: bool) -> Self {
+            Self((self.0 & !0x2) | ((value as u16) << 1))
+        }
+        /// Bit 2: operation enabled.
+        pub const fn operation_enabled(self) -> bool {
+            self.0 & 0x4 != 0
+        }
+        /// The same with another [`operation_enabled`](Self::operation_enabled).
+        #[must_use]
+        pub const fn with_operation_enabled(self, value: bool) -> Self {
+            Self((self.0 & !0x4) | ((value as u16) << 2))
+        }
+        /// Bit 3: fault.
+        pub const fn fault(self) -> bool {
+            self.0 & 0x8 != 0
+        }
+        /// The same with another [`fault`](Self::fault).
+        #[must_use]
+        pub const fn with_fault(self, value: bool) -> Self {
+            Self((self.0 & !0x8) | ((value as u16) << 3))
+        }
+        /// Bit 4: voltage enabled. The power stage is supplied.
+        pub const fn voltage_enabled(self) -> bool {
+            self.0 & 0x10 != 0
+        }
+        /// The same with another [`voltage_enabled`](Self::voltage_enabled).
+        #[must_use]
+        pub const fn with_voltage_enabled(self, value: bool) -> Self {
+            Self((self.0 & !0x10) | ((value as u16) << 4))
+        }
+        /// Bit 5: quick stop. Holds while the bit is 0. 0 while a quick stop is asked for.
+        pub const fn quick_stop(self) -> bool {
+            self.0 & 0x20 == 0
+        }
+        /// The same with another [`quick_stop`](Self::quick_stop).
+        #[must_use]
+        pub const fn with_quick_stop(self, value: bool) -> Self {
+            Self((self.0 & !0x20) | ((!value as u16) << 5))
+        }
+        /// Bit 6: switch on disabled.
+        pub const fn switch_on_disabled(self) -> bool {
+            self.0 & 0x40 != 0
+        }
+        /// The same with another [`switch_on_disabled`](Self::switch_on_disabled).
+        #[must_use]
+        pub const fn with_switch_on_disabled(self, value: bool) -> Self {
+            Self((self.0 & !0x40) | ((value as u16) << 6))
+        }
+        /// Bit 7: warning.
+        pub const fn warning(self) -> bool {
+            self.0 & 0x80 != 0
+        }
+        /// The same with another [`warning`](Self::warning).
+        #[must_use]
+        pub const fn with_warning(self, value: bool) -> Self {
+            Self((self.0 & !0x80) | ((value as u16) << 7))
+        }
+        /// Bit 8: manufacturer specific.
+        pub const fn manufacturer_specific_8(self) -> bool {
+            self.0 & 0x100 != 0
+        }
+        /// The same with another [`manufacturer_specific_8`](Self::manufacturer_specific_8).
+        #[must_use]
+        pub const fn with_manufacturer_specific_8(self, value: bool) -> Self {
+            Self((self.0 & !0x100) | ((value as u16) << 8))
+        }
+        /// Bit 9: remote. The drive obeys the control word.
+        pub const fn remote(self) -> bool {
+            self.0 & 0x200 != 0
+        }
+        /// The same with another [`remote`](Self::remote).
+        #[must_use]
+        pub const fn with_remote(self, value: bool) -> Self {
+            Self((self.0 & !0x200) | ((value as u16) << 9))
+        }
+        /// Bit 10: target reached. In the cyclic modes the bit means nothing, or toggles with each cycle.
+        pub const fn target_reached(self) -> bool {
+            self.0 & 0x400 != 0
+        }
+        /// The same with another [`target_reached`](Self::target_reached).
+        #[must_use]
+        pub const fn with_target_reached(self, value: bool) -> Self {
+            Self((self.0 & !0x400) | ((value as u16) << 10))
+        }
+        /// Bit 11: internal limit active. A limit keeps the drive from doing what the set-point asks for.
+        pub const fn internal_limit_active(self) -> bool {
+            self.0 & 0x800 != 0
+        }
+        /// The same with another [`internal_limit_active`](Self::internal_limit_active).
+        #[must_use]
+        pub const fn with_internal_limit_active(self, value: bool) -> Self {
+            Self((self.0 & !0x800) | ((value as u16) << 11))
+        }
+        /// Bits 15 to 14: manufacturer specific.
+        pub const fn manufacturer_specific_14(self) -> u8 {
+            ((self.0 >> 14) & 0x3) as u8
+        }
+        /// The same with another [`manufacturer_specific_14`](Self::manufacturer_specific_14).
+        #[must_use]
+        pub const fn with_manufacturer_specific_14(self, value: u8) -> Self {
+            Self((self.0 & !0xC000) | (((value as u16) << 14) & 0xC000))
+        }
+        /// The bits that have their meaning while Modes of operation display is profile position (1).
+        pub const fn in_profile_position(self) -> StatuswordInProfilePosition {
+            StatuswordInProfilePosition(self.0)
+        }
+        /// The bits that have their meaning while Modes of operation display is profile velocity (3).
+        pub const fn in_profile_velocity(self) -> StatuswordInProfileVelocity {
+            StatuswordInProfileVelocity(self.0)
+        }
+        /// The bits that have their meaning while Modes of operation display is homing (6).
+        pub const fn in_homing(self) -> StatuswordInHoming {
+            StatuswordInHoming(self.0)
+        }
+        /// The bits that have their meaning while Modes of operation display is interpolated position (7).
+        pub const fn in_interpolated_position(self) -> StatuswordInInterpolatedPosition {
+            StatuswordInInterpolatedPosition(self.0)
+        }
+        /// The bits that have their meaning while Modes of operation display is cyclic synchronous position (8).
+        pub const fn in_cyclic_synchronous_position(
+            self,
+        ) -> StatuswordInCyclicSynchronousPosition {
+            StatuswordInCyclicSynchronousPosition(self.0)
+        }
+        /// The bits that have their meaning while Modes of operation display is cyclic synchronous velocity (9).
+        pub const fn in_cyclic_synchronous_velocity(
+            self,
+        ) -> StatuswordInCyclicSynchronousVelocity {
+            StatuswordInCyclicSynchronousVelocity(self.0)
+        }
+        /// The bits that have their meaning while Modes of operation display is cyclic synchronous torque (10).
+        pub const fn in_cyclic_synchronous_torque(
+            self,
+        ) -> StatuswordInCyclicSynchronousTorque {
+            StatuswordInCyclicSynchronousTorque(self.0)
+        }
+    }
+    impl Default for Statusword {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for Statusword {
+        type Base = u16;
+        fn from_native(native: u16) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u16 {
+            self.0
+        }
+    }
+    impl core::fmt::Debug for Statusword {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "Statusword", self.0 as u64);
+            let bits = rt::DebugBits::flag(bits, "ready_to_switch_on", 0x1);
+            let bits = rt::DebugBits::flag(bits, "switched_on", 0x2);
+            let bits = rt::DebugBits::flag(bits, "operation_enabled", 0x4);
+            let bits = rt::DebugBits::flag(bits, "fault", 0x8);
+            let bits = rt::DebugBits::flag(bits, "voltage_enabled", 0x10);
+            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x20);
+            let bits = rt::DebugBits::flag(bits, "switch_on_disabled", 0x40);
+            let bits = rt::DebugBits::flag(bits, "warning", 0x80);
+            let bits = rt::DebugBits::flag(bits, "manufacturer_specific_8", 0x100);
+            let bits = rt::DebugBits::flag(bits, "remote", 0x200);
+            let bits = rt::DebugBits::flag(bits, "target_reached", 0x400);
+            let bits = rt::DebugBits::flag(bits, "internal_limit_active", 0x800);
+            let bits = rt::DebugBits::field(
+                bits,
+                "manufacturer_specific_14",
+                0xC000,
+                &self.manufacturer_specific_14(),
+            );
+            bits.finish()
+        }
+    }
+    /// [`Statusword`] while Modes of operation display is profile position (1).
+    #[derive(Clone, Copy)]
+    pub struct StatuswordInProfilePosition(u16);
+    impl StatuswordInProfilePosition {
+        /// All bits.
+        pub const fn statusword(self) -> Statusword {
+            Statusword(self.0)
+        }
+        /// Bit 12: set-point acknowledge.
+        pub const fn set_point_acknowledge(self) -> bool {
+            self.0 & 0x1000 != 0
+        }
+        /// The same with another [`set_point_acknowledge`](Self::set_point_acknowledge).
+        #[must_use]
+        pub const fn with_set_point_acknowledge(self, value: bool) -> Self {
+            Self((self.0 & !0x1000) | ((value as u16) << 12))
+        }
+        /// Bit 13: following error.
+        pub const fn following_error(self) -> bool {
+            self.0 & 0x2000 != 0
+        }
+        /// The same with another [`following_error`](Self::following_error).
+        #[must_use]
+        pub const fn with_following_error(self, value: bool) -> Self {
+            Self((self.0 & !0x2000) | ((value as u16) << 13))
+        }
+    }
+    /// [`Statusword`] while Modes of operation display is profile velocity (3).
+    #[derive(Clone, Copy)]
+    pub struct StatuswordInProfileVelocity(u16);
+    impl StatuswordInProfileVelocity {
+        /// All bits.
+        pub const fn statusword(self) -> Statusword {
+            Statusword(self.0)
+        }
+        /// Bit 12: speed zero.
+        pub const fn speed_zero(self) -> bool {
+            self.0 & 0x1000 != 0
+        }
+        /// The same with another [`speed_zero`](Self::speed_zero).
+        #[must_use]
+        pub const fn with_speed_zero(self, value: bool) -> Self {
+            Self((self.0 & !0x1000) | ((value as u16) << 12))
+        }
+        /// Bit 13: max slippage error.
+        pub const fn max_slippage_error(self) -> bool {
+            self.0 & 0x2000 != 0
+        }
+        /// The same with another [`max_slippage_error`](Self::max_slippage_error).
+        #[must_use]
+        pub const fn with_max_slippage_error(self, value: bool) -> Self {
+            Self((self.0 & !0x2000) | ((value as u16) << 13))
+        }
+    }
+    /// [`Statusword`] while Modes of operation display is homing (6).
+    #[derive(Clone, Copy)]
+    pub struct StatuswordInHoming(u16);
+    impl StatuswordInHoming {
+        /// All bits.
+        pub const fn statusword(self) -> Statusword {
+            Statusword(self.0)
+        }
+        /// Bit 12: homing attained.
+        pub const fn homing_attained(self) -> bool {
+            self.0 & 0x1000 != 0
+        }
+        /// The same with another [`homing_attained`](Self::homing_attained).
+        #[must_use]
+        pub const fn with_homing_attained(self, value: bool) -> Self {
+            Self((self.0 & !0x1000) | ((value as u16) << 12))
+        }
+        /// Bit 13: homing error.
+        pub const fn homing_error(self) -> bool {
+            self.0 & 0x2000 != 0
+        }
+        /// The same with another [`homing_error`](Self::homing_error).
+        #[must_use]
+        pub const fn with_homing_error(self, value: bool) -> Self {
+            Self((self.0 & !0x2000) | ((value as u16) << 13))
+        }
+    }
+    /// [`Statusword`] while Modes of operation display is interpolated position (7).
+    #[derive(Clone, Copy)]
+    pub struct StatuswordInInterpolatedPosition(u16);
+    impl StatuswordInInterpolatedPosition {
+        /// All bits.
+        pub const fn statusword(self) -> Statusword {
+            Statusword(self.0)
+        }
+        /// Bit 12: interpolation active.
+        pub const fn interpolation_active(self) -> bool {
+            self.0 & 0x1000 != 0
+        }
+        /// The same with another [`interpolation_active`](Self::interpolation_active).
+        #[must_use]
+        pub const fn with_interpolation_active(self, value: bool) -> Self {
+            Self((self.0 & !0x1000) | ((value as u16) << 12))
+        }
+    }
+    /// [`Statusword`] while Modes of operation display is cyclic synchronous position (8).
+    #[derive(Clone, Copy)]
+    pub struct StatuswordInCyclicSynchronousPosition(u16);
+    impl StatuswordInCyclicSynchronousPosition {
+        /// All bits.
+        pub const fn statusword(self) -> Statusword {
+            Statusword(self.0)
+        }
+        /// Bit 12: follows command value.
+        pub const fn follows_command_value(self) -> bool {
+            self.0 & 0x1000 != 0
+        }
+        /// The same with another [`follows_command_value`](Self::follows_command_value).
+        #[must_use]
+        pub const fn with_follows_command_value(self, value: bool) -> Self {
+            Self((self.0 & !0x1000) | ((value as u16) << 12))
+        }
+        /// Bit 13: following error.
+        pub const fn following_error(self) -> bool {
+            self.0 & 0x2000 != 0
+        }
+        /// The same with another [`following_error`](Self::following_error).
+        #[must_use]
+        pub const fn with_following_error(self, value: bool) -> Self {
+            Self((self.0 & !0x2000) | ((value as u16) << 13))
+        }
+    }
+    /// [`Statusword`] while Modes of operation display is cyclic synchronous velocity (9).
+    #[derive(Clone, Copy)]
+    pub struct StatuswordInCyclicSynchronousVelocity(u16);
+    impl StatuswordInCyclicSynchronousVelocity {
+        /// All bits.
+        pub const fn statusword(self) -> Statusword {
+            Statusword(self.0)
+        }
+        /// Bit 12: follows command value.
+        pub const fn follows_command_value(self) -> bool {
+            self.0 & 0x1000 != 0
+        }
+        /// The same with another [`follows_command_value`](Self::follows_command_value).
+        #[must_use]
+        pub const fn with_follows_command_value(self, value: bool) -> Self {
+            Self((self.0 & !0x1000) | ((value as u16) << 12))
+        }
+    }
+    /// [`Statusword`] while Modes of operation display is cyclic synchronous torque (10).
+    #[derive(Clone, Copy)]
+    pub struct StatuswordInCyclicSynchronousTorque(u16);
+    impl StatuswordInCyclicSynchronousTorque {
+        /// All bits.
+        pub const fn statusword(self) -> Statusword {
+            Statusword(self.0)
+        }
+        /// Bit 12: follows command value.
+        pub const fn follows_command_value(self) -> bool {
+            self.0 & 0x1000 != 0
+        }
+        /// The same with another [`follows_command_value`](Self::follows_command_value).
+        #[must_use]
+        pub const fn with_follows_command_value(self, value: bool) -> Self {
+            Self((self.0 & !0x1000) | ((value as u16) << 12))
+        }
+    }
+    /// DeviceType.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct DeviceType(u32);
+    impl DeviceType {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u32) -> Self {
+            Self(raw)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u32 {
+            self.0
+        }
+        /// Bits 15 to 0: profile. 0 where it follows none.
+        pub const fn profile(self) -> u16 {
+            (self.0 & 0xFFFF) as u16
+        }
+        /// The same with another [`profile`](Self::profile).
+        #[must_use]
+        pub const fn with_profile(self, value: u16) -> Self {
+            Self((self.0 & !0xFFFF) | (value as u32))
+        }
+        /// Bits 31 to 16: additional information.
+        pub const fn additional_information(self) -> u16 {
+            ((self.0 >> 16) & 0xFFFF) as u16
+        }
+        /// The same with another [`additional_information`](Self::additional_information).
+        #[must_use]
+        pub const fn with_additional_information(self, value: u16) -> Self {
+            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+        }
+    }
+    impl Default for DeviceType {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for DeviceType {
+        type Base = u32;
+        fn from_native(native: u32) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u32 {
+            self.0
+        }
+    }
+    impl core::fmt::Debug for DeviceType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "DeviceType", self.0 as u64);
+            let bits = rt::DebugBits::field(bits, "profile", 0xFFFF, &self.profile());
+            let bits = rt::DebugBits::field(
+                bits,
+                "additional_information",
+                0xFFFF0000,
+                &self.additional_information(),
+            );
+            bits.finish()
+        }
+    }
+    /// ErrorRegister.
+    ///
+    /// Bits 0x40 are written as 0.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct ErrorRegister(u8);
+    impl ErrorRegister {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u8) -> Self {
+            Self(raw)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u8 {
+            self.0
+        }
+        /// Bit 0: generic. Set with every error.
+        pub const fn generic(self) -> bool {
+            self.0 & 0x1 != 0
+        }
+        /// The same with another [`generic`](Self::generic).
+        #[must_use]
+        pub const fn with_generic(self, value: bool) -> Self {
+            Self((self.0 & !0x1) | (value as u8))
+        }
+        /// Bit 1: current.
+        pub const fn current(self) -> bool {
+            self.0 & 0x2 != 0
+        }
+        /// The same with another [`current`](Self::current).
+        #[must_use]
+        pub const fn with_current(self, value: bool) -> Self {
+            Self((self.0 & !0x2) | ((value as u8) << 1))
+        }
+        /// Bit 2: voltage.
+        pub const fn voltage(self) -> bool {
+            self.0 & 0x4 != 0
+        }
+        /// The same with another [`voltage`](Self::voltage).
+        #[must_use]
+        pub const fn with_voltage(self, value: bool) -> Self {
+            Self((self.0 & !0x4) | ((value as u8) << 2))
+        }
+        /// Bit 3: temperature.
+        pub const fn temperature(self) -> bool {
+            self.0 & 0x8 != 0
+        }
+        /// The same with another [`temperature`](Self::temperature).
+        #[must_use]
+        pub const fn with_temperature(self, value: bool) -> Self {
+            Self((self.0 & !0x8) | ((value as u8) << 3))
+        }
+        /// Bit 4: communication.
+        pub const fn communication(self) -> bool {
+            self.0 & 0x10 != 0
+        }
+        /// The same with another [`communication`](Self::communication).
+        #[must_use]
+        pub const fn with_communication(self, value: bool) -> Self {
+            Self((self.0 & !0x10) | ((value as u8) << 4))
+        }
+        /// Bit 5: device profile.
+        pub const fn device_profile(self) -> bool {
+            self.0 & 0x20 != 0
+        }
+        /// The same with another [`device_profile`](Self::device_profile).
+        #[must_use]
+        pub const fn with_device_profile(self, value: bool) -> Self {
+            Self((self.0 & !0x20) | ((value as u8) << 5))
+        }
+        /// Bit 7: manufacturer specific.
+        pub const fn manufacturer_specific(self) -> bool {
+            self.0 & 0x80 != 0
+        }
+        /// The same with another [`manufacturer_specific`](Self::manufacturer_specific).
+        #[must_use]
+        pub const fn with_manufacturer_specific(self, value: bool) -> Self {
+            Self((self.0 & !0x80) | ((value as u8) << 7))
+        }
+    }
+    impl Default for ErrorRegister {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for ErrorRegister {
+        type Base = u8;
+        fn from_native(native: u8) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u8 {
+            self.0 & !0x40
+        }
+    }
+    impl core::fmt::Debug for ErrorRegister {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "ErrorRegister", self.0 as u64);
+            let bits = rt::DebugBits::flag(bits, "generic", 0x1);
+            let bits = rt::DebugBits::flag(bits, "current", 0x2);
+            let bits = rt::DebugBits::flag(bits, "voltage", 0x4);
+            let bits = rt::DebugBits::flag(bits, "temperature", 0x8);
+            let bits = rt::DebugBits::flag(bits, "communication", 0x10);
+            let bits = rt::DebugBits::flag(bits, "device_profile", 0x20);
+            let bits = rt::DebugBits::flag(bits, "manufacturer_specific", 0x80);
+            bits.finish()
+        }
+    }
+    /// MappingEntry.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct MappingEntry(u32);
+    impl MappingEntry {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u32) -> Self {
+            Self(raw)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u32 {
+            self.0
+        }
+        /// Bits 7 to 0: length. In bits.
+        pub const fn length(self) -> u8 {
+            (self.0 & 0xFF) as u8
+        }
+        /// The same with another [`length`](Self::length).
+        #[must_use]
+        pub const fn with_length(self, value: u8) -> Self {
+            Self((self.0 & !0xFF) | (value as u32))
+        }
+        /// Bits 15 to 8: sub-index.
+        pub const fn sub_index(self) -> u8 {
+            ((self.0 >> 8) & 0xFF) as u8
+        }
+        /// The same with another [`sub_index`](Self::sub_index).
+        #[must_use]
+        pub const fn with_sub_index(self, value: u8) -> Self {
+            Self((self.0 & !0xFF00) | ((value as u32) << 8))
+        }
+        /// Bits 31 to 16: index.
+        pub const fn index(self) -> u16 {
+            ((self.0 >> 16) & 0xFFFF) as u16
+        }
+        /// The same with another [`index`](Self::index).
+        #[must_use]
+        pub const fn with_index(self, value: u16) -> Self {
+            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+        }
+    }
+    impl Default for MappingEntry {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for MappingEntry {
+        type Base = u32;
+        fn from_native(native: u32) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u32 {
+            self.0
+        }
+    }
+    impl core::fmt::Debug for MappingEntry {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "MappingEntry", self.0 as u64);
+            let bits = rt::DebugBits::field(bits, "length", 0xFF, &self.length());
+            let bits = rt::DebugBits::field(
+                bits,
+                "sub_index",
+                0xFF00,
+                &self.sub_index(),
+            );
+            let bits = rt::DebugBits::field(bits, "index", 0xFFFF0000, &self.index());
+            bits.finish()
+        }
+    }
+    /// ErrorFieldEntry.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct ErrorFieldEntry(u32);
+    impl ErrorFieldEntry {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u32) -> Self {
+            Self(raw)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u32 {
+            self.0
+        }
+        /// Bits 15 to 0: error code.
+        pub const fn error_code(self) -> u16 {
+            (self.0 & 0xFFFF) as u16
+        }
+        /// The same with another [`error_code`](Self::error_code).
+        #[must_use]
+        pub const fn with_error_code(self, value: u16) -> Self {
+            Self((self.0 & !0xFFFF) | (value as u32))
+        }
+        /// Bits 31 to 16: additional information.
+        pub const fn additional_information(self) -> u16 {
+            ((self.0 >> 16) & 0xFFFF) as u16
+        }
+        /// The same with another [`additional_information`](Self::additional_information).
+        #[must_use]
+        pub const fn with_additional_information(self, value: u16) -> Self {
+            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+        }
+    }
+    impl Default for ErrorFieldEntry {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for ErrorFieldEntry {
+        type Base = u32;
+        fn from_native(native: u32) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u32 {
+            self.0
+        }
+    }
+    impl core::fmt::Debug for ErrorFieldEntry {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "ErrorFieldEntry", self.0 as u64);
+            let bits = rt::DebugBits::field(
+                bits,
+                "error_code",
+                0xFFFF,
+                &self.error_code(),
+            );
+            let bits = rt::DebugBits::field(
+                bits,
+                "additional_information",
+                0xFFFF0000,
+                &self.additional_information(),
+            );
+            bits.finish()
+        }
+    }
+    /// SyncIdentifier.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct SyncIdentifier(u32);
+    impl SyncIdentifier {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u32) -> Self {
+            Self(raw)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u32 {
+            self.0
+        }
+        /// Bits 28 to 0: identifier.
+        pub const fn identifier(self) -> u32 {
+            self.0 & 0x1FFFFFFF
+        }
+        /// The same with another [`identifier`](Self::identifier).
+        #[must_use]
+        pub const fn with_identifier(self, value: u32) -> Self {
+            Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
+        }
+        /// Bit 29: extended. The identifier has 29 bits.
+        pub const fn extended(self) -> bool {
+            self.0 & 0x20000000 != 0
+        }
+        /// The same with another [`extended`](Self::extended).
+        #[must_use]
+        pub const fn with_extended(self, value: bool) -> Self {
+            Self((self.0 & !0x20000000) | ((value as u32) << 29))
+        }
+        /// Bit 30: generates. The device sends SYNC.
+        pub const fn generates(self) -> bool {
+            self.0 & 0x40000000 != 0
+        }
+        /// The same with another [`generates`](Self::generates).
+        #[must_use]
+        pub const fn with_generates(self, value: bool) -> Self {
+            Self((self.0 & !0x40000000) | ((value as u32) << 30))
+        }
+    }
+    impl Default for SyncIdentifier {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for SyncIdentifier {
+        type Base = u32;
+        fn from_native(native: u32) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u32 {
+            self.0
+        }
+    }
+    impl core::fmt::Debug for SyncIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "SyncIdentifier", self.0 as u64);
+            let bits = rt::DebugBits::field(
+                bits,
+                "identifier",
+                0x1FFFFFFF,
+                &self.identifier(),
+            );
+            let bits = rt::DebugBits::flag(bits, "extended", 0x20000000);
+            let bits = rt::DebugBits::flag(bits, "generates", 0x40000000);
+            bits.finish()
+        }
+    }
+    /// EmergencyIdentifier.
+    ///
+    /// Bits 0x40000000 are written as 0.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct EmergencyIdentifier(u32);
+    impl EmergencyIdentifier {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u32) -> Self {
+            Self(raw)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u32 {
+            self.0
+        }
+        /// Bits 28 to 0: identifier.
+        pub const fn identifier(self) -> u32 {
+            self.0 & 0x1FFFFFFF
+        }
+        /// The same with another [`identifier`](Self::identifier).
+        #[must_use]
+        pub const fn with_identifier(self, value: u32) -> Self {
+            Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
+        }
+        /// Bit 29: extended. The identifier has 29 bits.
+        pub const fn extended(self) -> bool {
+            self.0 & 0x20000000 != 0
+        }
+        /// The same with another [`extended`](Self::extended).
+        #[must_use]
+        pub const fn with_extended(self, value: bool) -> Self {
+            Self((self.0 & !0x20000000) | ((value as u32) << 29))
+        }
+        /// Bit 31: valid. Holds while the bit is 0. 0 where it is in use.
+        pub const fn valid(self) -> bool {
+            self.0 & 0x80000000 == 0
+        }
+        /// The same with another [`valid`](Self::valid).
+        #[must_use]
+        pub const fn with_valid(self, value: bool) -> Self {
+            Self((self.0 & !0x80000000) | ((!value as u32) << 31))
+        }
+    }
+    impl Default for EmergencyIdentifier {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for EmergencyIdentifier {
+        type Base = u32;
+        fn from_native(native: u32) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u32 {
+            self.0 & !0x40000000
+        }
+    }
+    impl core::fmt::Debug for EmergencyIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "EmergencyIdentifier", self.0 as u64);
+            let bits = rt::DebugBits::field(
+                bits,
+                "identifier",
+                0x1FFFFFFF,
+                &self.identifier(),
+            );
+            let bits = rt::DebugBits::flag(bits, "extended", 0x20000000);
+            let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
+            bits.finish()
+        }
+    }
+    /// RevisionNumber.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct RevisionNumber(u32);
+    impl RevisionNumber {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u32) -> Self {
+            Self(raw)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u32 {
+            self.0
+        }
+        /// Bits 15 to 0: minor. Versions that differ in it behave alike on the bus.
+        pub const fn minor(self) -> u16 {
+            (self.0 & 0xFFFF) as u16
+        }
+        /// The same with another [`minor`](Self::minor).
+        #[must_use]
+        pub const fn with_minor(self, value: u16) -> Self {
+            Self((self.0 & !0xFFFF) | (value as u32))
+        }
+        /// Bits 31 to 16: major. Versions that differ in it behave otherwise on the bus.
+        pub const fn major(self) -> u16 {
+            ((self.0 >> 16) & 0xFFFF) as u16
+        }
+        /// The same with another [`major`](Self::major).
+        #[must_use]
+        pub const fn with_major(self, value: u16) -> Self {
+            Self((self.0 & !0xFFFF0000) | ((value as u32) << 16))
+        }
+    }
+    impl Default for RevisionNumber {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for RevisionNumber {
+        type Base = u32;
+        fn from_native(native: u32) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u32 {
+            self.0
+        }
+    }
+    impl core::fmt::Debug for RevisionNumber {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "RevisionNumber", self.0 as u64);
+            let bits = rt::DebugBits::field(bits, "minor", 0xFFFF, &self.minor());
+            let bits = rt::DebugBits::field(bits, "major", 0xFFFF0000, &self.major());
+            bits.finish()
+        }
+    }
+    /// ReceivePdoIdentifier.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct ReceivePdoIdentifier(u32);
+    impl ReceivePdoIdentifier {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u32) -> Self {
+            Self(raw)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u32 {
+            self.0
+        }
+        /// Bits 28 to 0: identifier.
+        pub const fn identifier(self) -> u32 {
+            self.0 & 0x1FFFFFFF
+        }
+        /// The same with another [`identifier`](Self::identifier).
+        #[must_use]
+        pub const fn with_identifier(self, value: u32) -> Self {
+            Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
+        }
+        /// Bit 29: extended. The identifier has 29 bits.
+        pub const fn extended(self) -> bool {
+            self.0 & 0x20000000 != 0
+        }
+        /// The same with another [`extended`](Self::extended).
+        #[must_use]
+        pub const fn with_extended(self, value: bool) -> Self {
+            Self((self.0 & !0x20000000) | ((value as u32) << 29))
+        }
+        /// Bit 31: valid. Holds while the bit is 0. 0 where the PDO is in use.
+        pub const fn valid(self) -> bool {
+            self.0 & 0x80000000 == 0
+        }
+        /// The same with another [`valid`](Self::valid).
+        #[must_use]
+        pub const fn with_valid(self, value: bool) -> Self {
+            Self((self.0 & !0x80000000) | ((!value as u32) << 31))
+        }
+    }
+    impl Default for ReceivePdoIdentifier {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for ReceivePdoIdentifier {
+        type Base = u32;
+        fn from_native(native: u32) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u32 {
+            self.0
+        }
+    }
+    impl core::fmt::Debug for ReceivePdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "ReceivePdoIdentifier", self.0 as u64);
+            let bits = rt::DebugBits::field(
+                bits,
+                "identifier",
+                0x1FFFFFFF,
+                &self.identifier(),
+            );
+            let bits = rt::DebugBits::flag(bits, "extended", 0x20000000);
+            let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
+            bits.finish()
+        }
+    }
+    /// TransmitPdoIdentifier.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct TransmitPdoIdentifier(u32);
+    impl TransmitPdoIdentifier {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u32) -> Self {
+            Self(raw)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u32 {
+            self.0
+        }
+        /// Bits 28 to 0: identifier.
+        pub const fn identifier(self) -> u32 {
+            self.0 & 0x1FFFFFFF
+        }
+        /// The same with another [`identifier`](Self::identifier).
+        #[must_use]
+        pub const fn with_identifier(self, value: u32) -> Self {
+            Self((self.0 & !0x1FFFFFFF) | (value & 0x1FFFFFFF))
+        }
+        /// Bit 29: extended. The identifier has 29 bits.
+        pub const fn extended(self) -> bool {
+            self.0 & 0x20000000 != 0
+        }
+        /// The same with another [`extended`](Self::extended).
+        #[must_use]
+        pub const fn with_extended(self, value: bool) -> Self {
+            Self((self.0 & !0x20000000) | ((value as u32) << 29))
+        }
+        /// Bit 30: remote request. Holds while the bit is 0. 0 where the PDO may be asked for by a remote frame.
+        pub const fn remote_request(self) -> bool {
+            self.0 & 0x40000000 == 0
+        }
+        /// The same with another [`remote_request`](Self::remote_request).
+        #[must_use]
+        pub const fn with_remote_request(self, value: bool) -> Self {
+            Self((self.0 & !0x40000000) | ((!value as u32) << 30))
+        }
+        /// Bit 31: valid. Holds while the bit is 0. 0 where the PDO is in use.
+        pub const fn valid(self) -> bool {
+            self.0 & 0x80000000 == 0
+        }
+        /// The same with another [`valid`](Self::valid).
+        #[must_use]
+        pub const fn with_valid(self, value: bool) -> Self {
+            Self((self.0 & !0x80000000) | ((!value as u32) << 31))
+        }
+    }
+    impl Default for TransmitPdoIdentifier {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for TransmitPdoIdentifier {
+        type Base = u32;
+        fn from_native(native: u32) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u32 {
+            self.0
+        }
+    }
+    impl core::fmt::Debug for TransmitPdoIdentifier {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "TransmitPdoIdentifier", self.0 as u64);
+            let bits = rt::DebugBits::field(
+                bits,
+                "identifier",
+                0x1FFFFFFF,
+                &self.identifier(),
+            );
+            let bits = rt::DebugBits::flag(bits, "extended", 0x20000000);
+            let bits = rt::DebugBits::inverted(bits, "remote_request", 0x40000000);
+            let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
+            bits.finish()
+        }
+    }
+    /// States of drive, as Statusword tells them.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum State {
+        /// not ready to switch on: 0 of the bits 0x4F.
+        NotReadyToSwitchOn,
+        /// switch on disabled: 0x40 of the bits 0x4F.
+        SwitchOnDisabled,
+        /// ready to switch on: 0x21 of the bits 0x6F.
+        ReadyToSwitchOn,
+        /// switched on: 0x23 of the bits 0x6F.
+        SwitchedOn,
+        /// operation enabled: 0x27 of the bits 0x6F.
+        OperationEnabled,
+        /// quick stop active: 0x7 of the bits 0x6F.
+        QuickStopActive,
+        /// fault reaction active: 0xF of the bits 0x4F.
+        FaultReactionActive,
+        /// fault: 0x8 of the bits 0x4F.
+        Fault,
+    }
+    impl State {
+        /// The state that these bits tell; `None` where they tell none.
+        pub const fn from_raw(raw: u16) -> Option<Self> {
+            if raw & 0x4F == 0 {
+                return Some(Self::NotReadyToSwitchOn);
+            }
+            if raw & 0x4F == 0x40 {
+                return Some(Self::SwitchOnDisabled);
+            }
+            if raw & 0x6F == 0x21 {
+                return Some(Self::ReadyToSwitchOn);
+            }
+            if raw & 0x6F == 0x23 {
+                return Some(Self::SwitchedOn);
+            }
+            if raw & 0x6F == 0x27 {
+                return Some(Self::OperationEnabled);
+            }
+            if raw & 0x6F == 0x7 {
+                return Some(Self::QuickStopActive);
+            }
+            if raw & 0x4F == 0xF {
+                return Some(Self::FaultReactionActive);
+            }
+            if raw & 0x4F == 0x8 {
+                return Some(Self::Fault);
+            }
+            None
+        }
+    }
+    impl Statusword {
+        /// The state; `None` where the bits tell none.
+        pub const fn state(self) -> Option<State> {
+            State::from_raw(self.0)
+        }
+    }
+    /// Commands of drive, as Controlword takes them.
+    ///
+    /// Transitions:
+    ///
+    /// - 1: not\_ready\_to\_switch\_on to switch\_on\_disabled, by itself
+    /// - 2: switch\_on\_disabled to ready\_to\_switch\_on, on shutdown
+    /// - 3: ready\_to\_switch\_on to switched\_on, on switch\_on
+    /// - 4: switched\_on to operation\_enabled, on enable\_operation
+    /// - 5: operation\_enabled to switched\_on, on disable\_operation
+    /// - 6: switched\_on to ready\_to\_switch\_on, on shutdown
+    /// - 7: ready\_to\_switch\_on to switch\_on\_disabled, on disable\_voltage
+    /// - 8: operation\_enabled to ready\_to\_switch\_on, on shutdown
+    /// - 9: operation\_enabled to switch\_on\_disabled, on disable\_voltage
+    /// - 10: switched\_on to switch\_on\_disabled, on disable\_voltage
+    /// - 11: operation\_enabled to quick\_stop\_active, on quick\_stop
+    /// - 12: quick\_stop\_active to switch\_on\_disabled, on disable\_voltage
+    /// - 14: fault\_reaction\_active to fault, by itself
+    /// - 15: fault to switch\_on\_disabled, on fault\_reset
+    /// - 16: quick\_stop\_active to operation\_enabled, on enable\_operation
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum Command {
+        /// shutdown: 0x6 of the bits 0x87.
+        Shutdown,
+        /// switch on: 0x7 of the bits 0x8F.
+        SwitchOn,
+        /// enable operation: 0xF of the bits 0x8F.
+        EnableOperation,
+        /// disable voltage: 0 of the bits 0x82.
+        DisableVoltage,
+        /// quick stop: 0x2 of the bits 0x86.
+        QuickStop,
+        /// disable operation: 0x7 of the bits 0x8F.
+        DisableOperation,
+        /// fault reset: 0x80 of the bits 0x80.
+        FaultReset,
+    }
+    impl Command {
+        /// The bits that the command is made of.
+        pub const fn mask(self) -> u16 {
+            match self {
+                Self::Shutdown => 0x87,
+                Self::SwitchOn => 0x8F,
+                Self::EnableOperation => 0x8F,
+                Self::DisableVoltage => 0x82,
+                Self::QuickStop => 0x86,
+                Self::DisableOperation => 0x8F,
+                Self::FaultReset => 0x80,
+            }
+        }
+        /// Those of them that are 1.
+        pub const fn value(self) -> u16 {
+            match self {
+                Self::Shutdown => 0x6,
+                Self::SwitchOn => 0x7,
+                Self::EnableOperation => 0xF,
+                Self::DisableVoltage => 0,
+                Self::QuickStop => 0x2,
+                Self::DisableOperation => 0x7,
+                Self::FaultReset => 0x80,
+            }
+        }
+    }
+    impl Controlword {
+        /// The same with the bits of a command.
+        #[must_use]
+        pub const fn with_command(self, command: Command) -> Self {
+            Self((self.0 & !command.mask()) | command.value())
+        }
+    }
+}
+/// Tables of codes. `rt::codes::find` looks a code up.
+pub mod codes {
+    use ::lexibus as rt;
+    /// drive errors.
+    pub static DRIVE_ERRORS: &[rt::codes::Code] = &[
+        rt::codes::Code::new(0x2310, 0x2310, "continuous over-current", "", &[]),
+        rt::codes::Code::new(0x2320, 0x2320, "short circuit or earth leakage", "", &[]),
+        rt::codes::Code::new(0x2330, 0x2330, "earth leakage", "", &[]),
+        rt::codes::Code::new(0x3110, 0x3110, "mains over-voltage", "", &[]),
+        rt::codes::Code::new(0x3120, 0x3120, "mains under-voltage", "", &[]),
+        rt::codes::Code::new(0x3130, 0x3130, "phase failure", "", &[]),
+        rt::codes::Code::new(0x3210, 0x3210, "DC link over-voltage", "", &[]),
+        rt::codes::Code::new(0x3220, 0x3220, "DC link under-voltage", "", &[]),
+        rt::codes::Code::new(0x4110, 0x4110, "ambient temperature too high", "", &[]),
+        rt::codes::Code::new(0x4210, 0x4210, "device temperature too high", "", &[]),
+        rt::codes::Code::new(0x4310, 0x4310, "drive temperature too high", "", &[]),
+        rt::codes::Code::new(0x5530, 0x5530, "non-volatile memory", "", &[]),
+        rt::codes::Code::new(0x6010, 0x6010, "software reset by the watchdog", "", &[]),
+        rt::codes::Code::new(0x6310, 0x6310, "loss of parameters", "", &[]),
+        rt::codes::Code::new(0x6320, 0x6320, "parameter error", "", &[]),
+        rt::codes::Code::new(0x7110, 0x7110, "brake chopper", "", &[]),
+        rt::codes::Code::new(0x7121, 0x7121, "motor blocked", "", &[]),
+        rt::codes::Code::new(0x7122, 0x7122, "motor error, or commutation", "", &[]),
+        rt::codes::Code::new(0x7305, 0x7305, "incremental sensor 1", "", &[]),
+        rt::codes::Code::new(0x7306, 0x7306, "incremental sensor 2", "", &[]),
+        rt::codes::Code::new(0x7310, 0x7310, "speed sensor", "", &[]),
+        rt::codes::Code::new(0x7320, 0x7320, "position sensor", "", &[]),
+        rt::codes::Code::new(0x8311, 0x8311, "torque too high", "", &[]),
+        rt::codes::Code::new(0x8331, 0x8331, "torque fault", "", &[]),
+        rt::codes::Code::new(0x8400, 0x8400, "velocity controller", "", &[]),
+        rt::codes::Code::new(0x8500, 0x8500, "position controller", "", &[]),
+        rt::codes::Code::new(0x8600, 0x8600, "positioning controller", "", &[]),
+        rt::codes::Code::new(0x8611, 0x8611, "following error", "", &[]),
+        rt::codes::Code::new(0x8612, 0x8612, "reference limit", "", &[]),
+        rt::codes::Code::new(0xF001, 0xF001, "deceleration", "", &[]),
+        rt::codes::Code::new(0xF002, 0xF002, "sub-synchronous run", "", &[]),
+        rt::codes::Code::new(0xF003, 0xF003, "stroke operation", "", &[]),
+        rt::codes::Code::new(0xF004, 0xF004, "control", "", &[]),
+    ];
+    /// emergency.
+    pub static EMERGENCY: &[rt::codes::Code] = &[
+        rt::codes::Code::new(0, 0, "no error", "Or an error is gone.", &[]),
+        rt::codes::Code::new(0x1000, 0x10FF, "generic error", "", &[]),
+        rt::codes::Code::new(0x2000, 0x20FF, "current", "", &[]),
+        rt::codes::Code::new(0x2100, 0x21FF, "current on the input side", "", &[]),
+        rt::codes::Code::new(0x2200, 0x22FF, "current inside the device", "", &[]),
+        rt::codes::Code::new(0x2300, 0x23FF, "current on the output side", "", &[]),
+        rt::codes::Code::new(0x3000, 0x30FF, "voltage", "", &[]),
+        rt::codes::Code::new(0x3100, 0x31FF, "mains voltage", "", &[]),
+        rt::codes::Code::new(0x3200, 0x32FF, "voltage inside the device", "", &[]),
+        rt::codes::Code::new(0x3300, 0x33FF, "output voltage", "", &[]),
+        rt::codes::Code::new(0x4000, 0x40FF, "temperature", "", &[]),
+        rt::codes::Code::new(0x4100, 0x41FF, "ambient temperature", "", &[]),
+        rt::codes::Code::new(0x4200, 0x42FF, "device temperature", "", &[]),
+        rt::codes::Code::new(0x5000, 0x50FF, "hardware of the device", "", &[]),
+        rt::codes::Code::new(0x6000, 0x60FF, "software of the device", "", &[]),
+        rt::codes::Code::new(0x6100, 0x61FF, "internal software", "", &[]),
+        rt::codes::Code::new(0x6200, 0x62FF, "user software", "", &[]),
+        rt::codes::Code::new(0x6300, 0x63FF, "data set", "", &[]),
+        rt::codes::Code::new(0x7000, 0x70FF, "additional modules", "", &[]),
+        rt::codes::Code::new(0x8000, 0x80FF, "monitoring", "", &[]),
+        rt::codes::Code::new(0x8100, 0x8100, "communication", "", &[]),
+        rt::codes::Code::new(0x8110, 0x8110, "CAN overrun", "Objects were lost.", &[]),
+        rt::codes::Code::new(0x8120, 0x8120, "CAN error passive", "", &[]),
+        rt::codes::Code::new(0x8130, 0x8130, "life guarding or heartbeat", "", &[]),
+        rt::codes::Code::new(0x8140, 0x8140, "recovered from bus off", "", &[]),
+        rt::codes::Code::new(0x8150, 0x8150, "two nodes with one identifier", "", &[]),
+        rt::codes::Code::new(0x8200, 0x8200, "protocol", "", &[]),
+        rt::codes::Code::new(
+            0x8210,
+            0x8210,
+            "PDO too short",
+            "It wasn't processed.",
+            &[],
+        ),
+        rt::codes::Code::new(
+            0x8220,
+            0x8220,
+            "PDO too long",
+            "More was received than is mapped.",
+            &[],
+        ),
+        rt::codes::Code::new(
+            0x8230,
+            0x8230,
+            "destination of a multiplexed PDO doesn't exist",
+            "",
+            &[],
+        ),
+        rt::codes::Code::new(0x8240, 0x8240, "SYNC of another length", "", &[]),
+        rt::codes::Code::new(0x8250, 0x8250, "RPDO timeout", "", &[]),
+        rt::codes::Code::new(0x9000, 0x90FF, "external error", "", &[]),
+        rt::codes::Code::new(0xF000, 0xF0FF, "additional functions", "", &[]),
+        rt::codes::Code::new(0xFF00, 0xFFFF, "device specific", "", &[]),
+    ];
+}
 /// A handle for every entry of the object dictionary.
 pub mod objects {
     use ::lexibus as rt;
@@ -219,13 +1952,32 @@ pub mod objects {
     type ReadOnlyF32 = ReadOnly<f32>;
     type ReadOnlyI16 = ReadOnly<i16>;
     type ReadOnlyI32 = ReadOnly<i32>;
-    type ReadOnlyI8 = ReadOnly<i8>;
     type ReadOnlyInt24 = ReadOnly<rt::Int<24>>;
-    type ReadOnlyU16 = ReadOnly<u16>;
+    type ReadOnlyNamedDeviceType = ReadOnly<super::types::DeviceType>;
+    type ReadOnlyNamedErrorFieldEntry = ReadOnly<super::types::ErrorFieldEntry>;
+    type ReadOnlyNamedErrorRegister = ReadOnly<super::types::ErrorRegister>;
+    type ReadOnlyNamedModesOfOperation = ReadOnly<super::types::ModesOfOperation>;
+    type ReadOnlyNamedRevisionNumber = ReadOnly<super::types::RevisionNumber>;
+    type ReadOnlyNamedStatusword = ReadOnly<super::types::Statusword>;
     type ReadOnlyU32 = ReadOnly<u32>;
     type ReadOnlyU8 = ReadOnly<u8>;
     type ReadWriteI32 = ReadWrite<i32>;
-    type ReadWriteI8 = ReadWrite<i8>;
+    type ReadWriteNamedControlword = ReadWrite<super::types::Controlword>;
+    type ReadWriteNamedEmergencyIdentifier = ReadWrite<
+        super::types::EmergencyIdentifier,
+    >;
+    type ReadWriteNamedMappingEntry = ReadWrite<super::types::MappingEntry>;
+    type ReadWriteNamedModesOfOperation = ReadWrite<super::types::ModesOfOperation>;
+    type ReadWriteNamedReceivePdoIdentifier = ReadWrite<
+        super::types::ReceivePdoIdentifier,
+    >;
+    type ReadWriteNamedReceiveType = ReadWrite<super::types::ReceiveType>;
+    type ReadWriteNamedStoreParameters = ReadWrite<super::types::StoreParameters>;
+    type ReadWriteNamedSyncIdentifier = ReadWrite<super::types::SyncIdentifier>;
+    type ReadWriteNamedTransmitPdoIdentifier = ReadWrite<
+        super::types::TransmitPdoIdentifier,
+    >;
+    type ReadWriteNamedTransmitType = ReadWrite<super::types::TransmitType>;
     type ReadWriteU16 = ReadWrite<u16>;
     type ReadWriteU32 = ReadWrite<u32>;
     type ReadWriteU8 = ReadWrite<u8>;
@@ -242,21 +1994,25 @@ pub mod objects {
     /// Device type.
     ///
     /// 0x1000:00, UNSIGNED32, ro, default 0x20192.
-    pub const DEVICE_TYPE: ReadOnly<u32> = ReadOnlyU32::object_with_default(
+    ///
+    /// The profile that the device follows.
+    pub const DEVICE_TYPE: ReadOnly<super::types::DeviceType> = ReadOnlyNamedDeviceType::object_with_default(
         0x1000,
         0x00,
         "Device type",
-        0x20192,
+        super::types::DeviceType::from_raw(0x20192),
     );
     /// Error register.
     ///
     /// 0x1001:00, UNSIGNED8, ro, mappable into TPDOs, default 0.
-    pub const ERROR_REGISTER: ReadOnly<u8> = ReadOnlyU8::flagged_object_with_default(
+    ///
+    /// Kinds of errors that there are.
+    pub const ERROR_REGISTER: ReadOnly<super::types::ErrorRegister> = ReadOnlyNamedErrorRegister::flagged_object_with_default(
         0x1001,
         0x00,
         "Error register",
         rt::Flags::TPDO,
-        0,
+        super::types::ErrorRegister::from_raw(0),
     );
     /// Pre-defined error field.
     ///
@@ -274,7 +2030,11 @@ pub mod objects {
         /// Pre-defined error field1.
         ///
         /// 0x1003:01, UNSIGNED32, ro.
-        pub const PRE_DEFINED_ERROR_FIELD1: super::ReadOnly<u32> = super::ReadOnlyU32::object(
+        ///
+        /// An error; the newest is in sub-index 1.
+        pub const PRE_DEFINED_ERROR_FIELD1: super::ReadOnly<
+            super::super::types::ErrorFieldEntry,
+        > = super::ReadOnlyNamedErrorFieldEntry::object(
             0x1003,
             0x01,
             "Pre-defined error field1",
@@ -282,7 +2042,11 @@ pub mod objects {
         /// Pre-defined error field2.
         ///
         /// 0x1003:02, UNSIGNED32, ro.
-        pub const PRE_DEFINED_ERROR_FIELD2: super::ReadOnly<u32> = super::ReadOnlyU32::object(
+        ///
+        /// An error; the newest is in sub-index 1.
+        pub const PRE_DEFINED_ERROR_FIELD2: super::ReadOnly<
+            super::super::types::ErrorFieldEntry,
+        > = super::ReadOnlyNamedErrorFieldEntry::object(
             0x1003,
             0x02,
             "Pre-defined error field2",
@@ -290,7 +2054,11 @@ pub mod objects {
         /// Pre-defined error field3.
         ///
         /// 0x1003:03, UNSIGNED32, ro.
-        pub const PRE_DEFINED_ERROR_FIELD3: super::ReadOnly<u32> = super::ReadOnlyU32::object(
+        ///
+        /// An error; the newest is in sub-index 1.
+        pub const PRE_DEFINED_ERROR_FIELD3: super::ReadOnly<
+            super::super::types::ErrorFieldEntry,
+        > = super::ReadOnlyNamedErrorFieldEntry::object(
             0x1003,
             0x03,
             "Pre-defined error field3",
@@ -298,7 +2066,11 @@ pub mod objects {
         /// Pre-defined error field4.
         ///
         /// 0x1003:04, UNSIGNED32, ro.
-        pub const PRE_DEFINED_ERROR_FIELD4: super::ReadOnly<u32> = super::ReadOnlyU32::object(
+        ///
+        /// An error; the newest is in sub-index 1.
+        pub const PRE_DEFINED_ERROR_FIELD4: super::ReadOnly<
+            super::super::types::ErrorFieldEntry,
+        > = super::ReadOnlyNamedErrorFieldEntry::object(
             0x1003,
             0x04,
             "Pre-defined error field4",
@@ -315,25 +2087,25 @@ pub mod objects {
             /// Pre-defined error field1: 0x1003:01.
             pub fn pre_defined_error_field1(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u32> {
+            ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
                 PRE_DEFINED_ERROR_FIELD1.at(self.client)
             }
             /// Pre-defined error field2: 0x1003:02.
             pub fn pre_defined_error_field2(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u32> {
+            ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
                 PRE_DEFINED_ERROR_FIELD2.at(self.client)
             }
             /// Pre-defined error field3: 0x1003:03.
             pub fn pre_defined_error_field3(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u32> {
+            ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
                 PRE_DEFINED_ERROR_FIELD3.at(self.client)
             }
             /// Pre-defined error field4: 0x1003:04.
             pub fn pre_defined_error_field4(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u32> {
+            ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
                 PRE_DEFINED_ERROR_FIELD4.at(self.client)
             }
         }
@@ -341,11 +2113,13 @@ pub mod objects {
     /// COB-ID SYNC message.
     ///
     /// 0x1005:00, UNSIGNED32, rw, default 128.
-    pub const COB_ID_SYNC_MESSAGE: ReadWrite<u32> = ReadWriteU32::object_with_default(
+    ///
+    /// Identifier of SYNC.
+    pub const COB_ID_SYNC_MESSAGE: ReadWrite<super::types::SyncIdentifier> = ReadWriteNamedSyncIdentifier::object_with_default(
         0x1005,
         0x00,
         "COB-ID SYNC message",
-        128,
+        super::types::SyncIdentifier::from_raw(128),
     );
     /// Manufacturer device name.
     ///
@@ -381,11 +2155,15 @@ pub mod objects {
         /// Save all parameters.
         ///
         /// 0x1010:01, UNSIGNED32, rw, default 1.
-        pub const SAVE_ALL_PARAMETERS: super::ReadWrite<u32> = super::ReadWriteU32::object_with_default(
+        ///
+        /// Writing \`save\` keeps the parameters over power-off; read, it tells how they are kept.
+        pub const SAVE_ALL_PARAMETERS: super::ReadWrite<
+            super::super::types::StoreParameters,
+        > = super::ReadWriteNamedStoreParameters::object_with_default(
             0x1010,
             0x01,
             "Save all parameters",
-            1,
+            super::super::types::StoreParameters::from_raw(1),
         );
         /// Access to the entries of Store parameters: 0x1010.
         pub struct Accessors<'c, C> {
@@ -399,7 +2177,9 @@ pub mod objects {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// Save all parameters: 0x1010:01.
-            pub fn save_all_parameters(&mut self) -> super::ReadWriteAccess<'_, C, u32> {
+            pub fn save_all_parameters(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::StoreParameters> {
                 SAVE_ALL_PARAMETERS.at(self.client)
             }
         }
@@ -407,22 +2187,28 @@ pub mod objects {
     /// COB-ID EMCY.
     ///
     /// 0x1014:00, UNSIGNED32, rw, default \$NODEID+0x80.
-    pub const COB_ID_EMCY: ReadWrite<u32> = ReadWriteU32::new(
+    ///
+    /// Identifier of emergencies.
+    pub const COB_ID_EMCY: ReadWrite<super::types::EmergencyIdentifier> = ReadWriteNamedEmergencyIdentifier::new(
         rt::OnCanOpen::canopen(0x1014, 0x00),
         "COB-ID EMCY",
         rt::Range::Full,
-        rt::Initial::NodeId(0x80),
+        rt::Initial::NodeId(super::types::EmergencyIdentifier::from_raw(0x80)),
         "",
         rt::Flags::NONE,
     );
     /// Producer heartbeat time.
     ///
-    /// 0x1017:00, UNSIGNED16, rw, default 0.
-    pub const PRODUCER_HEARTBEAT_TIME: ReadWrite<u16> = ReadWriteU16::object_with_default(
-        0x1017,
-        0x00,
+    /// 0x1017:00, UNSIGNED16, rw, default 0, in ms.
+    ///
+    /// Time between two heartbeats; 0 where none is sent.
+    pub const PRODUCER_HEARTBEAT_TIME: ReadWrite<u16> = ReadWriteU16::new(
+        rt::OnCanOpen::canopen(0x1017, 0x00),
         "Producer heartbeat time",
-        0,
+        rt::Range::Full,
+        rt::Initial::Value(0),
+        "ms",
+        rt::Flags::NONE,
     );
     /// Identity object.
     ///
@@ -440,6 +2226,8 @@ pub mod objects {
         /// Vendor-ID.
         ///
         /// 0x1018:01, UNSIGNED32, ro, default 0.
+        ///
+        /// Number of the vendor.
         pub const VENDOR_ID: super::ReadOnly<u32> = super::ReadOnlyU32::object_with_default(
             0x1018,
             0x01,
@@ -449,6 +2237,8 @@ pub mod objects {
         /// Product code.
         ///
         /// 0x1018:02, UNSIGNED32, ro, default 16417.
+        ///
+        /// Number of the product, given by the vendor.
         pub const PRODUCT_CODE: super::ReadOnly<u32> = super::ReadOnlyU32::object_with_default(
             0x1018,
             0x02,
@@ -458,15 +2248,21 @@ pub mod objects {
         /// Revision number.
         ///
         /// 0x1018:03, UNSIGNED32, ro, default 0x10000.
-        pub const REVISION_NUMBER: super::ReadOnly<u32> = super::ReadOnlyU32::object_with_default(
+        ///
+        /// Revision of the product.
+        pub const REVISION_NUMBER: super::ReadOnly<
+            super::super::types::RevisionNumber,
+        > = super::ReadOnlyNamedRevisionNumber::object_with_default(
             0x1018,
             0x03,
             "Revision number",
-            0x10000,
+            super::super::types::RevisionNumber::from_raw(0x10000),
         );
         /// Serial number.
         ///
         /// 0x1018:04, UNSIGNED32, ro.
+        ///
+        /// Serial number.
         pub const SERIAL_NUMBER: super::ReadOnly<u32> = super::ReadOnlyU32::object(
             0x1018,
             0x04,
@@ -492,7 +2288,9 @@ pub mod objects {
                 PRODUCT_CODE.at(self.client)
             }
             /// Revision number: 0x1018:03.
-            pub fn revision_number(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
+            pub fn revision_number(
+                &mut self,
+            ) -> super::ReadOnlyAccess<'_, C, super::super::types::RevisionNumber> {
                 REVISION_NUMBER.at(self.client)
             }
             /// Serial number: 0x1018:04.
@@ -518,22 +2316,26 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1400:01, UNSIGNED32, rw, default \$NODEID+0x200.
-        pub const COB_ID: super::ReadWrite<u32> = super::ReadWriteU32::new(
+        pub const COB_ID: super::ReadWrite<super::super::types::ReceivePdoIdentifier> = super::ReadWriteNamedReceivePdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1400, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(0x200),
+            rt::Initial::NodeId(
+                super::super::types::ReceivePdoIdentifier::from_raw(0x200),
+            ),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type.
         ///
         /// 0x1400:02, UNSIGNED8, rw, default 255.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
+        pub const TRANSMISSION_TYPE: super::ReadWrite<
+            super::super::types::ReceiveType,
+        > = super::ReadWriteNamedReceiveType::object_with_default(
             0x1400,
             0x02,
             "Transmission type",
-            255,
+            super::super::types::ReceiveType::from_raw(255),
         );
         /// Access to the entries of RPDO 1 communication: 0x1400.
         pub struct Accessors<'c, C> {
@@ -547,11 +2349,19 @@ pub mod objects {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// COB-ID: 0x1400:01.
-            pub fn cob_id(&mut self) -> super::ReadWriteAccess<'_, C, u32> {
+            pub fn cob_id(
+                &mut self,
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::ReceivePdoIdentifier,
+            > {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1400:02.
-            pub fn transmission_type(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn transmission_type(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::ReceiveType> {
                 TRANSMISSION_TYPE.at(self.client)
             }
         }
@@ -573,22 +2383,26 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1401:01, UNSIGNED32, rw, default \$NODEID+0x300.
-        pub const COB_ID: super::ReadWrite<u32> = super::ReadWriteU32::new(
+        pub const COB_ID: super::ReadWrite<super::super::types::ReceivePdoIdentifier> = super::ReadWriteNamedReceivePdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1401, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(0x300),
+            rt::Initial::NodeId(
+                super::super::types::ReceivePdoIdentifier::from_raw(0x300),
+            ),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type.
         ///
         /// 0x1401:02, UNSIGNED8, rw, default 1.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
+        pub const TRANSMISSION_TYPE: super::ReadWrite<
+            super::super::types::ReceiveType,
+        > = super::ReadWriteNamedReceiveType::object_with_default(
             0x1401,
             0x02,
             "Transmission type",
-            1,
+            super::super::types::ReceiveType::from_raw(1),
         );
         /// Access to the entries of RPDO 2 communication: 0x1401.
         pub struct Accessors<'c, C> {
@@ -602,11 +2416,19 @@ pub mod objects {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// COB-ID: 0x1401:01.
-            pub fn cob_id(&mut self) -> super::ReadWriteAccess<'_, C, u32> {
+            pub fn cob_id(
+                &mut self,
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::ReceivePdoIdentifier,
+            > {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1401:02.
-            pub fn transmission_type(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn transmission_type(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::ReceiveType> {
                 TRANSMISSION_TYPE.at(self.client)
             }
         }
@@ -627,11 +2449,11 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1600:01, UNSIGNED32, rw, default 0x60400010.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWriteU32::object_with_default(
+        pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1600,
             0x01,
             "Mapped object 1",
-            0x60400010,
+            super::super::types::MappingEntry::from_raw(0x60400010),
         );
         /// Access to the entries of RPDO 1 mapping: 0x1600.
         pub struct Accessors<'c, C> {
@@ -645,7 +2467,9 @@ pub mod objects {
                 NUMBER_OF_MAPPED_OBJECTS.at(self.client)
             }
             /// Mapped object 1: 0x1600:01.
-            pub fn mapped_object_1(&mut self) -> super::ReadWriteAccess<'_, C, u32> {
+            pub fn mapped_object_1(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
                 MAPPED_OBJECT_1.at(self.client)
             }
         }
@@ -666,20 +2490,20 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1601:01, UNSIGNED32, rw, default 0x60400010.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWriteU32::object_with_default(
+        pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1601,
             0x01,
             "Mapped object 1",
-            0x60400010,
+            super::super::types::MappingEntry::from_raw(0x60400010),
         );
         /// Mapped object 2.
         ///
         /// 0x1601:02, UNSIGNED32, rw, default 0x607A0020.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<u32> = super::ReadWriteU32::object_with_default(
+        pub const MAPPED_OBJECT_2: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1601,
             0x02,
             "Mapped object 2",
-            0x607A0020,
+            super::super::types::MappingEntry::from_raw(0x607A0020),
         );
         /// Access to the entries of RPDO 2 mapping: 0x1601.
         pub struct Accessors<'c, C> {
@@ -693,11 +2517,15 @@ pub mod objects {
                 NUMBER_OF_MAPPED_OBJECTS.at(self.client)
             }
             /// Mapped object 1: 0x1601:01.
-            pub fn mapped_object_1(&mut self) -> super::ReadWriteAccess<'_, C, u32> {
+            pub fn mapped_object_1(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
                 MAPPED_OBJECT_1.at(self.client)
             }
             /// Mapped object 2: 0x1601:02.
-            pub fn mapped_object_2(&mut self) -> super::ReadWriteAccess<'_, C, u32> {
+            pub fn mapped_object_2(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
                 MAPPED_OBJECT_2.at(self.client)
             }
         }
@@ -719,22 +2547,26 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1800:01, UNSIGNED32, rw, default \$NODEID+0x180.
-        pub const COB_ID: super::ReadWrite<u32> = super::ReadWriteU32::new(
+        pub const COB_ID: super::ReadWrite<super::super::types::TransmitPdoIdentifier> = super::ReadWriteNamedTransmitPdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1800, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(0x180),
+            rt::Initial::NodeId(
+                super::super::types::TransmitPdoIdentifier::from_raw(0x180),
+            ),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type.
         ///
         /// 0x1800:02, UNSIGNED8, rw, default 255.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
+        pub const TRANSMISSION_TYPE: super::ReadWrite<
+            super::super::types::TransmitType,
+        > = super::ReadWriteNamedTransmitType::object_with_default(
             0x1800,
             0x02,
             "Transmission type",
-            255,
+            super::super::types::TransmitType::from_raw(255),
         );
         /// Access to the entries of TPDO 1 communication: 0x1800.
         pub struct Accessors<'c, C> {
@@ -748,11 +2580,19 @@ pub mod objects {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// COB-ID: 0x1800:01.
-            pub fn cob_id(&mut self) -> super::ReadWriteAccess<'_, C, u32> {
+            pub fn cob_id(
+                &mut self,
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::TransmitPdoIdentifier,
+            > {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1800:02.
-            pub fn transmission_type(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn transmission_type(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmitType> {
                 TRANSMISSION_TYPE.at(self.client)
             }
         }
@@ -774,22 +2614,26 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1801:01, UNSIGNED32, rw, default \$NODEID+0x280.
-        pub const COB_ID: super::ReadWrite<u32> = super::ReadWriteU32::new(
+        pub const COB_ID: super::ReadWrite<super::super::types::TransmitPdoIdentifier> = super::ReadWriteNamedTransmitPdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1801, 0x01),
             "COB-ID",
             rt::Range::Full,
-            rt::Initial::NodeId(0x280),
+            rt::Initial::NodeId(
+                super::super::types::TransmitPdoIdentifier::from_raw(0x280),
+            ),
             "",
             rt::Flags::NONE,
         );
         /// Transmission type.
         ///
         /// 0x1801:02, UNSIGNED8, rw, default 1.
-        pub const TRANSMISSION_TYPE: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
+        pub const TRANSMISSION_TYPE: super::ReadWrite<
+            super::super::types::TransmitType,
+        > = super::ReadWriteNamedTransmitType::object_with_default(
             0x1801,
             0x02,
             "Transmission type",
-            1,
+            super::super::types::TransmitType::from_raw(1),
         );
         /// Access to the entries of TPDO 2 communication: 0x1801.
         pub struct Accessors<'c, C> {
@@ -803,11 +2647,19 @@ pub mod objects {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// COB-ID: 0x1801:01.
-            pub fn cob_id(&mut self) -> super::ReadWriteAccess<'_, C, u32> {
+            pub fn cob_id(
+                &mut self,
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::TransmitPdoIdentifier,
+            > {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1801:02.
-            pub fn transmission_type(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn transmission_type(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmitType> {
                 TRANSMISSION_TYPE.at(self.client)
             }
         }
@@ -828,11 +2680,11 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1A00:01, UNSIGNED32, rw, default 0x60410010.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWriteU32::object_with_default(
+        pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1A00,
             0x01,
             "Mapped object 1",
-            0x60410010,
+            super::super::types::MappingEntry::from_raw(0x60410010),
         );
         /// Access to the entries of TPDO 1 mapping: 0x1A00.
         pub struct Accessors<'c, C> {
@@ -846,7 +2698,9 @@ pub mod objects {
                 NUMBER_OF_MAPPED_OBJECTS.at(self.client)
             }
             /// Mapped object 1: 0x1A00:01.
-            pub fn mapped_object_1(&mut self) -> super::ReadWriteAccess<'_, C, u32> {
+            pub fn mapped_object_1(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
                 MAPPED_OBJECT_1.at(self.client)
             }
         }
@@ -867,20 +2721,20 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1A01:01, UNSIGNED32, rw, default 0x60410010.
-        pub const MAPPED_OBJECT_1: super::ReadWrite<u32> = super::ReadWriteU32::object_with_default(
+        pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1A01,
             0x01,
             "Mapped object 1",
-            0x60410010,
+            super::super::types::MappingEntry::from_raw(0x60410010),
         );
         /// Mapped object 2.
         ///
         /// 0x1A01:02, UNSIGNED32, rw, default 0x60640020.
-        pub const MAPPED_OBJECT_2: super::ReadWrite<u32> = super::ReadWriteU32::object_with_default(
+        pub const MAPPED_OBJECT_2: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1A01,
             0x02,
             "Mapped object 2",
-            0x60640020,
+            super::super::types::MappingEntry::from_raw(0x60640020),
         );
         /// Access to the entries of TPDO 2 mapping: 0x1A01.
         pub struct Accessors<'c, C> {
@@ -894,11 +2748,15 @@ pub mod objects {
                 NUMBER_OF_MAPPED_OBJECTS.at(self.client)
             }
             /// Mapped object 1: 0x1A01:01.
-            pub fn mapped_object_1(&mut self) -> super::ReadWriteAccess<'_, C, u32> {
+            pub fn mapped_object_1(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
                 MAPPED_OBJECT_1.at(self.client)
             }
             /// Mapped object 2: 0x1A01:02.
-            pub fn mapped_object_2(&mut self) -> super::ReadWriteAccess<'_, C, u32> {
+            pub fn mapped_object_2(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
                 MAPPED_OBJECT_2.at(self.client)
             }
         }
@@ -992,17 +2850,21 @@ pub mod objects {
     /// Controlword.
     ///
     /// 0x6040:00, UNSIGNED16, rww, mappable into RPDOs, default 0.
-    pub const CONTROLWORD: ReadWrite<u16> = ReadWriteU16::flagged_object_with_default(
+    ///
+    /// Commands of the state machine, and of the mode of operation.
+    pub const CONTROLWORD: ReadWrite<super::types::Controlword> = ReadWriteNamedControlword::flagged_object_with_default(
         0x6040,
         0x00,
         "Controlword",
         rt::Flags::RPDO,
-        0,
+        super::types::Controlword::from_raw(0),
     );
     /// Statusword.
     ///
     /// 0x6041:00, UNSIGNED16, ro, mappable into TPDOs.
-    pub const STATUSWORD: ReadOnly<u16> = ReadOnlyU16::flagged_object(
+    ///
+    /// The state, and what the mode of operation has to tell.
+    pub const STATUSWORD: ReadOnly<super::types::Statusword> = ReadOnlyNamedStatusword::flagged_object(
         0x6041,
         0x00,
         "Statusword",
@@ -1011,18 +2873,22 @@ pub mod objects {
     /// Modes of operation.
     ///
     /// 0x6060:00, INTEGER8, rw, mappable into any PDO, default 1, range \-128 to 8.
-    pub const MODES_OF_OPERATION: ReadWrite<i8> = ReadWriteI8::new(
+    ///
+    /// The mode wanted. The mode in force is in 0x6061.
+    pub const MODES_OF_OPERATION: ReadWrite<super::types::ModesOfOperation> = ReadWriteNamedModesOfOperation::new(
         rt::OnCanOpen::canopen(0x6060, 0x00),
         "Modes of operation",
-        rt::Range::To(8),
-        rt::Initial::Value(1),
+        rt::Range::To(super::types::ModesOfOperation::from_raw(8)),
+        rt::Initial::Value(super::types::ModesOfOperation::from_raw(1)),
         "",
         rt::Flags::PDO,
     );
     /// Modes of operation display.
     ///
     /// 0x6061:00, INTEGER8, ro, mappable into TPDOs.
-    pub const MODES_OF_OPERATION_DISPLAY: ReadOnly<i8> = ReadOnlyI8::flagged_object(
+    ///
+    /// The mode in force.
+    pub const MODES_OF_OPERATION_DISPLAY: ReadOnly<super::types::ModesOfOperation> = ReadOnlyNamedModesOfOperation::flagged_object(
         0x6061,
         0x00,
         "Modes of operation display",
@@ -1132,7 +2998,7 @@ pub mod pdo {
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1 {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
-        pub controlword: u16,
+        pub controlword: super::types::Controlword,
     }
     impl RxPdo1 {
         /// Length in bits.
@@ -1144,7 +3010,7 @@ pub mod pdo {
         /// The bytes of a frame; padding is zero.
         pub const fn pack(&self) -> [u8; 2] {
             let mut word = 0;
-            let bits = self.controlword as u64;
+            let bits = self.controlword.raw() as u64;
             word |= bits;
             rt::pdo::to_bytes(word)
         }
@@ -1158,7 +3024,9 @@ pub mod pdo {
                 return Err(rt::LengthError::new(Self::LEN, data.len()));
             }
             let word = rt::pdo::from_bytes(data);
-            let pdo = Self { controlword: word as u16 };
+            let pdo = Self {
+                controlword: super::types::Controlword::from_raw(word as u16),
+            };
             Ok(pdo)
         }
         /// The writes that set the PDO up in the device with its default identifier, and switch it on.
@@ -1201,7 +3069,7 @@ pub mod pdo {
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo2 {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
-        pub controlword: u16,
+        pub controlword: super::types::Controlword,
         /// Target position: 0x607A:00, 32 bits from bit 16.
         pub target_position: i32,
     }
@@ -1215,7 +3083,7 @@ pub mod pdo {
         /// The bytes of a frame; padding is zero.
         pub const fn pack(&self) -> [u8; 6] {
             let mut word = 0;
-            let bits = self.controlword as u64;
+            let bits = self.controlword.raw() as u64;
             word |= bits;
             let bits = self.target_position as u32 as u64;
             word |= bits << 16;
@@ -1232,7 +3100,7 @@ pub mod pdo {
             }
             let word = rt::pdo::from_bytes(data);
             let pdo = Self {
-                controlword: word as u16,
+                controlword: super::types::Controlword::from_raw(word as u16),
                 target_position: (word >> 16) as i32,
             };
             Ok(pdo)
@@ -1279,7 +3147,7 @@ pub mod pdo {
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1 {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
-        pub statusword: u16,
+        pub statusword: super::types::Statusword,
     }
     impl TxPdo1 {
         /// Length in bits.
@@ -1291,7 +3159,7 @@ pub mod pdo {
         /// The bytes of a frame; padding is zero.
         pub const fn pack(&self) -> [u8; 2] {
             let mut word = 0;
-            let bits = self.statusword as u64;
+            let bits = self.statusword.raw() as u64;
             word |= bits;
             rt::pdo::to_bytes(word)
         }
@@ -1305,7 +3173,9 @@ pub mod pdo {
                 return Err(rt::LengthError::new(Self::LEN, data.len()));
             }
             let word = rt::pdo::from_bytes(data);
-            let pdo = Self { statusword: word as u16 };
+            let pdo = Self {
+                statusword: super::types::Statusword::from_raw(word as u16),
+            };
             Ok(pdo)
         }
         /// The writes that set the PDO up in the device with its default identifier, and switch it on.
@@ -1348,7 +3218,7 @@ pub mod pdo {
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo2 {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
-        pub statusword: u16,
+        pub statusword: super::types::Statusword,
         /// Position actual value: 0x6064:00, 32 bits from bit 16.
         pub position_actual_value: i32,
     }
@@ -1362,7 +3232,7 @@ pub mod pdo {
         /// The bytes of a frame; padding is zero.
         pub const fn pack(&self) -> [u8; 6] {
             let mut word = 0;
-            let bits = self.statusword as u64;
+            let bits = self.statusword.raw() as u64;
             word |= bits;
             let bits = self.position_actual_value as u32 as u64;
             word |= bits << 16;
@@ -1379,7 +3249,7 @@ pub mod pdo {
             }
             let word = rt::pdo::from_bytes(data);
             let pdo = Self {
-                statusword: word as u16,
+                statusword: super::types::Statusword::from_raw(word as u16),
                 position_actual_value: (word >> 16) as i32,
             };
             Ok(pdo)
@@ -1593,7 +3463,7 @@ pub static ENTRIES: &[rt::table::Entry] = &[
         initial: rt::table::RawInitial::Bytes(b"\x00\x00"),
         low: rt::table::Bound::Unlimited,
         high: rt::table::Bound::Unlimited,
-        unit: "",
+        unit: "ms",
     },
     rt::table::Entry {
         index: 0x1018,

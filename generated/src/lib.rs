@@ -5,14 +5,16 @@
 //! | feature | module | drive |
 //! |---|---|---|
 //! | `demo-drive` | `demo_drive` | an imaginary CiA 402 drive, to try things on |
+//! | `vector-step` | `vector_step` | AEC Vector Step stepper drives, on CANopen, EtherCAT and Modbus |
 //! | `table` | – | adds `ENTRIES`, a table of all entries, to each module |
 //!
 //! ```
 //! # #[cfg(feature = "demo-drive")] {
+//! use lexibus_drives::demo_drive::types::Controlword;
 //! use lexibus_drives::demo_drive::{objects, pdo};
 //!
 //! assert_eq!(objects::TARGET_POSITION.name(), "Target position");
-//! let frame = pdo::RxPdo2 { controlword: 0x000F, target_position: -2 }.pack();
+//! let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0x000F), target_position: -2 }.pack();
 //! assert_eq!(frame, [0x0F, 0x00, 0xFE, 0xFF, 0xFF, 0xFF]);
 //! # }
 //! ```
@@ -22,3 +24,8 @@
 #[cfg(feature = "demo-drive")]
 #[rustfmt::skip]
 pub mod demo_drive;
+
+/// AEC Vector Step stepper drives (`dictionaries/aec-vector-step.toml`).
+#[cfg(feature = "vector-step")]
+#[rustfmt::skip]
+pub mod vector_step;
