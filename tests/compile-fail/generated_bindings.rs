@@ -20,7 +20,7 @@ impl Client for Bus {
 
 fn main() {
     let mut drive = DemoDrive::new(Bus);
-    let _ = drive.statusword().write(0);
+    let _ = drive.statusword().write(Default::default());
     let _ = drive.target_position().write("far");
     let _ = drive.target_postion();
 }

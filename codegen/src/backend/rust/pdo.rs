@@ -285,9 +285,9 @@ fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str) -> FieldMo
         FieldType::Named(name, native) => {
             let path = format!("super::types::{name}");
             let decode = if native == "u64" {
-                format!("{path}::from_raw(§)")
+                format!("{path}::from_raw(«§»)")
             } else {
-                format!("{path}::from_raw(§ as {native})")
+                format!("{path}::from_raw(«§ as {native}»)")
             };
             let encode = if native == "u64" { format!("{own}.raw()") } else { format!("{own}.raw() as u64") };
             (path, encode, decode)
@@ -302,13 +302,13 @@ fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str) -> FieldMo
         FieldType::Native(unsigned) => (unsigned.to_owned(), format!("{own} as u64"), format!("§ as {unsigned}")),
         FieldType::Odd(signed, bits) => {
             let name = if signed { "rt::Int" } else { "rt::Uint" };
-            (format!("{name}<{bits}>"), format!("{own}.raw()"), format!("{name}::from_raw(§)"))
+            (format!("{name}<{bits}>"), format!("{own}.raw()"), format!("{name}::from_raw(«§»)"))
         }
         FieldType::Real(32) => {
             ("f32".to_owned(), format!("{own}.to_bits() as u64"), "f32::from_bits(§ as u32)".to_owned())
         }
         FieldType::Real(_) => ("f64".to_owned(), format!("{own}.to_bits()"), "f64::from_bits(§)".to_owned()),
-        FieldType::Time(path) => (path.to_owned(), format!("{own}.raw()"), format!("{path}::from_raw(§)")),
+        FieldType::Time(path) => (path.to_owned(), format!("{own}.raw()"), format!("{path}::from_raw(«§»)")),
         FieldType::Bytes(length) => {
             (format!("[u8; {length}]"), format!("rt::pdo::from_bytes(&{own})"), "rt::pdo::to_bytes(§)".to_owned())
         }
