@@ -67,6 +67,7 @@ extern crate std;
 
 mod access;
 mod accessor;
+mod axes;
 mod bit_field;
 pub mod bits;
 mod bus;
@@ -96,6 +97,7 @@ mod wide;
 
 pub use access::{Const, Readable, Ro, Rw, Wo, Writable};
 pub use accessor::Accessor;
+pub use axes::{Axes, Axis, AxisBus, AxisError, AxisRange, AxisStep};
 pub use bit_field::DebugBits;
 pub use bus::{Bus, CanOpen, CoE, Modbus, Object, Parameter, Profinet, Record, Serial};
 pub use client::{AsyncClient, Client};

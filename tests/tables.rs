@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use lexibus::{
-    codes, CanOpen, Client, CoE, Error, LengthError, Modbus, Object, OutOfRange, Parameter, Register, RegisterTable,
-    Serial,
+    codes, AxisError, CanOpen, Client, CoE, Error, LengthError, Modbus, Object, OutOfRange, Parameter, Register,
+    RegisterTable, Serial,
 };
 
 lexibus::dictionary! {
@@ -152,6 +152,24 @@ fn places_of_modbus() {
 fn equal_names_have_their_addresses() {
     assert_eq!(objects::POSITION_8.location().canopen, Object::new(0x2008, 1));
     assert_eq!(objects::POSITION_107.location().modbus, Register::holding(107));
+}
+
+#[test]
+fn further_axes() {
+    let mut press = Press::new(objects_on::<CoE>());
+    press.axis(1).target_position().write(1).unwrap();
+    press.axis(2).target_position().write(2).unwrap();
+    press.axis(2).velocity().write(20).unwrap();
+    // Axes share the gain.
+    press.axis(2).gain().write(3).unwrap();
+    let entries = &press.client().entries;
+    assert_eq!(entries[&Object::new(0x607A, 0)], [1, 0, 0, 0]);
+    assert_eq!(entries[&Object::new(0x687A, 0)], [2, 0, 0, 0]);
+    assert_eq!(entries[&Object::new(0x200A, 2)], [20, 0, 0, 0]);
+    assert_eq!(entries[&Object::new(0x200D, 1)], [3, 0]);
+    assert_eq!(press.axis(2).velocity().read_scaled(), Ok(Some(2.0)));
+    let object = Object::new(0x607A, 0);
+    assert_eq!(press.axis(3).target_position().read(), Err(Error::Client(AxisError::NoSuchAxis { axis: 3, object })));
 }
 
 #[test]

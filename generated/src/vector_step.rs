@@ -28,7 +28,7 @@ pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
             mandatory: false,
             depends_on: rt::ethercat::DependsOn::Nothing,
             excludes: &[],
-            mapping: <pdo::RxPdo1MappingParameters as rt::Pdo>::MAPPING,
+            mapping: <pdo::RxPdo1 as rt::Pdo>::MAPPING,
         },
         rt::ethercat::PdoInfo {
             index: 0x1601,
@@ -40,7 +40,7 @@ pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
             mandatory: false,
             depends_on: rt::ethercat::DependsOn::Nothing,
             excludes: &[],
-            mapping: <pdo::RxPdo2MappingParameters as rt::Pdo>::MAPPING,
+            mapping: <pdo::RxPdo2 as rt::Pdo>::MAPPING,
         },
         rt::ethercat::PdoInfo {
             index: 0x1602,
@@ -76,7 +76,7 @@ pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
             mandatory: false,
             depends_on: rt::ethercat::DependsOn::Nothing,
             excludes: &[],
-            mapping: <pdo::TxPdo1MappingParameters as rt::Pdo>::MAPPING,
+            mapping: <pdo::TxPdo1 as rt::Pdo>::MAPPING,
         },
         rt::ethercat::PdoInfo {
             index: 0x1A01,
@@ -88,7 +88,7 @@ pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
             mandatory: false,
             depends_on: rt::ethercat::DependsOn::Nothing,
             excludes: &[],
-            mapping: <pdo::TxPdo2MappingParameters as rt::Pdo>::MAPPING,
+            mapping: <pdo::TxPdo2 as rt::Pdo>::MAPPING,
         },
         rt::ethercat::PdoInfo {
             index: 0x1A02,
@@ -119,6 +119,119 @@ pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
     mailbox: rt::ethercat::Mailbox::NONE,
     slots: None,
 };
+/// The axes of SMD2204, and where their objects are.
+pub static AXES: rt::Axes = rt::Axes {
+    count: 3,
+    ranges: &[
+        rt::AxisRange {
+            first: 0x6000,
+            last: 0x67FF,
+            step: rt::AxisStep::Index(0x0800),
+        },
+        rt::AxisRange {
+            first: 0x23E8,
+            last: 0x23E8,
+            step: rt::AxisStep::SubIndexStride(10),
+        },
+        rt::AxisRange {
+            first: 0x2000,
+            last: 0x5FFF,
+            step: rt::AxisStep::SubIndex,
+        },
+    ],
+    shared: &[
+        rt::Object::new(0x202A, 1),
+        rt::Object::new(0x20A6, 1),
+        rt::Object::new(0x20A7, 1),
+        rt::Object::new(0x20A8, 1),
+        rt::Object::new(0x20A9, 1),
+        rt::Object::new(0x20AA, 1),
+        rt::Object::new(0x20AB, 1),
+        rt::Object::new(0x20AD, 1),
+        rt::Object::new(0x20AF, 1),
+        rt::Object::new(0x20B0, 1),
+        rt::Object::new(0x20B1, 1),
+        rt::Object::new(0x20B2, 1),
+        rt::Object::new(0x20B3, 1),
+        rt::Object::new(0x20B5, 1),
+        rt::Object::new(0x20B6, 1),
+        rt::Object::new(0x20B8, 1),
+        rt::Object::new(0x20B9, 1),
+        rt::Object::new(0x20BA, 1),
+        rt::Object::new(0x20BB, 1),
+        rt::Object::new(0x20BC, 1),
+        rt::Object::new(0x20BD, 1),
+        rt::Object::new(0x20BE, 1),
+        rt::Object::new(0x20BF, 1),
+        rt::Object::new(0x20C0, 1),
+        rt::Object::new(0x20C2, 1),
+        rt::Object::new(0x20C4, 1),
+        rt::Object::new(0x20C5, 1),
+        rt::Object::new(0x20C6, 1),
+        rt::Object::new(0x20CC, 1),
+        rt::Object::new(0x20CD, 1),
+        rt::Object::new(0x20CE, 1),
+        rt::Object::new(0x20CF, 1),
+        rt::Object::new(0x20D0, 1),
+        rt::Object::new(0x212E, 1),
+        rt::Object::new(0x212F, 1),
+        rt::Object::new(0x2130, 1),
+        rt::Object::new(0x2131, 1),
+        rt::Object::new(0x2134, 1),
+        rt::Object::new(0x2149, 1),
+        rt::Object::new(0x2157, 1),
+        rt::Object::new(0x2163, 1),
+        rt::Object::new(0x2164, 1),
+        rt::Object::new(0x2165, 1),
+        rt::Object::new(0x2203, 1),
+        rt::Object::new(0x2204, 1),
+        rt::Object::new(0x2205, 1),
+        rt::Object::new(0x2206, 1),
+        rt::Object::new(0x2207, 1),
+        rt::Object::new(0x2208, 1),
+        rt::Object::new(0x2209, 1),
+        rt::Object::new(0x220A, 1),
+        rt::Object::new(0x220B, 1),
+        rt::Object::new(0x220C, 1),
+        rt::Object::new(0x220D, 1),
+        rt::Object::new(0x220E, 1),
+        rt::Object::new(0x220F, 1),
+        rt::Object::new(0x2210, 1),
+        rt::Object::new(0x2211, 1),
+        rt::Object::new(0x2220, 1),
+        rt::Object::new(0x2221, 1),
+        rt::Object::new(0x2222, 1),
+        rt::Object::new(0x2223, 1),
+        rt::Object::new(0x2224, 1),
+        rt::Object::new(0x2225, 1),
+        rt::Object::new(0x2226, 1),
+        rt::Object::new(0x2227, 1),
+        rt::Object::new(0x2228, 1),
+        rt::Object::new(0x2229, 1),
+        rt::Object::new(0x222A, 1),
+        rt::Object::new(0x222B, 1),
+        rt::Object::new(0x222C, 1),
+        rt::Object::new(0x222D, 1),
+        rt::Object::new(0x222E, 1),
+        rt::Object::new(0x2242, 1),
+        rt::Object::new(0x2243, 1),
+        rt::Object::new(0x23E8, 0),
+        rt::Object::new(0x4710, 1),
+        rt::Object::new(0x4711, 1),
+        rt::Object::new(0x4712, 1),
+        rt::Object::new(0x4713, 1),
+        rt::Object::new(0x4714, 1),
+        rt::Object::new(0x4715, 1),
+        rt::Object::new(0x4716, 1),
+        rt::Object::new(0x4717, 1),
+        rt::Object::new(0x4760, 1),
+        rt::Object::new(0x4761, 1),
+        rt::Object::new(0x4762, 1),
+        rt::Object::new(0x479C, 1),
+        rt::Object::new(0x479D, 1),
+        rt::Object::new(0x479E, 1),
+    ],
+};
 /// Typed access to AEC s.r.l. Vector Step through a client of its bus.
 #[derive(Debug)]
 pub struct VectorStep<C> {
@@ -136,6 +249,10 @@ impl<C> VectorStep<C> {
     /// Gives the client back.
     pub fn into_client(self) -> C {
         self.client
+    }
+    /// Axis `number` of SMD2204, from 1. What the axes share is the same through each of them.
+    pub fn axis(&mut self, number: u8) -> VectorStep<rt::Axis<&mut C>> {
+        VectorStep::new(rt::Axis::new(&mut self.client, &AXES, number))
     }
     /// Rposact: 0x2000:01, register 0.
     pub fn rposact(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -3046,18 +3163,13 @@ impl<C> VectorStep<C> {
     /// Modes of operation: 0x6060.
     pub fn modes_of_operation(
         &mut self,
-    ) -> objects::WriteOnlyAccess<
-        '_,
-        C,
-        types::ModesOfOperationI8,
-        rt::OnCanOpenAndCoE,
-    > {
+    ) -> objects::WriteOnlyAccess<'_, C, types::ModesOfOperation, rt::OnCanOpenAndCoE> {
         objects::MODES_OF_OPERATION.at(&mut self.client)
     }
     /// Modes of operation display: 0x6061.
     pub fn modes_of_operation_display(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, types::ModesOfOperationI8, rt::OnCanOpenAndCoE> {
+    ) -> objects::ReadOnlyAccess<'_, C, types::ModesOfOperation, rt::OnCanOpenAndCoE> {
         objects::MODES_OF_OPERATION_DISPLAY.at(&mut self.client)
     }
     /// Position actual value: 0x6064.
@@ -3147,7 +3259,7 @@ impl<C> VectorStep<C> {
     /// Homing method: 0x6098.
     pub fn homing_method(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, types::HomingMethodI8, rt::OnCanOpenAndCoE> {
+    ) -> objects::ReadWriteAccess<'_, C, types::HomingMethod, rt::OnCanOpenAndCoE> {
         objects::HOMING_METHOD.at(&mut self.client)
     }
     /// Homing speeds: 0x6099.
@@ -3945,7 +4057,7 @@ pub mod types {
     ///
     /// Manual, line 1461-1469, 1487-1495.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub enum ModesOfOperationI8 {
+    pub enum ModesOfOperation {
         /// -1: AEC velocity. Jog at a velocity. Manual, line 1463, 1489: AEC Velocity mode (JOG).
         AecVelocity,
         /// 0: reserved 0. Must not be used. Manual, line 1464, 1490: Riservato.
@@ -3963,7 +4075,7 @@ pub mod types {
         /// Any other number.
         Unknown(i8),
     }
-    impl ModesOfOperationI8 {
+    impl ModesOfOperation {
         /// The value of a number.
         pub const fn from_raw(raw: i8) -> Self {
             match raw {
@@ -3991,7 +4103,7 @@ pub mod types {
             }
         }
     }
-    impl rt::Enumeration for ModesOfOperationI8 {
+    impl rt::Enumeration for ModesOfOperation {
         type Base = i8;
         fn from_native(native: i8) -> Self {
             Self::from_raw(native)
@@ -4089,7 +4201,7 @@ pub mod types {
     }
     /// HomingMethod.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub enum HomingMethodI8 {
+    pub enum HomingMethod {
         /// -16: forward limit and index, positive. Manual: Home su FLS + TOP, direzione positiva.
         ForwardLimitAndIndexPositive,
         /// -15: forward limit and index, negative. Manual: Home su FLS + TOP, direzione negativa.
@@ -4131,7 +4243,7 @@ pub mod types {
         /// Any other number.
         Unknown(i8),
     }
-    impl HomingMethodI8 {
+    impl HomingMethod {
         /// The value of a number.
         pub const fn from_raw(raw: i8) -> Self {
             match raw {
@@ -4183,7 +4295,7 @@ pub mod types {
             }
         }
     }
-    impl rt::Enumeration for HomingMethodI8 {
+    impl rt::Enumeration for HomingMethod {
         type Base = i8;
         fn from_native(native: i8) -> Self {
             Self::from_raw(native)
@@ -5523,7 +5635,7 @@ pub mod types {
             self.raw()
         }
     }
-    /// HomingMethod.
+    /// HomingMethodI16.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum HomingMethodI16 {
         /// -16: forward limit and index, positive. Manual: Home su FLS + TOP, direzione positiva.
@@ -9679,7 +9791,7 @@ pub mod types {
             self.raw()
         }
     }
-    /// ModesOfOperation.
+    /// ModesOfOperationI16.
     ///
     /// Manual, line 1461-1469, 1487-1495.
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20728,8 +20840,8 @@ pub mod objects {
     type ReadOnlyNamedLimitSwitches = ReadOnly<super::types::LimitSwitches>;
     type ReadOnlyNamedModelCode = ReadOnly<super::types::ModelCode>;
     type ReadOnlyNamedModelDefinition = ReadOnly<super::types::ModelDefinition>;
-    type ReadOnlyNamedModesOfOperationI8OnCanOpenCoE = ReadOnly<
-        super::types::ModesOfOperationI8,
+    type ReadOnlyNamedModesOfOperationOnCanOpenCoE = ReadOnly<
+        super::types::ModesOfOperation,
         rt::OnCanOpenAndCoE,
     >;
     type ReadOnlyNamedProfibusState = ReadOnly<super::types::ProfibusState>;
@@ -20860,8 +20972,8 @@ pub mod objects {
     type ReadWriteNamedGeneratorTarget = ReadWrite<super::types::GeneratorTarget>;
     type ReadWriteNamedHardwareConfig = ReadWrite<super::types::HardwareConfig>;
     type ReadWriteNamedHomingMethodI16 = ReadWrite<super::types::HomingMethodI16>;
-    type ReadWriteNamedHomingMethodI8OnCanOpenCoE = ReadWrite<
-        super::types::HomingMethodI8,
+    type ReadWriteNamedHomingMethodOnCanOpenCoE = ReadWrite<
+        super::types::HomingMethod,
         rt::OnCanOpenAndCoE,
     >;
     type ReadWriteNamedInputFunction = ReadWrite<super::types::InputFunction>;
@@ -21004,8 +21116,8 @@ pub mod objects {
     >;
     type WriteOnlyNamedCommand = WriteOnly<super::types::Command>;
     type WriteOnlyNamedCommand1 = WriteOnly<super::types::Command1>;
-    type WriteOnlyNamedModesOfOperationI8OnCanOpenCoE = WriteOnly<
-        super::types::ModesOfOperationI8,
+    type WriteOnlyNamedModesOfOperationOnCanOpenCoE = WriteOnly<
+        super::types::ModesOfOperation,
         rt::OnCanOpenAndCoE,
     >;
     /// Access to a register or an entry that can be read.
@@ -35426,14 +35538,14 @@ pub mod objects {
     ///
     /// Note: the headers Modo operativo and Codifica stand over the code and the name (L1461). Chosen: the first column is the code (the headers are swapped).
     pub const MODES_OF_OPERATION: WriteOnly<
-        super::types::ModesOfOperationI8,
+        super::types::ModesOfOperation,
         rt::OnCanOpenAndCoE,
-    > = WriteOnlyNamedModesOfOperationI8OnCanOpenCoE::flagged_shared_object_with_default(
+    > = WriteOnlyNamedModesOfOperationOnCanOpenCoE::flagged_shared_object_with_default(
         0x6060,
         0x00,
         "Modes of operation",
         rt::Flags::RPDO,
-        super::types::ModesOfOperationI8::from_raw(1),
+        super::types::ModesOfOperation::from_raw(1),
     );
     /// Modes of operation display.
     ///
@@ -35449,14 +35561,14 @@ pub mod objects {
     ///
     /// Note: 8 to 127 are reserved (L1495), yet modes CSP and CSV exist (L2197, L2831). Chosen: the values of 0x6060 (L1477 has both objects use the same values).
     pub const MODES_OF_OPERATION_DISPLAY: ReadOnly<
-        super::types::ModesOfOperationI8,
+        super::types::ModesOfOperation,
         rt::OnCanOpenAndCoE,
-    > = ReadOnlyNamedModesOfOperationI8OnCanOpenCoE::flagged_shared_object_with_default(
+    > = ReadOnlyNamedModesOfOperationOnCanOpenCoE::flagged_shared_object_with_default(
         0x6061,
         0x00,
         "Modes of operation display",
         rt::Flags::TPDO,
-        super::types::ModesOfOperationI8::from_raw(1),
+        super::types::ModesOfOperation::from_raw(1),
     );
     /// Position actual value.
     ///
@@ -35721,14 +35833,14 @@ pub mod objects {
     ///
     /// Note: the text offers the limit switch behind, the same with TOP, and TOP alone (L1615); the table also has the switch in front, mechanical stops and homing in place (L1626-1644). Chosen: the table (the text is older than the table).
     pub const HOMING_METHOD: ReadWrite<
-        super::types::HomingMethodI8,
+        super::types::HomingMethod,
         rt::OnCanOpenAndCoE,
-    > = ReadWriteNamedHomingMethodI8OnCanOpenCoE::flagged_shared_object_with_default(
+    > = ReadWriteNamedHomingMethodOnCanOpenCoE::flagged_shared_object_with_default(
         0x6098,
         0x00,
         "Homing method",
         rt::Flags::RPDO,
-        super::types::HomingMethodI8::from_raw(0),
+        super::types::HomingMethod::from_raw(0),
     );
     /// Homing speeds.
     ///
@@ -36613,13 +36725,13 @@ pub mod pdo {
     ///
     /// Mapping 0x1600, 24 bits.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct RxPdo1MappingParameters {
+    pub struct RxPdo1 {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
         pub controlword: super::types::Controlword,
         /// Modes of operation: 0x6060:00, 8 bits from bit 16.
         pub modes_of_operation: i8,
     }
-    impl RxPdo1MappingParameters {
+    impl RxPdo1 {
         /// Length in bits.
         pub const BITS: u32 = 24;
         /// Length in bytes.
@@ -36669,7 +36781,7 @@ pub mod pdo {
             ]
         }
     }
-    impl rt::Pdo for RxPdo1MappingParameters {
+    impl rt::Pdo for RxPdo1 {
         const INDEX: u16 = 0x1600;
         const LEN: usize = Self::LEN;
         const MAPPING: &'static [rt::MappedEntry] = &[
@@ -36680,7 +36792,7 @@ pub mod pdo {
     const _: () = {
         let word = 0xFFFFFF;
         let data: [u8; 3] = rt::pdo::to_bytes(word);
-        let packed = match RxPdo1MappingParameters::unpack(&data) {
+        let packed = match RxPdo1::unpack(&data) {
             Ok(pdo) => pdo.pack(),
             Err(_) => panic!(),
         };
@@ -36691,13 +36803,13 @@ pub mod pdo {
     ///
     /// Mapping 0x1601, 48 bits.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct RxPdo2MappingParameters {
+    pub struct RxPdo2 {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
         pub controlword: super::types::Controlword,
         /// Target position: 0x607A:00, 32 bits from bit 16.
         pub target_position: i32,
     }
-    impl RxPdo2MappingParameters {
+    impl RxPdo2 {
         /// Length in bits.
         pub const BITS: u32 = 48;
         /// Length in bytes.
@@ -36747,7 +36859,7 @@ pub mod pdo {
             ]
         }
     }
-    impl rt::Pdo for RxPdo2MappingParameters {
+    impl rt::Pdo for RxPdo2 {
         const INDEX: u16 = 0x1601;
         const LEN: usize = Self::LEN;
         const MAPPING: &'static [rt::MappedEntry] = &[
@@ -36758,7 +36870,7 @@ pub mod pdo {
     const _: () = {
         let word = 0xFFFFFFFFFFFF;
         let data: [u8; 6] = rt::pdo::to_bytes(word);
-        let packed = match RxPdo2MappingParameters::unpack(&data) {
+        let packed = match RxPdo2::unpack(&data) {
             Ok(pdo) => pdo.pack(),
             Err(_) => panic!(),
         };
@@ -36769,13 +36881,13 @@ pub mod pdo {
     ///
     /// Mapping 0x1A00, 24 bits.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct TxPdo1MappingParameters {
+    pub struct TxPdo1 {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
         pub statusword: super::types::Statusword,
         /// Modes of operation display: 0x6061:00, 8 bits from bit 16.
         pub modes_of_operation_display: i8,
     }
-    impl TxPdo1MappingParameters {
+    impl TxPdo1 {
         /// Length in bits.
         pub const BITS: u32 = 24;
         /// Length in bytes.
@@ -36827,7 +36939,7 @@ pub mod pdo {
             ]
         }
     }
-    impl rt::Pdo for TxPdo1MappingParameters {
+    impl rt::Pdo for TxPdo1 {
         const INDEX: u16 = 0x1A00;
         const LEN: usize = Self::LEN;
         const MAPPING: &'static [rt::MappedEntry] = &[
@@ -36838,7 +36950,7 @@ pub mod pdo {
     const _: () = {
         let word = 0xFFFFFF;
         let data: [u8; 3] = rt::pdo::to_bytes(word);
-        let packed = match TxPdo1MappingParameters::unpack(&data) {
+        let packed = match TxPdo1::unpack(&data) {
             Ok(pdo) => pdo.pack(),
             Err(_) => panic!(),
         };
@@ -36849,13 +36961,13 @@ pub mod pdo {
     ///
     /// Mapping 0x1A01, 48 bits.
     #[derive(Clone, Copy, Debug, PartialEq)]
-    pub struct TxPdo2MappingParameters {
+    pub struct TxPdo2 {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
         pub statusword: super::types::Statusword,
         /// Position actual value: 0x6064:00, 32 bits from bit 16.
         pub position_actual_value: i32,
     }
-    impl TxPdo2MappingParameters {
+    impl TxPdo2 {
         /// Length in bits.
         pub const BITS: u32 = 48;
         /// Length in bytes.
@@ -36907,7 +37019,7 @@ pub mod pdo {
             ]
         }
     }
-    impl rt::Pdo for TxPdo2MappingParameters {
+    impl rt::Pdo for TxPdo2 {
         const INDEX: u16 = 0x1A01;
         const LEN: usize = Self::LEN;
         const MAPPING: &'static [rt::MappedEntry] = &[
@@ -36918,7 +37030,7 @@ pub mod pdo {
     const _: () = {
         let word = 0xFFFFFFFFFFFF;
         let data: [u8; 6] = rt::pdo::to_bytes(word);
-        let packed = match TxPdo2MappingParameters::unpack(&data) {
+        let packed = match TxPdo2::unpack(&data) {
             Ok(pdo) => pdo.pack(),
             Err(_) => panic!(),
         };
@@ -36932,11 +37044,11 @@ pub mod view {
     /// RxPDO 0x1600: RxPDO1 Mapping Parameters.
     ///
     /// Mapping 0x1600, 24 bits.
-    pub struct RxPdo1MappingParameters<B> {
+    pub struct RxPdo1<B> {
         pub(super) data: B,
         pub(super) bit: usize,
     }
-    impl<B: AsRef<[u8]>> RxPdo1MappingParameters<B> {
+    impl<B: AsRef<[u8]>> RxPdo1<B> {
         /// The PDO at the start of `data`.
         ///
         /// # Errors
@@ -36969,7 +37081,7 @@ pub mod view {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 8) as i8
         }
     }
-    impl<B: AsMut<[u8]>> RxPdo1MappingParameters<B> {
+    impl<B: AsMut<[u8]>> RxPdo1<B> {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
         #[inline]
         pub fn set_controlword(&mut self, value: super::types::Controlword) {
@@ -36984,11 +37096,11 @@ pub mod view {
     /// RxPDO 0x1601: RxPDO2 Mapping Parameters.
     ///
     /// Mapping 0x1601, 48 bits.
-    pub struct RxPdo2MappingParameters<B> {
+    pub struct RxPdo2<B> {
         pub(super) data: B,
         pub(super) bit: usize,
     }
-    impl<B: AsRef<[u8]>> RxPdo2MappingParameters<B> {
+    impl<B: AsRef<[u8]>> RxPdo2<B> {
         /// The PDO at the start of `data`.
         ///
         /// # Errors
@@ -37021,7 +37133,7 @@ pub mod view {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 32) as i32
         }
     }
-    impl<B: AsMut<[u8]>> RxPdo2MappingParameters<B> {
+    impl<B: AsMut<[u8]>> RxPdo2<B> {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
         #[inline]
         pub fn set_controlword(&mut self, value: super::types::Controlword) {
@@ -37036,11 +37148,11 @@ pub mod view {
     /// TxPDO 0x1A00: TxPDO1 Mapping Parameters.
     ///
     /// Mapping 0x1A00, 24 bits.
-    pub struct TxPdo1MappingParameters<B> {
+    pub struct TxPdo1<B> {
         pub(super) data: B,
         pub(super) bit: usize,
     }
-    impl<B: AsRef<[u8]>> TxPdo1MappingParameters<B> {
+    impl<B: AsRef<[u8]>> TxPdo1<B> {
         /// The PDO at the start of `data`.
         ///
         /// # Errors
@@ -37073,7 +37185,7 @@ pub mod view {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 8) as i8
         }
     }
-    impl<B: AsMut<[u8]>> TxPdo1MappingParameters<B> {
+    impl<B: AsMut<[u8]>> TxPdo1<B> {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
         #[inline]
         pub fn set_statusword(&mut self, value: super::types::Statusword) {
@@ -37088,11 +37200,11 @@ pub mod view {
     /// TxPDO 0x1A01: TxPDO2 Mapping Parameters.
     ///
     /// Mapping 0x1A01, 48 bits.
-    pub struct TxPdo2MappingParameters<B> {
+    pub struct TxPdo2<B> {
         pub(super) data: B,
         pub(super) bit: usize,
     }
-    impl<B: AsRef<[u8]>> TxPdo2MappingParameters<B> {
+    impl<B: AsRef<[u8]>> TxPdo2<B> {
         /// The PDO at the start of `data`.
         ///
         /// # Errors
@@ -37125,7 +37237,7 @@ pub mod view {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 32) as i32
         }
     }
-    impl<B: AsMut<[u8]>> TxPdo2MappingParameters<B> {
+    impl<B: AsMut<[u8]>> TxPdo2<B> {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
         #[inline]
         pub fn set_statusword(&mut self, value: super::types::Statusword) {

@@ -2,8 +2,8 @@
 
 use lexibus::{Client, Flags, Item, Modbus, OnCanOpenAndCoE, OnCanOpenCoEAndModbus, Register, Ro};
 
-const POSITION: Item<i32, Ro, OnCanOpenCoEAndModbus> =
-    Item::register(0x2008, 1, Register::low_first(8, 2), "Position", Flags::TPDO);
+type Everywhere = Item<i32, Ro, OnCanOpenCoEAndModbus>;
+const POSITION: Everywhere = Everywhere::register(0x2008, 1, Register::low_first(8, 2), "Position", Flags::TPDO);
 const DEVICE_TYPE: Item<u32, Ro, OnCanOpenAndCoE> = Item::shared_object(0x1000, 0, "Device type");
 
 fn read<C: Client<Bus = Modbus>>(mut client: C) {

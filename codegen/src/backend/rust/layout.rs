@@ -14,12 +14,17 @@ const NEXT: char = '¦';
 const STOP: char = '¬';
 const SOFT: char = '‡';
 
+/// Whether a letter is a mark.
+pub(super) fn is_mark(letter: char) -> bool {
+    matches!(letter, OPEN | CLOSE | NEXT | STOP | SOFT)
+}
+
 /// `text` with its marks carried out.
 pub(super) fn fit(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + text.len() / 16);
     for line in text.split_inclusive('\n') {
         let is_comment = line.trim_start().starts_with("//");
-        if is_comment || memchr::memchr(0xC2, line.as_bytes()).is_none() || !line.contains([OPEN, SOFT]) {
+        if is_comment || memchr::memchr(0xC2, line.as_bytes()).is_none() || !line.contains([OPEN, SOFT, STOP]) {
             out.push_str(line);
         } else {
             break_line(line, &mut out);
@@ -66,7 +71,7 @@ fn tokenize(line: &str) -> Vec<Token<'_>> {
         }
         // `\\` is a backslash, and not the escape of what follows.
         previous = if previous == '\\' && letter == '\\' { ' ' } else { letter };
-        if in_string || !matches!(letter, OPEN | CLOSE | NEXT | STOP | SOFT) {
+        if in_string || !is_mark(letter) {
             continue;
         }
         if at > start {

@@ -4,6 +4,7 @@
 //! The template is the shape of the output; `layout` then breaks the lines that are too long, where and how
 //! `prettyplease` would.
 
+mod axes;
 mod bit_field;
 mod catalog;
 mod code_table;

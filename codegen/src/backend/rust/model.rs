@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::axes::{self, AxesModel};
 use super::code_table::{self, CodeTableModel};
 use super::docs;
 use super::ethercat::{self, EtherCatModel, ModulePaths};
@@ -44,6 +45,7 @@ pub(super) struct Model<'a> {
     pub handles: [&'static str; 3],
     pub types: Types,
     pub code_tables: Vec<CodeTableModel>,
+    pub axes: Option<AxesModel>,
     pub node_id: Option<u8>,
     pub accessor_derives: Vec<String>,
     /// Lints that a name of the dictionary would trip over.
@@ -141,9 +143,10 @@ pub(super) struct EntryModel {
 
 /// Names that modules and methods of objects must not have: the device's own, and those that would hide a primitive
 /// type or the runtime.
-const RESERVED: [&str; 27] = [
+const RESERVED: [&str; 28] = [
     "types",
     "new",
+    "axis",
     "client",
     "into_client",
     "objects",
@@ -189,6 +192,7 @@ impl<'a> Model<'a> {
         model.has_accessors = options.accessors && !model.objects.is_empty() && has_object_access(device);
         model.ethercat = EtherCatModel::new(device, &model.pdos, &place.modules, place.nest);
         model.code_tables = code_table::models(&device.code_tables);
+        model.axes = axes::model(device, place.nest);
         model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);
         model
     }
@@ -221,6 +225,7 @@ impl<'a> Model<'a> {
             handles: handles(&scope),
             types,
             code_tables: Vec::new(),
+            axes: None,
             node_id: None,
             accessor_derives: options.derives(false),
             method_allow: method_allow(objects.iter().map(|object| object.name.as_str())),

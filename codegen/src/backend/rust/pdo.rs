@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use super::docs;
 use super::ethercat::{beside, depends_on};
+use super::layout;
 use super::model::addressable;
 use super::options::RustOptions;
 use super::scope::{ObjectBus, Scope};
@@ -66,9 +67,9 @@ pub(super) fn models(scope: &Scope<'_>, options: &RustOptions) -> Vec<PdoModel> 
     scope.pdos.iter().zip(names).filter_map(|(pdo, name)| model(scope, pdo, name, options)).collect()
 }
 
-/// Those of CANopen go by their number; those of EtherCAT have names.
+/// Those of CANopen go by their number, on EtherCAT too if the device is on both; those of EtherCAT have names.
 fn names(scope: &Scope<'_>) -> Vec<String> {
-    if scope.bus == ObjectBus::CanOpen {
+    if scope.bus == ObjectBus::CanOpen || scope.pdos.iter().all(|pdo| pdo.communication.is_some()) {
         return scope.pdos.iter().map(|pdo| format!("{}{}", prefix(pdo.direction), pdo.number)).collect();
     }
     let mut seen = HashSet::new();
@@ -285,9 +286,9 @@ fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str) -> FieldMo
         FieldType::Named(name, native) => {
             let path = format!("super::types::{name}");
             let decode = if native == "u64" {
-                format!("{path}::from_raw(«§»)")
+                format!("{path}::from_raw(§)")
             } else {
-                format!("{path}::from_raw(«§ as {native}»)")
+                format!("{path}::from_raw(§ as {native})")
             };
             let encode = if native == "u64" { format!("{own}.raw()") } else { format!("{own}.raw() as u64") };
             (path, encode, decode)
@@ -302,13 +303,13 @@ fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str) -> FieldMo
         FieldType::Native(unsigned) => (unsigned.to_owned(), format!("{own} as u64"), format!("§ as {unsigned}")),
         FieldType::Odd(signed, bits) => {
             let name = if signed { "rt::Int" } else { "rt::Uint" };
-            (format!("{name}<{bits}>"), format!("{own}.raw()"), format!("{name}::from_raw(«§»)"))
+            (format!("{name}<{bits}>"), format!("{own}.raw()"), format!("{name}::from_raw(§)"))
         }
         FieldType::Real(32) => {
             ("f32".to_owned(), format!("{own}.to_bits() as u64"), "f32::from_bits(§ as u32)".to_owned())
         }
         FieldType::Real(_) => ("f64".to_owned(), format!("{own}.to_bits()"), "f64::from_bits(§)".to_owned()),
-        FieldType::Time(path) => (path.to_owned(), format!("{own}.raw()"), format!("{path}::from_raw(«§»)")),
+        FieldType::Time(path) => (path.to_owned(), format!("{own}.raw()"), format!("{path}::from_raw(§)")),
         FieldType::Bytes(length) => {
             (format!("[u8; {length}]"), format!("rt::pdo::from_bytes(&{own})"), "rt::pdo::to_bytes(§)".to_owned())
         }
@@ -353,7 +354,8 @@ impl PdoModel {
 
     /// Whether `prettyplease` would leave the struct on one line: of 34 bytes, eight are `Self { ` and the blank at its end.
     pub(super) fn is_short(&self) -> bool {
-        self.unpacked().join(", ").len() <= 34 - 8
+        let text = self.unpacked().join(", ");
+        text.chars().filter(|letter| !layout::is_mark(*letter)).count() <= 34 - 8
     }
 }
 
@@ -363,11 +365,10 @@ impl FieldModel {
         let shifted = if self.offset == 0 { "word".to_owned() } else { format!("word >> {}", self.offset) };
         let in_parentheses = self.decode.contains("(§)") || self.decode == "§";
         let bits = if self.offset == 0 || in_parentheses { shifted } else { format!("({shifted})") };
-        let decoded = self.decode.replace('§', &bits);
         // Precedence of `&` and `==` is plain only with brackets.
-        match decoded.strip_suffix(" & 1 == 1") {
+        match self.decode.replace('§', &bits).strip_suffix(" & 1 == 1") {
             Some(bit) => format!("({bit}) & 1 == 1").replace("((", "(").replace("))", ")"),
-            None => decoded,
+            None => self.call(&bits).unwrap_or_else(|| self.decode.replace('§', &bits)),
         }
     }
 
@@ -388,13 +389,14 @@ impl FieldModel {
         if let Some(ty) = self.decode.strip_prefix("§ as ") {
             return format!("{bits}‡as {ty}");
         }
-        match self.decode.split_once('(') {
-            Some((path, rest)) => match rest.strip_suffix(')') {
-                Some(inner) => format!("{path}(«{}»)", inner.replace(" as ", "‡as ").replace('§', bits)),
-                None => self.decode.replace('§', bits),
-            },
-            None => self.decode.replace('§', bits),
-        }
+        self.call(bits).unwrap_or_else(|| self.decode.replace('§', bits))
+    }
+
+    /// The decoding of `bits` where it is a call, with marks where a long line may be broken.
+    fn call(&self, bits: &str) -> Option<String> {
+        let (path, rest) = self.decode.split_once('(')?;
+        let inner = rest.strip_suffix(')')?;
+        Some(format!("{path}(«{}»)", inner.replace(" as ", "‡as ").replace('§', bits)))
     }
 
     /// The expression that copies the field from the bit `at` of `data`.

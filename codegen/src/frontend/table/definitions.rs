@@ -55,6 +55,11 @@ impl Definitions {
         if let Some(&id) = self.made.get(&key) {
             return Some(Type::Named(id));
         }
+        // The integer that the definition names has its plain name.
+        let suffix = match self.base(reader, kind, &name.value) {
+            Some(own) if own != base => types::word(base),
+            _ => String::new(),
+        };
         let id = match kind {
             Kind::Enumeration => {
                 let Some((place, table)) = self.enums.iter().find(|(own, _)| own.value == name.value).cloned() else {
@@ -62,7 +67,8 @@ impl Definitions {
                     reader.unresolved("enumeration", &name.value, reader.span(name), known);
                     return None;
                 };
-                let about = self.about(reader, &place, (&table.doc, &table.cite), [&table.doubt, &table.doubts]);
+                let mut about = self.about(reader, &place, (&table.doc, &table.cite), [&table.doubt, &table.doubts]);
+                about.name.push_str(&suffix);
                 self.enumeration(reader, about, base, table.closed, &table.values)
             }
             Kind::Bits => {
@@ -71,7 +77,8 @@ impl Definitions {
                     reader.unresolved("bit field", &name.value, reader.span(name), known);
                     return None;
                 };
-                let about = self.about(reader, &place, (&table.doc, &table.cite), [&table.doubt, &table.doubts]);
+                let mut about = self.about(reader, &place, (&table.doc, &table.cite), [&table.doubt, &table.doubts]);
+                about.name.push_str(&suffix);
                 self.bit_field(reader, about, base, &table.at)
             }
         };
