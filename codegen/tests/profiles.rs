@@ -162,7 +162,7 @@ fn another_width_has_another_meaning_and_another_sign_another_name() {
         "[6061]\nParameterName=Mode now\nDataType=5\nAccessType=ro\n[6098]\nParameterName=Homing\nDataType=6\nAccessType=rw\n",
     ));
     assert_eq!(type_name(&device, 0x6060, 0), "ModesOfOperation");
-    assert_eq!(type_name(&device, 0x6061, 0), "ModesOfOperation u8");
+    assert_eq!(type_name(&device, 0x6061, 0), "ModesOfOperationU8");
     assert_eq!((item(&device, 0x6098, 0).ty, &item(&device, 0x6098, 0).documentation), (Type::Unsigned(16), &None));
 }
 

@@ -20486,20 +20486,20 @@ pub mod types {
     ///
     /// Transitions:
     ///
-    /// - 1: not\_ready\_to\_switch\_on to switch\_on\_disabled, by itself
+    /// - 1: not\_ready\_to\_switch\_on to switch\_on\_disabled, by itself. The device does it by itself after its start.
     /// - 2: switch\_on\_disabled to ready\_to\_switch\_on, on shutdown
     /// - 3: ready\_to\_switch\_on to switched\_on, on switch\_on
     /// - 4: switched\_on to operation\_enabled, on enable\_operation
-    /// - 5: operation\_enabled to switched\_on, on disable\_operation
+    /// - 5: operation\_enabled to switched\_on, on disable\_operation. As the disable operation option code says.
     /// - 6: switched\_on to ready\_to\_switch\_on, on shutdown
     /// - 7: ready\_to\_switch\_on to switch\_on\_disabled, on disable\_voltage
-    /// - 8: operation\_enabled to ready\_to\_switch\_on, on shutdown
+    /// - 8: operation\_enabled to ready\_to\_switch\_on, on shutdown. As the shutdown option code says.
     /// - 9: operation\_enabled to switch\_on\_disabled, on disable\_voltage
     /// - 10: switched\_on to switch\_on\_disabled, on disable\_voltage
-    /// - 11: operation\_enabled to quick\_stop\_active, on quick\_stop
-    /// - 12: quick\_stop\_active to switch\_on\_disabled, on disable\_voltage
-    /// - 13: any state to fault\_reaction\_active, by itself
-    /// - 14: fault\_reaction\_active to fault, by itself
+    /// - 11: operation\_enabled to quick\_stop\_active, on quick\_stop. As the quick stop option code says.
+    /// - 12: quick\_stop\_active to switch\_on\_disabled, on disable\_voltage. The device does it by itself with quick stop option codes 1 and 2.
+    /// - 13: any state to fault\_reaction\_active, by itself. On a fault, from any state.
+    /// - 14: fault\_reaction\_active to fault, by itself. The device does it by itself when its reaction to the fault is done.
     /// - 15: fault to switch\_on\_disabled, on fault\_reset
     /// - 16: quick\_stop\_active to operation\_enabled, on enable\_operation
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20516,7 +20516,7 @@ pub mod types {
         DisableOperation,
         /// enable operation: 0xF of the bits 0x8F.
         EnableOperation,
-        /// fault reset: 0x80 of the bits 0x80.
+        /// fault reset: 0x80 of the bits 0x80. Acts on the change of bit 7 from 0 to 1.
         FaultReset,
     }
     impl DriveCommand {

@@ -47,6 +47,8 @@ pub struct Device {
     pub submodules: Vec<SubmoduleUse>,
     /// Request and reply frames of a command protocol.
     pub messages: Vec<Message>,
+    /// Numbers by which the command protocol addresses items.
+    pub parameter_spaces: Vec<super::ParameterSpace>,
     /// How frames of the command protocol are delimited and checked.
     pub framing: Option<Box<Framing>>,
     /// Alarms, emergency codes, abort codes and the like.

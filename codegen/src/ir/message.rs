@@ -1,8 +1,8 @@
-//! Command protocols, code tables, state machines and procedures.
+//! Command protocols and code tables.
 
 use serde::{Deserialize, Serialize};
 
-use super::{Availability, CompactString, Direction, Documentation, Doubt, Scale, Texts, Type, Value};
+use super::{Availability, CompactString, Condition, Documentation, Doubt, Item, Texts, Value};
 use crate::source::Origin;
 
 /// A request and its reply.
@@ -16,6 +16,16 @@ pub struct Message {
     pub reply: Vec<MessageField>,
     /// When the order is carried out.
     pub completion: Completion,
+    /// The message after which a device answers so: the meaning of the reply to one request depends on an earlier one.
+    pub after: Option<CompactString>,
+    /// The message that comes instead of the reply where the device refuses.
+    pub error: Option<CompactString>,
+    /// What else it does.
+    pub side_effects: Vec<CompactString>,
+    /// Values of items for which the device accepts it.
+    pub accepted_when: Vec<Condition>,
+    /// The name in other languages.
+    pub names: Texts,
     /// Who has it.
     pub availability: Option<Box<Availability>>,
     /// States in which the device accepts it; empty = all.
@@ -29,41 +39,54 @@ pub struct Message {
 }
 
 /// When an order is carried out.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Completion {
     /// Before the reply.
     #[default]
     Immediate,
-    /// When this status item says so.
-    Polled(CompactString),
+    /// When the reply comes, which may take long.
+    Reply,
+    /// When this item, or field of replies, says so.
+    Polled {
+        /// Its name, perhaps with that of a bit behind a dot.
+        item: CompactString,
+        /// The bits that count; all where the source names none.
+        mask: Option<u64>,
+        /// The value that tells that the order is carried out; `None` = any but 0.
+        value: Option<Value>,
+    },
     /// After so many milliseconds.
     Delayed(u32),
 }
 
-/// One field of a frame.
+/// One field of a frame. Fields of less than a byte follow each other from the most significant bit on.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MessageField {
     /// Fixed bytes.
     Constant(Vec<u8>),
     /// A typed value.
-    Value {
-        /// Its name.
-        name: CompactString,
-        /// Its type.
-        ty: Type,
-        /// Order of its bytes, the most significant numbered 0; empty = big-endian.
-        byte_order: Vec<u8>,
-        /// Unit of the physical value.
-        unit: CompactString,
-        /// How the raw number relates to it.
-        scale: Option<Scale>,
+    Value(Box<MessageValue>),
+    /// A copy of a field of the request, or of a part of it.
+    Echo {
+        /// The field.
+        field: CompactString,
+        /// First and last byte of the part, the first byte on the wire numbered 0; `None` = all.
+        bytes: Option<(u8, u8)>,
     },
-    /// A copy of a part of the request.
-    Echo(CompactString),
     /// The code of an item, in the named space.
-    ItemCode(CompactString),
+    ItemCode {
+        /// The space.
+        space: CompactString,
+        /// Length of the code in bits.
+        bits: u8,
+    },
+    /// The value of the item whose code stands in front, in the named space.
+    ItemValue {
+        /// The space.
+        space: CompactString,
+    },
     /// Bytes without meaning.
     Padding(u8),
     /// Fields that occur several times.
@@ -79,6 +102,34 @@ pub enum MessageField {
     Rest,
 }
 
+/// A typed value in a message.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MessageValue {
+    /// What it is: an item that is found nowhere else, so that it has no binding.
+    pub item: Item,
+    /// Order of its bytes on the wire, the most significant numbered 0; empty = big-endian.
+    pub byte_order: Vec<u8>,
+}
+
+/// Numbers by which a command protocol addresses items, and the messages that carry their values.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ParameterSpace {
+    /// Its name.
+    pub name: CompactString,
+    /// The message that reads a value.
+    pub read: Option<CompactString>,
+    /// The message that writes it.
+    pub write: Option<CompactString>,
+    /// The message that keeps values over power-off.
+    pub store: Option<CompactString>,
+    /// Order of the bytes of longer values on the wire, the most significant numbered 0; empty = big-endian.
+    pub byte_order: Vec<u8>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+    /// Where it is declared.
+    pub origin: Origin,
+}
+
 /// How frames are delimited and checked.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Framing {
@@ -92,12 +143,18 @@ pub struct Framing {
     pub escape_xor: u8,
     /// Bytes that are escaped.
     pub escaped: Vec<u8>,
-    /// How the check is formed, as the source names it.
+    /// How the check is formed: `xor`, `sum`, `crc16`, ….
     pub check: CompactString,
+    /// The field of the data from which on the check counts; `None` = from the first byte behind `start`.
+    pub check_from: Option<CompactString>,
+    /// Whether the check itself is escaped.
+    pub check_escaped: bool,
     /// Start value of the check.
     pub check_seed: u32,
-    /// Greatest number of data bytes.
+    /// Greatest number of data bytes, without start, end, escapes and check.
     pub max_data: Option<u16>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
 }
 
 /// A table of codes with their meaning: alarms, emergency codes, abort codes, channel diagnosis.
@@ -128,52 +185,4 @@ pub struct CodeRow {
     pub documentation: Option<Box<Documentation>>,
     /// The other columns.
     pub cells: Vec<Value>,
-}
-
-/// A state machine.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct StateMachine {
-    /// Its name.
-    pub name: CompactString,
-    /// The item that tells the state.
-    pub status_item: CompactString,
-    /// The item that commands it.
-    pub control_item: CompactString,
-    /// States: name, mask and value of the status item.
-    pub states: Vec<(CompactString, u32, u32)>,
-    /// Commands: name, mask and value of the control item.
-    pub commands: Vec<(CompactString, u32, u32)>,
-    /// Transitions: number, from, to, and the command that causes it (none where the device does).
-    pub transitions: Vec<(u16, CompactString, CompactString, Option<CompactString>)>,
-}
-
-/// A sequence of steps.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Procedure {
-    /// Its name.
-    pub name: CompactString,
-    /// Its steps.
-    pub steps: Vec<Step>,
-    /// What the source says about it.
-    pub documentation: Option<Box<Documentation>>,
-    /// Where it is declared.
-    pub origin: Origin,
-}
-
-/// A step of a procedure.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Step {
-    /// Write a value to an item.
-    Write(CompactString, Value),
-    /// Wait until an item, under a mask, has a value.
-    WaitFor(CompactString, u64, Value),
-    /// Wait so many milliseconds.
-    Delay(u32),
-    /// Send a message.
-    Send(CompactString),
-    /// Exchange process data once in this direction.
-    Exchange(Direction),
-    /// Something a person has to do.
-    Manual(String),
 }

@@ -37,7 +37,7 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
 fn problems(owner: Owner<'_>, items: &Index<'_>, step: &Step) -> Vec<String> {
     let (name, value) = match step {
         Step::Write(name, value) => (name, value),
-        Step::WaitFor(name, mask, value) => {
+        Step::WaitFor(name, mask, value, _) => {
             let never = value.as_int().is_some_and(|value| *mask != u64::MAX && value & !i128::from(*mask) != 0);
             let never = never.then(|| format!("`{}` & {mask:#X} is never {value}", brief(name)));
             let unreadable = items.find(name).is_some_and(|item| !item.access.readable());

@@ -35,6 +35,8 @@ title = "What the examples refer to"
 Rloadsav = { param = 1, type = "u8", access = "wo" }
 Reepsts  = { param = 2, type = "u8", access = "ro" }
 "position" = { param = 3, type = "u8", access = "ro" }
+"Variable address" = { param = 4, type = "u16", access = "rw" }
+"Variable value" = { param = 5, type = "i32", access = "ro" }
 [[chapters]]
 title = "Objects that the examples refer to"
 [chapters.objects]

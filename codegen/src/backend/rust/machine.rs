@@ -4,7 +4,7 @@ use super::bit_field::BitFieldModel;
 use super::docs;
 use super::options::RustOptions;
 use super::scope::Scope;
-use crate::ir::{CompactString, StateMachine, Type};
+use crate::ir::{Pattern, StateMachine, Transition, Type};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// A state machine, ready to be written.
@@ -95,10 +95,13 @@ pub(super) fn models(
 /// The transitions as a list.
 fn transitions(machine: &StateMachine) -> Vec<String> {
     let mut lines = Vec::new();
-    for (number, from, to, command) in &machine.transitions {
-        let from = if from.is_empty() { "any state".to_owned() } else { docs::escape(from) };
+    for Transition { number, from, to, command, documentation } in &machine.transitions {
+        let from = from.as_ref().map_or_else(|| "any state".to_owned(), |from| docs::escape(from));
         let cause = command.as_ref().map_or_else(|| "by itself".to_owned(), |own| format!("on {}", docs::escape(own)));
-        lines.push(format!("- {number}: {from} to {}, {cause}", docs::escape(to)));
+        let number = number.map(|number| format!("{number}: ")).unwrap_or_default();
+        let text = documentation.as_ref().map_or("", |own| own.text.as_str());
+        let text = if text.is_empty() { String::new() } else { format!(". {}", docs::sentence(&docs::escape(text))) };
+        lines.push(format!("- {number}{from} to {}, {cause}{text}", docs::escape(to)));
     }
     if !lines.is_empty() {
         lines.splice(0..0, [String::new(), "Transitions:".to_owned(), String::new()]);
@@ -109,7 +112,7 @@ fn transitions(machine: &StateMachine) -> Vec<String> {
 fn patterns(
     scope: &Scope<'_>,
     (name, docs): (String, Vec<String>),
-    list: &[(CompactString, u32, u32)],
+    list: &[Pattern],
     (item, method): (&str, String),
     bit_fields: &[(u32, BitFieldModel)],
     options: &RustOptions,
@@ -129,23 +132,28 @@ fn patterns(
         _ => u32::MAX.into(),
     };
     let is_possible = |mask: u32, value: u32| mask != 0 && u64::from(mask) <= most && value & !mask == 0;
-    let list: Vec<&(CompactString, u32, u32)> =
-        list.iter().filter(|(_, mask, value)| is_possible(*mask, *value)).collect();
+    let list: Vec<&Pattern> = list.iter().filter(|own| is_possible(own.mask, own.value)).collect();
     if list.is_empty() {
         return None;
     }
     let wishes: Vec<Wish<'_>> = list
         .iter()
         .enumerate()
-        .map(|(number, (name, _, _))| Wish { name, fallback: format!("pattern {number}"), suffix: number.to_string() })
+        .map(|(number, own)| Wish {
+            name: &own.name,
+            fallback: format!("pattern {number}"),
+            suffix: number.to_string(),
+        })
         .collect();
     let names = names_unique::unique(&wishes, &["Self"], Case::Pascal);
     let hexadecimal =
         |number: u32| if number == 0 { "0".to_owned() } else { format!("{number:#X}").replacen("0X", "0x", 1) };
-    let pattern = |((text, mask, value), name): (&&(CompactString, u32, u32), String)| {
-        let (mask, value) = (hexadecimal(*mask), hexadecimal(*value));
-        let title = docs::escape(&text.replace('_', " "));
-        PatternModel { docs: format!("{title}: {value} of the bits {mask}."), name, mask, value }
+    let pattern = |(own, name): (&&Pattern, String)| {
+        let (mask, value) = (hexadecimal(own.mask), hexadecimal(own.value));
+        let title = docs::escape(&own.name.replace('_', " "));
+        let text = own.documentation.as_ref().map_or("", |own| own.text.as_str());
+        let text = if text.is_empty() { String::new() } else { format!(" {}", docs::sentence(&docs::escape(text))) };
+        PatternModel { docs: format!("{title}: {value} of the bits {mask}.{text}"), name, mask, value }
     };
     Some(PatternsModel {
         patterns: list.iter().zip(names).map(pattern).collect(),

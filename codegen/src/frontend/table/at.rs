@@ -149,6 +149,37 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for TextOr<T> {
     }
 }
 
+/// `true`, `false` or a table.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FlagOr<T> {
+    /// A truth value.
+    Flag(bool),
+    /// The table.
+    Table(Box<T>),
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for FlagOr<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Either<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Either<T> {
+            type Value = FlagOr<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("true, false or a table")
+            }
+
+            fn visit_bool<E: Error>(self, value: bool) -> Result<FlagOr<T>, E> {
+                Ok(FlagOr::Flag(value))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<FlagOr<T>, A::Error> {
+                T::deserialize(MapAccessDeserializer::new(map)).map(|table| FlagOr::Table(Box::new(table)))
+            }
+        }
+        deserializer.deserialize_any(Either(PhantomData))
+    }
+}
+
 /// One value, or a list of values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OneOrMany<T>(pub Vec<T>);
@@ -217,7 +248,7 @@ mod schema {
 
     use schemars::{json_schema, JsonSchema, Schema, SchemaGenerator};
 
-    use super::{At, Entries, Literal, OneOrMany, TextOr};
+    use super::{At, Entries, FlagOr, Literal, OneOrMany, TextOr};
 
     impl<T: JsonSchema> JsonSchema for At<T> {
         fn inline_schema() -> bool {
@@ -278,6 +309,21 @@ mod schema {
         fn json_schema(generator: &mut SchemaGenerator) -> Schema {
             let table = generator.subschema_for::<T>();
             json_schema!({ "anyOf": [{ "type": "string" }, table] })
+        }
+    }
+
+    impl<T: JsonSchema> JsonSchema for FlagOr<T> {
+        fn inline_schema() -> bool {
+            true
+        }
+
+        fn schema_name() -> Cow<'static, str> {
+            format!("Flag_or_{}", T::schema_name()).into()
+        }
+
+        fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+            let table = generator.subschema_for::<T>();
+            json_schema!({ "anyOf": [{ "type": "boolean" }, table] })
         }
     }
 

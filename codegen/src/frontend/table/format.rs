@@ -3,7 +3,7 @@
 
 use serde::Deserialize;
 
-use super::at::{At, Entries, Literal, OneOrMany, TextOr};
+use super::at::{At, Entries, FlagOr, Literal, OneOrMany, TextOr};
 #[cfg(feature = "cli")]
 use super::schema;
 
@@ -294,12 +294,24 @@ tables! {
         pub canopen: Option<ObjectRule>,
         /// Which objects its registers are on EtherCAT (CoE).
         pub ethercat: Option<ObjectRule>,
-        /// The number is that of a parameter in a command protocol.
-        pub parameter: bool,
+        /// The number is that of a parameter in a command protocol; a table names the messages that carry it.
+        pub parameter: Option<FlagOr<ParameterMessages>>,
         /// The number is an address of an EtherCAT slave controller.
         pub esc: bool,
         /// The value is reached through a window.
         pub indirect: Option<IndirectRule>,
+    }
+
+    /// The messages that carry the parameters of a space.
+    pub struct ParameterMessages {
+        /// The message that reads a value.
+        pub read: Option<At<String>>,
+        /// The message that writes it.
+        pub write: Option<At<String>>,
+        /// The message that keeps values over power-off.
+        pub store: Option<At<String>>,
+        /// Order of the bytes of a value of 32 bits, the most significant being `A`.
+        pub order: Option<At<String>>,
     }
 
     /// Where the registers of a space are on Modbus.
@@ -689,8 +701,8 @@ tables! {
         pub fixed: bool,
         /// Whether it has to be assigned.
         pub mandatory: bool,
-        /// Number of the sync manager.
-        pub sm: Option<u8>,
+        /// Number of the sync manager to which it is assigned by default.
+        pub sm: Option<At<u8>>,
         /// Whether it is assigned by default.
         pub default: bool,
         /// PDOs that can't be assigned beside it (`0x1702`, `"0x1600..0x1603"`).
@@ -714,25 +726,58 @@ tables! {
         pub direction: Option<At<String>>,
         /// Its length in bytes.
         pub bytes: Option<u32>,
-        /// `big` or `little`.
+        /// `big` (where nothing else is said) or `little`.
         #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["big", "little"])))]
-        pub order: Option<String>,
-        /// Its fields, by the name of the item.
+        pub order: Option<At<String>>,
+        /// Its fields, by the name of the item; what is no item of the table gets a `type`.
         pub fields: Entries<ImageField>,
         /// What it is, in your own words.
         pub doc: Option<String>,
         /// Page or line of the manual.
         pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// A field of a process image; its key is the item.
     pub struct ImageField {
         /// First byte.
-        pub at: u32,
-        /// Its type.
+        pub at: Option<u32>,
+        /// First bit in that byte.
+        pub bit: Option<u8>,
+        /// Its type, where it isn't that of the item.
         #[serde(rename = "type")]
         #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
         pub ty: Option<At<String>>,
+        /// What the bits mean: a name of `[bits]`, or the bits themselves.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::BITS)))]
+        pub bits: Option<At<TextOr<BitEntries>>>,
+        /// What the values mean: a name of `[enums]`, or the values themselves.
+        #[serde(rename = "enum")]
+        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::VALUES)))]
+        pub values: Option<At<TextOr<ValueEntries>>>,
+        /// A symbol, or a name of `[units]`.
+        pub unit: Option<At<String>>,
+        /// physical = raw × scale + offset, in units of `unit`; or how the factor is found.
+        pub scale: Option<At<Scaling>>,
+        /// The smallest value, raw.
+        pub min: Option<At<Literal>>,
+        /// The greatest value, raw.
+        pub max: Option<At<Literal>>,
+        /// Raw values that are no numbers, with their meaning.
+        pub na: Option<Entries<String>>,
+        /// Its name in the manual's language.
+        pub orig: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// A table of codes.
@@ -777,7 +822,7 @@ tables! {
         /// Commands, by the bits of `control`.
         pub commands: Entries<PatternTable>,
         /// From which state to which.
-        pub transitions: Vec<TransitionTable>,
+        pub transitions: Vec<At<TransitionTable>>,
         /// What it is, in your own words.
         pub doc: Option<String>,
         /// Page or line of the manual.
@@ -791,9 +836,9 @@ tables! {
     /// Bits that have to have a value.
     pub struct PatternTable {
         /// The bits that count.
-        pub mask: u32,
+        pub mask: Option<u32>,
         /// The value that they have.
-        pub value: u32,
+        pub value: Option<u32>,
         /// What it is, in your own words.
         pub doc: Option<String>,
         /// Its name or label in the manual's language.
@@ -805,12 +850,12 @@ tables! {
     /// From one state to another.
     pub struct TransitionTable {
         /// Its number in the manual.
-        pub number: u16,
-        /// The state that it leaves.
-        pub from: Option<At<String>>,
+        pub number: Option<u16>,
+        /// The state that it leaves, or states; any where there is none.
+        pub from: Option<At<OneOrMany<String>>>,
         /// The state that it leads to.
         pub to: Option<At<String>>,
-        /// The command that causes it; none where the device does.
+        /// The command or the message that causes it; none where the device does.
         pub command: Option<At<String>>,
         /// What it is, in your own words.
         pub doc: Option<String>,
@@ -826,6 +871,8 @@ tables! {
         pub orig: Option<String>,
         /// Page or line of the manual.
         pub cite: Option<OneOrMany<NumberOrText>>,
+        /// What its caller gives: names that steps write with `argument`.
+        pub arguments: Vec<At<String>>,
         /// The steps, in order.
         pub steps: Vec<At<StepTable>>,
         /// A contradiction of the manual, and what was made of it.
@@ -836,14 +883,20 @@ tables! {
 
     /// A step.
     pub struct StepTable {
-        /// The item that `value` is written to.
+        /// The item that `value` or `argument` is written to.
         pub write: Option<At<String>>,
+        /// The item that is read: its value is what the procedure gives.
+        pub read: Option<At<String>>,
         /// The item that is waited for.
         pub wait: Option<At<String>>,
-        /// The bits that are waited for.
-        pub mask: Option<u64>,
+        /// The only bits that are written, or waited for.
+        pub mask: Option<At<u64>>,
         /// The value that is written or waited for.
         pub value: Option<Literal>,
+        /// The argument of the procedure that is written.
+        pub argument: Option<At<String>>,
+        /// How many milliseconds the wait takes at most.
+        pub timeout: Option<At<u32>>,
         /// Milliseconds.
         pub delay: Option<u32>,
         /// The message that is sent.
@@ -869,11 +922,16 @@ tables! {
         pub escape_xor: u8,
         /// The bytes that are escaped.
         pub escaped: Vec<u8>,
-        /// How the check byte is made: `xor`.
-        pub check: Option<String>,
+        /// How the check is made.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::CHECKS)))]
+        pub check: Option<At<String>>,
         /// What the check begins with.
         pub seed: u32,
-        /// The greatest number of data bytes in a frame.
+        /// The field of the messages from which on the check counts; else from the byte behind `start`.
+        pub check_from: Option<At<String>>,
+        /// Whether the check is escaped, too.
+        pub check_escaped: Option<bool>,
+        /// The greatest number of data bytes in a frame, without start, end, escapes and check.
         pub max_data: Option<u16>,
         /// What it is, in your own words.
         pub doc: Option<String>,
@@ -889,10 +947,18 @@ tables! {
         pub request: Vec<At<FieldTable>>,
         /// What comes back.
         pub reply: Vec<At<FieldTable>>,
-        /// `immediate`, `{ poll = "item" }` or `{ delay = 100 }`.
-        pub completion: Option<TextOr<CompletionTable>>,
+        /// `immediate`, `reply`, `{ poll = "item" }` or `{ delay = 100 }`.
+        pub completion: Option<At<TextOr<CompletionTable>>>,
         /// The states in which the device takes it.
-        pub accepted_in: Vec<String>,
+        pub accepted_in: Vec<At<String>>,
+        /// Items that have to have one of these values.
+        pub when: Option<Entries<OneOrMany<Literal>>>,
+        /// The reply has this form after that message.
+        pub after: Option<At<String>>,
+        /// The message that comes where the device refuses.
+        pub error: Option<At<String>>,
+        /// What else it does.
+        pub effects: Option<Words>,
         /// Models that have it; `*` stands for any letters.
         pub models: Option<Vec<At<String>>>,
         /// First firmware that has it.
@@ -915,8 +981,12 @@ tables! {
 
     /// When an order is carried out.
     pub struct CompletionTable {
-        /// When this item says so.
-        pub poll: Option<String>,
+        /// When this item, or field of replies, says so; a bit stands behind a dot.
+        pub poll: Option<At<String>>,
+        /// The bits that count.
+        pub mask: Option<u64>,
+        /// The value that tells it; any but 0 where there is none.
+        pub value: Option<Literal>,
         /// After so many milliseconds.
         pub delay: Option<u32>,
     }
@@ -933,28 +1003,55 @@ tables! {
         pub ty: Option<At<String>>,
         /// Order of its bytes, the most significant being `A`.
         pub order: Option<At<String>>,
+        /// What the bits mean: a name of `[bits]`, or the bits themselves.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::BITS)))]
+        pub bits: Option<At<TextOr<BitEntries>>>,
+        /// What the values mean: a name of `[enums]`, or the values themselves.
+        #[serde(rename = "enum")]
+        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::VALUES)))]
+        pub values: Option<At<TextOr<ValueEntries>>>,
         /// A symbol, or a name of `[units]`.
         pub unit: Option<At<String>>,
-        /// physical = raw × scale.
+        /// physical = raw × scale + offset, in units of `unit`; or how the factor is found.
         pub scale: Option<At<Scaling>>,
-        /// A copy of this field of the request.
+        /// The physical value of raw 0.
+        pub offset: Option<f64>,
+        /// The smallest value, raw.
+        pub min: Option<At<Literal>>,
+        /// The greatest value, raw.
+        pub max: Option<At<Literal>>,
+        /// Raw values that are no numbers, with their meaning.
+        pub na: Option<Entries<String>>,
+        /// A copy of this field of the request; of some of its bytes with `part`.
         pub echo: Option<At<String>>,
-        /// The code of an item in this space.
-        pub code: Option<String>,
+        /// The bytes of the field that come back (`"1..3"`), the first on the wire being 0.
+        pub part: Option<At<NumberOrText>>,
+        /// The code of an item in this space, of this `type`.
+        pub code: Option<At<String>>,
+        /// The value of the item whose code stands in front, in this space.
+        pub value_of: Option<At<String>>,
         /// So many bytes without meaning.
         pub pad: Option<u8>,
         /// Fields that occur several times.
         pub repeat: Option<RepeatTable>,
         /// All bytes that follow.
         pub rest: bool,
+        /// Its name in the manual's language.
+        pub orig: Option<String>,
         /// What it is, in your own words.
         pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// Fields that occur several times.
     pub struct RepeatTable {
         /// The field that holds how often; up to the end where there is none.
-        pub count: Option<String>,
+        pub count: Option<At<String>>,
         /// How often at most.
         pub max: Option<u16>,
         /// The fields.

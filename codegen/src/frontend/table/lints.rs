@@ -123,19 +123,20 @@ pub(super) fn machine(reader: &mut Reader<'_, '_>, table: &MachineTable) {
 }
 
 fn patterns(reader: &mut Reader<'_, '_>, list: &Entries<PatternTable>, what: &str, code: &'static Code) {
-    for (at, (key, own)) in list.iter().enumerate() {
-        let own = &own.value;
-        if own.value & !own.mask != 0 {
-            let message = format!("nothing & {:#X} is {:#X}", own.mask, own.value);
+    let complete =
+        |(key, own): &'_ (At<String>, At<PatternTable>)| Some((key.clone(), own.value.mask?, own.value.value?));
+    let list: Vec<(At<String>, u32, u32)> = list.iter().filter_map(complete).collect();
+    for (at, (key, mask, value)) in list.iter().enumerate() {
+        if value & !mask != 0 {
+            let message = format!("nothing & {mask:#X} is {value:#X}");
             reader.report(&codes::PATTERN_OUTSIDE_MASK, reader.span(key), message);
             continue;
         }
-        for (other_key, other) in list.iter().take(at) {
-            let other = &other.value;
-            if (own.value ^ other.value) & own.mask & other.mask == 0 && other.value & !other.mask == 0 {
+        for (other_key, other_mask, other) in list.iter().take(at) {
+            if (value ^ other) & mask & other_mask == 0 && other & !other_mask == 0 {
                 let message = format!(
                     "{:#X} is both of the {what} `{}` and `{}`",
-                    own.value | other.value,
+                    value | other,
                     brief(&other_key.value),
                     brief(&key.value)
                 );

@@ -9,21 +9,25 @@
 //! | `spaces` | what the number of a register means on each bus |
 //! | `rows`, `objects` | rows to items and objects |
 //! | `device` | the head: device, models, axes |
-//! | `process`, `protocol` | process data; codes, state machines, procedures, messages |
+//! | `process`, `images` | process data: PDOs, fixed process images |
+//! | `code_tables`, `machines`, `messages` | codes; state machines and procedures; messages and their frames |
 //! | `overlay` | tables that say something of what another file describes |
 //! | `lints`, `summary` | what needs the table as it is written; what another place of the manual says |
 //! | `schema` | the JSON Schema of the format |
 
 mod at;
+mod code_tables;
 mod definitions;
 mod device;
 pub mod format;
+mod images;
 mod lints;
+mod machines;
+mod messages;
 mod objects;
 pub mod overlay;
 mod place;
 mod process;
-mod protocol;
 mod rows;
 #[cfg(feature = "cli")]
 pub mod schema;
@@ -39,7 +43,7 @@ use serde::de::DeserializeOwned;
 use toml::de::DeValue;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Catalog, Device, Group, GroupKind, Item, ObjectCode};
+use crate::ir::{Catalog, Device, Group, GroupKind, Item, ObjectCode, Shape};
 use crate::source::{FileId, Source, Span};
 use at::{At, Entries};
 use definitions::Definitions;
@@ -134,6 +138,8 @@ pub fn read(
         }
     }
     device.groups.extend(dictionary.into_values());
+    // Their fields have types as rows do.
+    table.frames(&mut reader, &mut rows, &mut device);
     rows.definitions.make_unused(&mut reader);
     device.types = std::mem::take(&mut rows.definitions.types);
     device.doubts.append(&mut rows.definitions.doubts);
@@ -150,6 +156,7 @@ pub fn read(
 struct Table<'a> {
     parts: Vec<(At<String>, Option<Node<'a>>)>,
     options: Vec<(At<String>, OptionTable)>,
+    spaces: Vec<(At<String>, format::SpaceTable)>,
 }
 
 impl<'a> Table<'a> {
@@ -165,7 +172,7 @@ impl<'a> Table<'a> {
                 *node = None;
             }
         }
-        let mut table = Table { parts, options: Vec::new() };
+        let mut table = Table { parts, options: Vec::new(), spaces: Vec::new() };
         table.version(reader);
         let mut options = Vec::new();
         for (name, node) in table.entries(reader, "options") {
@@ -244,7 +251,8 @@ impl<'a> Table<'a> {
             bits: self.named(reader, "bits"),
             ..Definitions::default()
         };
-        let spaces = self.named(reader, "spaces");
+        let spaces: Vec<(At<String>, format::SpaceTable)> = self.named(reader, "spaces");
+        self.spaces.clone_from(&spaces);
         let at = |(name, table): (At<String>, _)| (name.clone(), At { value: table, start: name.start, end: name.end });
         let spaces = Entries(spaces.into_iter().map(at).collect());
         Rows {
@@ -258,7 +266,22 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// What doesn't hold items: axes, process data, codes, sequences, messages.
+    /// What has fields: process images and messages.
+    fn frames(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
+        for image in self.list(reader, "images") {
+            images::image(reader, rows, &image, device);
+        }
+        for message in self.list(reader, "messages") {
+            messages::message(reader, rows, &message, device);
+        }
+        if let Some(framing) = self.take(reader, "framing") {
+            messages::framing(reader, &framing, device);
+        }
+        let spaces = self.spaces.iter().map(|(name, table)| (name, table));
+        messages::spaces(reader, spaces, device, &mut rows.references);
+    }
+
+    /// What doesn't hold items: axes, PDOs, codes, sequences.
     fn rest(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
         if let Some(axes) = self.take(reader, "axes") {
             device::axes(reader, &axes, device);
@@ -266,23 +289,14 @@ impl<'a> Table<'a> {
         for pdo in self.list(reader, "pdos") {
             process::pdo(reader, &pdo, device);
         }
-        for image in self.list(reader, "images") {
-            process::image(reader, &image, device);
-        }
         for (name, table) in self.named(reader, "codes") {
-            protocol::codes(reader, &name, &table, device);
+            code_tables::table(reader, &name, &table, device);
         }
         for (name, table) in self.named(reader, "machines") {
-            protocol::machine(reader, &name, &table, device);
+            machines::machine(reader, &name, &table, device, &mut rows.references);
         }
         for (name, table) in self.named(reader, "procedures") {
-            protocol::procedure(reader, &name, &table, device, &mut rows.references);
-        }
-        if let Some(framing) = self.take(reader, "framing") {
-            protocol::framing(&framing, device);
-        }
-        for message in self.list(reader, "messages") {
-            protocol::message(reader, &message, device);
+            machines::procedure(reader, &name, &table, device, &mut rows.references);
         }
         for (name, option) in &self.options {
             let (origin, cite) = (reader.origin(name), option.cite.as_ref().map(tree::cited));
@@ -374,6 +388,16 @@ fn note(reader: &mut Reader<'_, '_>, item: &Item, named: &mut Seen<CompactString
     }
 }
 
+/// The states of a device: those of its machines, and the names in its enumerations, as a state may be told by one.
+fn states(device: &Device) -> impl Iterator<Item = &str> {
+    let machines = device.machines.iter().flat_map(|machine| machine.states.iter().map(|state| state.name.as_str()));
+    let values = device.types.iter().flat_map(|own| match &own.shape {
+        Shape::Enumeration { values, .. } => values.as_slice(),
+        _ => &[],
+    });
+    machines.chain(values.map(|value| value.name.as_str()))
+}
+
 /// Reports names that rows and sequences refer to and that don't exist.
 fn resolve(reader: &mut Reader<'_, '_>, rows: &Rows, device: &Device) {
     let items = || device.groups.iter().flat_map(|group| group.items.iter().map(|item| item.name.as_str()));
@@ -391,6 +415,7 @@ fn resolve(reader: &mut Reader<'_, '_>, rows: &Rows, device: &Device) {
                 device.variants.is_empty() || device.variants.iter().any(|own| crate::selection::glob(text, &own.name))
             }
             "message" => device.messages.iter().any(|message| message.name == text),
+            "state" => states(device).any(|state| state == text),
             _ => items().any(|own| own == text) || groups().any(|own| own == text) || by_place(text),
         };
         if exists {
@@ -399,6 +424,7 @@ fn resolve(reader: &mut Reader<'_, '_>, rows: &Rows, device: &Device) {
         match what {
             "model" => reader.unresolved(what, text, span, device.variants.iter().map(|own| own.name.as_str())),
             "message" => reader.unresolved(what, text, span, device.messages.iter().map(|own| own.name.as_str())),
+            "state" => reader.unresolved(what, text, span, states(device)),
             _ => reader.unresolved(what, text, span, items()),
         }
     }

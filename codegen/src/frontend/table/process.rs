@@ -1,12 +1,11 @@
 //! Process data that the table itself describes.
 
 use super::at::At;
-use super::format::{ImageTable, NumberOrText, PdoTable};
+use super::format::{NumberOrText, PdoTable};
 use super::place;
 use super::tree::{cited, Reader};
-use super::types;
-use crate::diagnostics::codes;
-use crate::ir::{Binding, Device, Direction, Group, GroupKind, Item, Pdo, PdoEntry, PdoEntryKind, Type};
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{Device, Direction, Item, Pdo, PdoEntry, PdoEntryKind, Type};
 use crate::text::brief;
 
 /// A direction, seen from the device.
@@ -26,7 +25,15 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, device: &mu
     pdo.origin = reader.origin(table);
     pdo.name = own.name.as_deref().unwrap_or_default().into();
     (pdo.fixed, pdo.mandatory) = (own.fixed, own.mandatory);
-    pdo.sync_manager = own.sm.filter(|_| own.default);
+    if let Some(sm) = own.sm.as_ref().filter(|_| !own.default) {
+        let found = Diagnostic::new(
+            &codes::TABLE_VALUE,
+            reader.span(sm),
+            "`sm` is the sync manager of a PDO that is assigned by default",
+        );
+        reader.diagnostics.push(found.help("write `default = true` as well, or leave `sm` out"));
+    }
+    pdo.sync_manager = own.sm.as_ref().map(|sm| sm.value).filter(|_| own.default);
     for excluded in &own.excludes {
         let found = match excluded {
             NumberOrText::Number(index) => u16::try_from(*index).ok().map(|index| (index, index)),
@@ -92,32 +99,4 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, device: &Device) -> Opt
         entry.kind = PdoEntryKind::Item;
     }
     Some(entry)
-}
-
-/// Adds a process image: a group of items that have a place in it.
-pub(super) fn image(reader: &mut Reader<'_, '_>, table: &At<ImageTable>, device: &mut Device) {
-    let own = &table.value;
-    let name = own.name.as_deref().unwrap_or("image");
-    let mut group = Group::object(0, crate::ir::ObjectCode::Record);
-    group.kind = GroupKind::Image { length: own.bytes.unwrap_or(0) };
-    group.name = name.into();
-    group.origin = reader.origin(table);
-    group.documentation = reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited));
-    for (key, field) in own.fields.iter() {
-        let ty = field.value.ty.as_ref().and_then(|ty| types::named(&ty.value)).map(|named| named.ty);
-        let Some(bits) = ty.and_then(Type::bits) else {
-            reader.report(&codes::TABLE_VALUE, reader.span(key), "a field of an image has a `type` of a fixed length");
-            continue;
-        };
-        let at = field.value.at.saturating_mul(8);
-        let mut item = Item::new(Binding::Image { image: name.into(), bit_offset: at, bits });
-        (item.name, item.at.name, item.origin) = (key.value.as_str().into(), reader.span(key), reader.origin(key));
-        item.ty = ty.unwrap_or(Type::Opaque(None));
-        item.access = match direction(reader, own.direction.as_ref()) {
-            Some(Direction::Receive) => crate::ir::Access::ReadWrite,
-            _ => crate::ir::Access::ReadOnly,
-        };
-        group.items.push(item);
-    }
-    device.groups.insert(0, group);
 }

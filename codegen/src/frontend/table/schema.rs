@@ -166,4 +166,5 @@ pub(super) const VALUES: &str = r"[-+]?#(\.\.=?[-+]?#)?";
 
 /// The words of longer lists.
 pub(super) const BUSES: &[&str] = &["canopen", "ethercat", "modbus", "profinet", "serial"];
+pub(super) const CHECKS: &[&str] = &["xor", "sum", "lrc", "crc8", "crc16"];
 pub(super) const TRIGGERS: &[&str] = &["rising", "falling", "toggle", "self_clearing"];

@@ -1,6 +1,6 @@
 //! What the number of a register means on each bus.
 
-use super::at::{At, Entries};
+use super::at::{At, Entries, FlagOr};
 use super::format::{ModbusRule, ObjectRule, SpaceTable};
 use super::tree::Reader;
 use crate::diagnostics::codes;
@@ -74,7 +74,7 @@ fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> 
         modbus: table.modbus.as_ref().map(|rule| modbus(reader, rule)),
         canopen: table.canopen.as_ref().map(objects),
         ethercat: table.ethercat.as_ref().map(objects),
-        parameter: table.parameter,
+        parameter: table.parameter.as_ref().is_some_and(|rule| !matches!(rule, FlagOr::Flag(false))),
         esc: table.esc,
         indirect: table.indirect.clone(),
     }

@@ -7,7 +7,7 @@ use super::super::format::AppliesTable;
 use super::super::rows::Rows;
 use super::super::spaces::Buses;
 use super::super::tree::{similar, Reader};
-use super::super::{device, protocol, resolve};
+use super::super::{code_tables, device, machines, resolve};
 use super::change::{Outcome, Place};
 use super::{item_name, name_conditions, Overlay, PatchRow, Target};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
@@ -96,12 +96,12 @@ impl<'o> Applied<'o> {
             device::axes(reader, axes, device);
         }
         for (name, table) in &patch.codes {
-            protocol::codes(reader, name, table, device);
+            code_tables::table(reader, name, table, device);
             merge(&mut device.code_tables);
         }
         for (name, table) in &patch.machines {
             device.machines.retain(|own| own.name != name.value);
-            protocol::machine(reader, name, table, device);
+            machines::machine(reader, name, table, device, &mut self.rows.references);
             if let Some(machine) = device.machines.last_mut() {
                 machine.status_item = item_name(&device.groups, &machine.status_item);
                 machine.control_item = item_name(&device.groups, &machine.control_item);
@@ -109,7 +109,7 @@ impl<'o> Applied<'o> {
         }
         for (name, table) in &patch.procedures {
             device.procedures.retain(|own| own.name != name.value);
-            protocol::procedure(reader, name, table, device, &mut self.rows.references);
+            machines::procedure(reader, name, table, device, &mut self.rows.references);
         }
         for doubt in &patch.doubts {
             let list = super::super::at::OneOrMany(vec![doubt.value.clone()]);

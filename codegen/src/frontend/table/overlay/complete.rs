@@ -6,12 +6,11 @@
 use std::collections::HashMap;
 
 use super::super::format::{ImageTable, Row};
-use super::super::protocol;
 use super::super::rows::{Named, Rows};
 use super::super::spaces::Buses;
 use super::super::tree::Reader;
 use super::super::types;
-use super::super::{device, process};
+use super::super::{code_tables, device, machines, process};
 use super::{at_place, in_range, item_name, name_conditions, Patch, PatchRow, Profile, Target};
 use crate::diagnostics::Diagnostics;
 use crate::ir::{
@@ -67,14 +66,15 @@ impl<'p> Completion<'p> {
         let patch = self.patch();
         for (name, table) in &patch.codes {
             if !device.code_tables.iter().any(|own| own.name == name.value) {
-                self.with_reader(|reader, _| protocol::codes(reader, name, table, device));
+                self.with_reader(|reader, _| code_tables::table(reader, name, table, device));
                 if let Some(own) = device.code_tables.last_mut() {
                     own.origin = Origin::default();
                 }
             }
         }
         for (name, table) in &patch.machines {
-            self.with_reader(|reader, _| protocol::machine(reader, name, table, device));
+            // Whether its items exist is looked at below.
+            self.with_reader(|reader, _| machines::machine(reader, name, table, device, &mut Vec::new()));
             let Some(mut machine) = device.machines.pop() else { continue };
             let exists = |name: &CompactString| at_place(&device.groups, name).is_some();
             let exist = exists(&machine.status_item) && exists(&machine.control_item);
@@ -211,18 +211,10 @@ impl<'p> Completion<'p> {
     /// Gives the types back. Those that are new stand nowhere in the description, and their names must not change those of
     /// the types that it has.
     fn finish(&mut self, types: &mut Vec<TypeDef>, before: usize) {
-        let made = std::mem::take(&mut self.rows.definitions.made);
         *types = std::mem::take(&mut self.rows.definitions.types);
         self.rows.definitions.doubts.clear();
         self.rows.definitions.mentioned.clear();
         self.rows.references.clear();
-        for ((kind, name, base), id) in made {
-            let declared = self.with_reader(|reader, rows| rows.definitions.base(reader, kind, &name));
-            let is_other = declared.is_some_and(|declared| declared != base);
-            if let Some(definition) = types.get_mut(id.0 as usize).filter(|_| is_other) {
-                definition.name = format!("{} {}", definition.name, short(base)).into();
-            }
-        }
         let before = before.min(types.len());
         let (own, new) = types.split_at_mut(before);
         let is_value = |definition: &&TypeDef| {
@@ -272,7 +264,7 @@ impl<'p> Completion<'p> {
         let patch = self.patch();
         for field in &mut data.image.fields {
             let by_place = telegram.and_then(|telegram| {
-                let at = |own: u32| own.saturating_mul(8) == field.bit_offset;
+                let at = |own: Option<u32>| own.map(|own| own.saturating_mul(8)) == Some(field.bit_offset);
                 telegram.fields.iter().find(|(_, own)| at(own.value.at)).map(|(name, _)| letters(&name.value))
             });
             let by_name = letters(&field.name);
@@ -313,12 +305,6 @@ pub(super) fn is_alike(own: Type, row: &Row) -> bool {
         true => own.bits() == wanted.bits(),
         false => std::mem::discriminant(&own) == std::mem::discriminant(&wanted),
     }
-}
-
-/// `u8`, `i16`.
-fn short(ty: Type) -> String {
-    let sign = if ty.is_signed() { 'i' } else { 'u' };
-    format!("{sign}{}", ty.bits().unwrap_or(0))
 }
 
 /// Letters and digits alone, for names that differ in nothing else are one name in Rust.

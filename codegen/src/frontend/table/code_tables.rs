@@ -1,0 +1,43 @@
+//! Codes with a meaning: alarms, emergency codes, abort codes.
+
+use super::at::{At, Literal, TextOr};
+use super::format::{CodeTableRow, CodesTable};
+use super::tree::{cited, Reader};
+use super::{place, value};
+use crate::diagnostics::codes;
+use crate::ir::{CodeRow, CodeTable, Device, Type, Value};
+use crate::text::brief;
+
+/// A table of codes.
+pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &CodesTable, device: &mut Device) {
+    let mut rows = Vec::with_capacity(table.rows.0.len());
+    for (key, row) in table.rows.iter() {
+        let Some((first, last)) = place::range(&key.value).filter(|(first, last)| first <= last) else {
+            let message = format!("`{}` is no code: write `0x8110` or `\"0xFF13..0xFF15\"`", brief(&key.value));
+            reader.report(&codes::TABLE_PLACE, reader.span(key), message);
+            continue;
+        };
+        let plain = CodeTableRow::default();
+        let (name, row) = match &row.value {
+            TextOr::Text(name) => (Some(name.as_str()), &plain),
+            TextOr::Table(row) => (row.name.as_deref(), &**row),
+        };
+        let (origin, cite) = (reader.origin(key), row.cite.as_ref().map(cited));
+        device.doubts.extend(reader.doubts([row.doubt.as_ref(), row.doubts.as_ref()], origin, cite.as_deref()));
+        let cell = |literal: &Literal| value::convert(literal, Type::Opaque(None), false).unwrap_or(Value::Bool(false));
+        rows.push(CodeRow {
+            code: first,
+            last: (last > first).then_some(last),
+            name: name.unwrap_or_default().into(),
+            names: reader.original(row.orig.as_deref()),
+            documentation: reader.documentation(row.doc.as_deref(), cite),
+            cells: row.cells.iter().map(cell).collect(),
+        });
+    }
+    device.code_tables.push(CodeTable {
+        name: name.value.as_str().into(),
+        columns: table.columns.iter().map(|column| column.as_str().into()).collect(),
+        rows,
+        origin: reader.origin(name),
+    });
+}

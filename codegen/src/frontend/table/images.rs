@@ -1,0 +1,175 @@
+//! Fixed process images: where the items of a device, or fields of its own, are in cyclic data.
+
+use super::at::At;
+use super::format::{ImageField, ImageTable, Row};
+use super::rows::{Named, Rows};
+use super::tree::{cited, Reader};
+use super::{process, types};
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{
+    Access, Binding, CompactString, Device, Direction, Group, GroupKind, Item, ObjectCode, PdoEntry, PdoEntryKind,
+    ProcessImage, Type, TypeDef,
+};
+use crate::text::brief;
+
+/// A field at its place.
+struct Placed {
+    bit_offset: u32,
+    bits: u32,
+}
+
+/// Adds a process image. A field that is called as an item of the device is that item; any other is an item that is found
+/// nowhere else.
+pub(super) fn image(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<ImageTable>, device: &mut Device) {
+    let own = &table.value;
+    let name: CompactString = own.name.as_deref().unwrap_or("image").into();
+    let Some((direction, length)) = process::direction(reader, own.direction.as_ref()).zip(own.bytes) else {
+        reader.report(&codes::TABLE_VALUE, reader.span(table), "an image has a `direction` and a number of `bytes`");
+        return;
+    };
+    let (origin, cite) = (reader.origin(table), own.cite.as_ref().map(cited));
+    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+    let order = own.order.as_ref().and_then(|word| reader.word(word, "order", &[("big", true), ("little", false)]));
+    let mut group = Group::object(0, ObjectCode::Record);
+    group.kind = GroupKind::Image { length };
+    group.name = name.clone();
+    group.origin = origin;
+    group.documentation = reader.documentation(own.doc.as_deref(), cite);
+    let mut fields: Vec<PdoEntry> = Vec::new();
+    for (key, field) in own.fields.iter() {
+        let found = device.groups.iter_mut().flat_map(|group| &mut group.items).find(|item| item.name == key.value);
+        let placed = match found {
+            Some(item) => of_item(reader, rows, key, &field.value, item).map(|placed| {
+                item.bindings.push(binding(&name, &placed));
+                (placed, entry(item))
+            }),
+            None => new_item(reader, rows, key, field, direction).map(|(placed, mut item)| {
+                item.bindings = [binding(&name, &placed)].into_iter().collect();
+                let entry = entry(&item);
+                group.items.push(item);
+                (placed, entry)
+            }),
+        };
+        let Some((Placed { bit_offset, bits }, entry)) = placed else { continue };
+        let entry = PdoEntry { bit_offset, bits, origin: reader.origin(key), ..entry };
+        if is_free(reader, key, &entry, (length, &fields)) {
+            fields.push(entry);
+        }
+    }
+    fields.sort_by_key(|field| field.bit_offset);
+    let big_endian = order.unwrap_or(true);
+    device.process_data.images.push(ProcessImage { name, direction, length, overhead: 0, big_endian, fields });
+    if !group.items.is_empty() {
+        device.groups.insert(0, group);
+    }
+}
+
+fn binding(image: &CompactString, placed: &Placed) -> Binding {
+    Binding::Image { image: image.clone(), bit_offset: placed.bit_offset, bits: placed.bits }
+}
+
+fn entry(item: &Item) -> PdoEntry {
+    let (index, sub_index) = item.object().unwrap_or_default();
+    let entry = PdoEntry::new(index, sub_index, 0);
+    PdoEntry { kind: PdoEntryKind::Item, name: item.name.clone(), ty: item.ty, names: item.names.clone(), ..entry }
+}
+
+/// The place of an item; its own length where the field gives no type.
+fn of_item(
+    reader: &mut Reader<'_, '_>,
+    rows: &Rows,
+    key: &At<String>,
+    field: &ImageField,
+    item: &Item,
+) -> Option<Placed> {
+    let more = [field.bits.is_some(), field.values.is_some(), field.unit.is_some(), field.scale.is_some()];
+    if more.contains(&true) || field.min.is_some() || field.max.is_some() || field.na.is_some() {
+        let message = format!("`{}` is an item of the table: what it is stands in its row", brief(&key.value));
+        reader.report(&codes::TABLE_VALUE, reader.span(key), message);
+    }
+    let ty = match &field.ty {
+        Some(given) => types::named(&given.value).filter(|named| named.elements.is_none()).map(|named| named.ty),
+        None => Some(item.ty),
+    };
+    placed(reader, &rows.definitions.types, key, field, ty)
+}
+
+/// A field that is an item of its own: read as a row is, with what a field has in common with it.
+fn new_item(
+    reader: &mut Reader<'_, '_>,
+    rows: &mut Rows,
+    key: &At<String>,
+    field: &At<ImageField>,
+    direction: Direction,
+) -> Option<(Placed, Item)> {
+    let own = &field.value;
+    let row = Row {
+        ty: own.ty.clone(),
+        bits: own.bits.clone(),
+        values: own.values.clone(),
+        unit: own.unit.clone(),
+        scale: own.scale.clone(),
+        min: own.min.clone(),
+        max: own.max.clone(),
+        na: own.na.clone(),
+        orig: own.orig.clone(),
+        doc: own.doc.clone(),
+        cite: own.cite.clone(),
+        doubt: own.doubt.clone(),
+        doubts: own.doubts.clone(),
+        ..Row::default()
+    };
+    let named = Named { name: &key.value, key, number: 0, end: field.end };
+    let ty = rows.ty(reader, named, &row)?;
+    let placed = placed(reader, &rows.definitions.types, key, own, Some(ty))?;
+    let mut item = Item::new(Binding::Ascii(CompactString::default()));
+    item.access = match direction {
+        Direction::Receive => Access::ReadWrite,
+        Direction::Transmit => Access::ReadOnly,
+    };
+    rows.fill(reader, &mut item, named, &row, Some(ty));
+    Some((placed, item))
+}
+
+fn placed(
+    reader: &mut Reader<'_, '_>,
+    types: &[TypeDef],
+    key: &At<String>,
+    field: &ImageField,
+    ty: Option<Type>,
+) -> Option<Placed> {
+    let bits = match ty {
+        Some(Type::Named(id)) => types.get(id.0 as usize).and_then(|own| own.bits),
+        Some(Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes))) => bytes.checked_mul(8),
+        other => other.and_then(Type::bits),
+    };
+    let Some((at, bits)) = field.at.zip(bits) else {
+        let message = format!("the field `{}` has an `at`, and a `type` of a fixed length", brief(&key.value));
+        reader.report(&codes::TABLE_VALUE, reader.span(key), message);
+        return None;
+    };
+    let bit_offset = at.saturating_mul(8).saturating_add(field.bit.unwrap_or(0).into());
+    Some(Placed { bit_offset, bits })
+}
+
+/// Whether a field lies in its image, and where no other is; if not, that is reported.
+fn is_free(
+    reader: &mut Reader<'_, '_>,
+    key: &At<String>,
+    entry: &PdoEntry,
+    (length, fields): (u32, &[PdoEntry]),
+) -> bool {
+    let end = |entry: &PdoEntry| u64::from(entry.bit_offset) + u64::from(entry.bits);
+    if end(entry) > u64::from(length) * 8 {
+        let message = format!("`{}` ends behind the {length} bytes of its image", brief(&key.value));
+        reader.report(&codes::TABLE_PLACE, reader.span(key), message);
+        return false;
+    }
+    let overlaps =
+        |other: &&PdoEntry| u64::from(other.bit_offset) < end(entry) && u64::from(entry.bit_offset) < end(other);
+    let Some(other) = fields.iter().find(overlaps) else { return true };
+    let message = format!("`{}` lies where `{}` is", brief(&key.value), brief(&other.name));
+    let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
+    reader.diagnostics.push(found.note_at(other.origin.span, "the other one"));
+    false
+}

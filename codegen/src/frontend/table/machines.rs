@@ -1,0 +1,194 @@
+//! State machines and procedures.
+
+use super::at::{At, Entries};
+use super::format::{MachineTable, PatternTable, ProcedureTable, StepTable, TransitionTable};
+use super::tree::{cited, Reader};
+use super::{lints, process, value};
+use crate::diagnostics::codes;
+use crate::ir::{CompactString, Device, Pattern, Procedure, StateMachine, Step, Transition, Type, Value};
+use crate::source::Span;
+use crate::text::brief;
+
+/// Names that have to exist, and what each of them is.
+pub(super) type References = Vec<(At<String>, &'static str)>;
+
+fn text(at: &At<String>) -> CompactString {
+    at.value.as_str().into()
+}
+
+/// A state machine. States that transitions name have to exist, and so have commands; a command may be a message.
+pub(super) fn machine(
+    reader: &mut Reader<'_, '_>,
+    name: &At<String>,
+    table: &MachineTable,
+    device: &mut Device,
+    references: &mut References,
+) {
+    lints::machine(reader, table);
+    let (origin, cite) = (reader.origin(name), table.cite.as_ref().map(cited));
+    device.doubts.extend(reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()));
+    let states = patterns(reader, &table.states);
+    let commands = patterns(reader, &table.commands);
+    let mut transitions = Vec::new();
+    for given in &table.transitions {
+        transitions.extend(transition(reader, given, (&states, &commands), device));
+    }
+    for item in [&table.status, &table.control].into_iter().flatten() {
+        references.push((item.clone(), "item"));
+    }
+    device.machines.push(StateMachine {
+        name: text(name),
+        status_item: table.status.as_ref().map(text).unwrap_or_default(),
+        control_item: table.control.as_ref().map(text).unwrap_or_default(),
+        states,
+        commands,
+        transitions,
+        documentation: reader.documentation(table.doc.as_deref(), cite),
+    });
+}
+
+fn patterns(reader: &mut Reader<'_, '_>, entries: &Entries<PatternTable>) -> Vec<Pattern> {
+    let mut patterns = Vec::new();
+    for (name, own) in entries.iter() {
+        let own = &own.value;
+        let (Some(mask), Some(value)) = (own.mask, own.value) else {
+            let message = format!("`{}` has a `mask` and a `value`", brief(&name.value));
+            reader.report(&codes::TABLE_VALUE, reader.span(name), message);
+            continue;
+        };
+        patterns.push(Pattern {
+            name: text(name),
+            mask,
+            value,
+            names: reader.original(own.orig.as_deref()),
+            documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
+        });
+    }
+    patterns
+}
+
+/// A row of transitions: one for each state that it leaves.
+fn transition(
+    reader: &mut Reader<'_, '_>,
+    given: &At<TransitionTable>,
+    (states, commands): (&[Pattern], &[Pattern]),
+    device: &Device,
+) -> Vec<Transition> {
+    let own = &given.value;
+    let names = |list: &[Pattern]| list.iter().map(|own| own.name.to_string()).collect::<Vec<_>>();
+    let (states, mut causes) = (names(states), names(commands));
+    causes.extend(device.messages.iter().map(|message| message.name.to_string()));
+    let from: Vec<&String> = own.from.iter().flat_map(|list| &list.value.0).collect();
+    let mut mentioned: Vec<(&str, Span, &str, &[String])> = Vec::new();
+    if let Some(list) = &own.from {
+        mentioned.extend(from.iter().map(|name| (name.as_str(), reader.span(list), "state", states.as_slice())));
+    }
+    mentioned.extend(own.to.iter().map(|to| (to.value.as_str(), reader.span(to), "state", states.as_slice())));
+    mentioned
+        .extend(own.command.iter().map(|own| (own.value.as_str(), reader.span(own), "command", causes.as_slice())));
+    for (name, span, what, list) in mentioned {
+        if !list.iter().any(|own| own == name) {
+            reader.unresolved(what, name, span, list.iter().map(String::as_str));
+        }
+    }
+    if own.to.is_none() {
+        reader.report(&codes::TABLE_VALUE, reader.span(given), "a transition leads `to` a state");
+    }
+    let one = |from: Option<&String>| Transition {
+        number: own.number,
+        from: from.map(|name| name.as_str().into()),
+        to: own.to.as_ref().map(text).unwrap_or_default(),
+        command: own.command.as_ref().map(text),
+        documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
+    };
+    match from.is_empty() {
+        true => vec![one(None)],
+        false => from.into_iter().map(|name| one(Some(name))).collect(),
+    }
+}
+
+/// A sequence of steps.
+pub(super) fn procedure(
+    reader: &mut Reader<'_, '_>,
+    name: &At<String>,
+    table: &ProcedureTable,
+    device: &mut Device,
+    references: &mut References,
+) {
+    let (origin, cite) = (reader.origin(name), table.cite.as_ref().map(cited));
+    device.doubts.extend(reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()));
+    for own in table.steps.iter().filter_map(|step| step.value.argument.as_ref()) {
+        if !table.arguments.iter().any(|known| known.value == own.value) {
+            let known = table.arguments.iter().map(|known| known.value.as_str());
+            reader.unresolved("argument", &own.value, reader.span(own), known);
+        }
+    }
+    let steps = table.steps.iter().filter_map(|given| step(reader, given, references)).collect();
+    device.procedures.push(Procedure {
+        name: text(name),
+        names: reader.original(table.orig.as_deref()),
+        arguments: table.arguments.iter().map(text).collect(),
+        steps,
+        documentation: reader.documentation(table.doc.as_deref(), cite),
+        origin,
+    });
+}
+
+/// What a step is, as its keys are combined.
+const STEP: &str =
+    "a step is one of: `write` with `value` (and `mask`) or `argument`; `read`; `wait` with `value` (and \
+                    `mask`, `timeout`); `delay`; `send`; `exchange`; `manual`";
+
+fn step(reader: &mut Reader<'_, '_>, given: &At<StepTable>, references: &mut References) -> Option<Step> {
+    let own = &given.value;
+    let number = own.value.as_ref().and_then(|literal| value::convert(literal, Type::Opaque(None), false));
+    let kinds = [
+        own.write.is_some(),
+        own.read.is_some(),
+        own.wait.is_some(),
+        own.delay.is_some(),
+        own.send.is_some(),
+        own.exchange.is_some(),
+        own.manual.is_some(),
+    ];
+    let is_one = kinds.iter().filter(|is_given| **is_given).count() == 1;
+    let has_value = own.value.is_some() || own.mask.is_some() || own.timeout.is_some() || own.argument.is_some();
+    let found = if !is_one {
+        None
+    } else if let Some(item) = &own.write {
+        references.push((item.clone(), "item"));
+        written(own, text(item), number)
+    } else if let Some(item) = &own.wait {
+        references.push((item.clone(), "item"));
+        let mask = own.mask.as_ref().map_or(u64::MAX, |mask| mask.value);
+        let timeout = own.timeout.as_ref().map(|timeout| timeout.value);
+        number.filter(|_| own.argument.is_none()).map(|value| Step::WaitFor(text(item), mask, value, timeout))
+    } else if has_value {
+        None
+    } else if let Some(item) = &own.read {
+        references.push((item.clone(), "item"));
+        Some(Step::Read(text(item)))
+    } else if let Some(message) = &own.send {
+        references.push((message.clone(), "message"));
+        Some(Step::Send(text(message)))
+    } else if let Some(exchange) = &own.exchange {
+        return process::direction(reader, Some(exchange)).map(Step::Exchange);
+    } else if let Some(words) = &own.manual {
+        Some(Step::Manual(words.clone()))
+    } else {
+        own.delay.map(Step::Delay)
+    };
+    if found.is_none() {
+        reader.report(&codes::TABLE_VALUE, reader.span(given), STEP);
+    }
+    found
+}
+
+fn written(own: &StepTable, item: CompactString, number: Option<Value>) -> Option<Step> {
+    match (number, &own.argument, &own.mask, &own.timeout) {
+        (Some(value), None, None, None) => Some(Step::Write(item, value)),
+        (Some(value), None, Some(mask), None) => Some(Step::WriteBits(item, mask.value, value)),
+        (None, Some(argument), None, None) => Some(Step::WriteArgument(item, text(argument))),
+        _ => None,
+    }
+}

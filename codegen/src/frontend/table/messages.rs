@@ -1,0 +1,337 @@
+//! Messages of a command protocol, and how they are framed.
+
+use super::at::{At, FlagOr, TextOr};
+use super::format::{CompletionTable, FieldTable, FramingTable, MessageTable, Row, SpaceTable};
+use super::machines::References;
+use super::rows::{Named, Rows};
+use super::tree::{cited, Reader};
+use super::{place, types, value};
+use crate::diagnostics::codes;
+use crate::ir::{
+    Access, Availability, Binding, CompactString, Completion, Condition, Device, Framing, Item, Message, MessageField,
+    MessageValue, ParameterSpace, Type,
+};
+use crate::text::brief;
+
+/// How deep repeated fields are read.
+const MAX_DEPTH: usize = 4;
+
+/// The words of `check`.
+const CHECKS: [(&str, &str); 5] =
+    [("xor", "xor"), ("sum", "sum"), ("lrc", "lrc"), ("crc8", "crc8"), ("crc16", "crc16")];
+
+fn text(at: &At<String>) -> CompactString {
+    at.value.as_str().into()
+}
+
+/// How frames are delimited and checked.
+pub(super) fn framing(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, device: &mut Device) {
+    let own = &table.value;
+    device.framing = Some(Box::new(Framing {
+        start: own.start,
+        end: own.end,
+        escape: own.escape,
+        escape_xor: own.escape_xor,
+        escaped: own.escaped.clone(),
+        check: own.check.as_ref().and_then(|word| reader.word(word, "check", &CHECKS)).unwrap_or_default().into(),
+        check_from: own.check_from.as_ref().map(text),
+        check_escaped: own.check_escaped.unwrap_or(own.escape.is_some()),
+        check_seed: own.seed,
+        max_data: own.max_data,
+        documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
+    }));
+    if let Some(field) = &own.check_from {
+        let first = |message: &Message| field_names(&message.request).any(|name| *name == field.value);
+        if !device.messages.iter().any(first) {
+            let names: Vec<_> = device.messages.iter().flat_map(|message| field_names(&message.request)).collect();
+            reader.unresolved("field", &field.value, reader.span(field), names.iter().map(|name| name.as_str()));
+        }
+    }
+}
+
+/// The spaces whose numbers are those of parameters.
+pub(super) fn spaces<'t>(
+    reader: &mut Reader<'_, '_>,
+    tables: impl Iterator<Item = (&'t At<String>, &'t SpaceTable)>,
+    device: &mut Device,
+    references: &mut References,
+) {
+    for (name, table) in tables {
+        let Some(FlagOr::Table(rule)) = &table.parameter else { continue };
+        let messages = [&rule.read, &rule.write, &rule.store];
+        references.extend(messages.into_iter().flatten().map(|own| (own.clone(), "message")));
+        device.parameter_spaces.push(ParameterSpace {
+            name: text(name),
+            read: rule.read.as_ref().map(text),
+            write: rule.write.as_ref().map(text),
+            store: rule.store.as_ref().map(text),
+            byte_order: rule.order.as_ref().map(|order| byte_order(reader, order)).unwrap_or_default(),
+            documentation: reader.documentation(table.doc.as_deref(), None),
+            origin: reader.origin(name),
+        });
+    }
+}
+
+/// A request and its reply.
+pub(super) fn message(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<MessageTable>, device: &mut Device) {
+    let own = &table.value;
+    let Some(name) = &own.name else {
+        reader.report(&codes::TABLE_VALUE, reader.span(table), "a message has a `name`");
+        return;
+    };
+    let (origin, cite) = (reader.origin(name), own.cite.as_ref().map(cited));
+    if device.messages.iter().any(|other| other.name == name.value) {
+        let message = format!("there are two messages called `{}`", brief(&name.value));
+        reader.report(&codes::TABLE_DUPLICATE, reader.span(name), message);
+    }
+    let mut with = Fields { reader, rows, request: Vec::new() };
+    let request = with.list(&own.request, 0);
+    with.request = field_names(&request).cloned().collect();
+    let reply = with.list(&own.reply, 0);
+    let replies: Vec<CompactString> = field_names(&reply).cloned().collect();
+    let completion = completion(reader, rows, own.completion.as_ref(), &replies);
+    references(own, &mut rows.references);
+    let availability = availability(own);
+    let doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref());
+    let effects = own.effects.iter().flat_map(|effects| &effects.0);
+    device.messages.push(Message {
+        name: text(name),
+        request,
+        reply,
+        completion,
+        after: own.after.as_ref().map(text),
+        error: own.error.as_ref().map(text),
+        side_effects: effects.map(|effect| effect.as_str().into()).collect(),
+        accepted_when: conditions(reader, rows, own),
+        names: reader.original(own.orig.as_deref()),
+        availability: (availability != Availability::default()).then(|| Box::new(availability)),
+        accepted_in: own.accepted_in.iter().map(text).collect(),
+        documentation: reader.documentation(own.doc.as_deref(), cite),
+        doubts,
+        origin,
+    });
+}
+
+fn availability(own: &MessageTable) -> Availability {
+    Availability {
+        models: own.models.iter().flatten().map(text).collect(),
+        since: own.since.as_deref().map(Into::into),
+        until: own.until.as_deref().map(Into::into),
+        replaced_by: own.replaced_by.as_ref().map(text),
+        ..Availability::default()
+    }
+}
+
+/// The names that a message refers to.
+fn references(own: &MessageTable, all: &mut References) {
+    let messages = [&own.after, &own.error, &own.replaced_by];
+    all.extend(messages.into_iter().flatten().map(|name| (name.clone(), "message")));
+    all.extend(own.models.iter().flatten().map(|name| (name.clone(), "model")));
+    all.extend(own.accepted_in.iter().map(|name| (name.clone(), "state")));
+}
+
+fn conditions(reader: &mut Reader<'_, '_>, rows: &mut Rows, own: &MessageTable) -> Vec<Condition> {
+    let entries = own.when.iter().flat_map(|when| when.iter());
+    let one = |(name, values): &(At<String>, At<_>)| super::at::Entries(vec![(name.clone(), values.clone())]);
+    let each: Vec<_> = entries.map(one).collect();
+    each.iter().filter_map(|entry| rows.definitions.condition(reader, Some(entry))).collect()
+}
+
+fn completion(
+    reader: &mut Reader<'_, '_>,
+    rows: &mut Rows,
+    given: Option<&At<TextOr<CompletionTable>>>,
+    replies: &[CompactString],
+) -> Completion {
+    let Some(given) = given else { return Completion::Immediate };
+    let found = match &given.value {
+        TextOr::Text(word) => match word.as_str() {
+            "immediate" => Some(Completion::Immediate),
+            "reply" => Some(Completion::Reply),
+            _ => None,
+        },
+        TextOr::Table(table) => match (&table.poll, table.delay) {
+            (Some(item), None) => {
+                // A bit behind a dot is a part of the item, or of the field.
+                let whole = item.value.split('.').next().unwrap_or_default();
+                if !replies.iter().any(|own| own == whole) {
+                    let name = At { value: whole.to_owned(), start: item.start, end: item.end };
+                    rows.references.push((name, "item or field"));
+                }
+                let value = table.value.as_ref().and_then(|own| value::convert(own, Type::Opaque(None), false));
+                Some(Completion::Polled { item: text(item), mask: table.mask, value })
+            }
+            (None, Some(delay)) if table.mask.is_none() && table.value.is_none() => Some(Completion::Delayed(delay)),
+            _ => None,
+        },
+    };
+    if found.is_none() {
+        let message = "`completion` is `\"immediate\"`, `\"reply\"`, `{ poll = \"item\" }` (and `mask`, `value`) or \
+                       `{ delay = 100 }`";
+        reader.report(&codes::TABLE_VALUE, reader.span(given), message);
+    }
+    found.unwrap_or_default()
+}
+
+/// The names of the values in fields, those of repeated ones too.
+fn field_names(fields: &[MessageField]) -> Box<dyn Iterator<Item = &CompactString> + '_> {
+    Box::new(fields.iter().flat_map(|field| -> Box<dyn Iterator<Item = &CompactString>> {
+        match field {
+            MessageField::Value(value) => Box::new(std::iter::once(&value.item.name)),
+            MessageField::Repeat { fields, .. } => field_names(fields),
+            _ => Box::new(std::iter::empty()),
+        }
+    }))
+}
+
+/// Reads fields.
+struct Fields<'r, 's, 'd> {
+    reader: &'r mut Reader<'s, 'd>,
+    rows: &'r mut Rows,
+    /// The values in the request, for its reply.
+    request: Vec<CompactString>,
+}
+
+impl Fields<'_, '_, '_> {
+    fn list(&mut self, list: &[At<FieldTable>], depth: usize) -> Vec<MessageField> {
+        let mut fields: Vec<MessageField> = Vec::new();
+        for field in list {
+            let before: Vec<CompactString> = field_names(&fields).cloned().collect();
+            fields.extend(self.one(field, &before, depth));
+        }
+        fields
+    }
+
+    fn one(&mut self, field: &At<FieldTable>, before: &[CompactString], depth: usize) -> Option<MessageField> {
+        let own = &field.value;
+        let kinds = [
+            own.field.is_some(),
+            own.bytes.is_some(),
+            own.echo.is_some(),
+            own.code.is_some(),
+            own.value_of.is_some(),
+            own.pad.is_some(),
+            own.repeat.is_some(),
+            own.rest,
+        ];
+        let is_one = kinds.iter().filter(|is_given| **is_given).count() == 1;
+        if !is_one || (own.repeat.is_some() && depth >= MAX_DEPTH) {
+            let message = "a field is one of `field`, `bytes`, `echo`, `code`, `value_of`, `pad`, `repeat`, `rest`";
+            self.reader.report(&codes::TABLE_VALUE, self.reader.span(field), message);
+            return None;
+        }
+        if let Some(name) = &own.field {
+            return self.typed(field, name);
+        }
+        if let Some(echo) = &own.echo {
+            return Some(self.echo(echo, field));
+        }
+        if let Some(space) = &own.code {
+            self.space(space);
+            return Some(MessageField::ItemCode { space: text(space), bits: self.code_bits(field) });
+        }
+        if let Some(space) = &own.value_of {
+            self.space(space);
+            return Some(MessageField::ItemValue { space: text(space) });
+        }
+        if let Some(repeat) = &own.repeat {
+            if let Some(count) = repeat.count.as_ref().filter(|count| !before.iter().any(|own| *own == count.value)) {
+                let known = before.iter().map(CompactString::as_str);
+                self.reader.unresolved("field", &count.value, self.reader.span(count), known);
+            }
+            let fields = self.list(&repeat.fields, depth + 1);
+            return Some(MessageField::Repeat { count: repeat.count.as_ref().map(text), max: repeat.max, fields });
+        }
+        let fixed = own.bytes.clone().map(MessageField::Constant).or(own.pad.map(MessageField::Padding));
+        Some(fixed.unwrap_or(MessageField::Rest))
+    }
+
+    fn echo(&mut self, echo: &At<String>, field: &At<FieldTable>) -> MessageField {
+        if !self.request.iter().any(|own| *own == echo.value) {
+            let known = self.request.iter().map(CompactString::as_str);
+            self.reader.unresolved("field of the request", &echo.value, self.reader.span(echo), known);
+        }
+        let bytes = field.value.part.as_ref().and_then(|part| {
+            let range = place::range(&super::tree::number_or_text(&part.value));
+            let found = range.and_then(|(first, last)| Some((u8::try_from(first).ok()?, u8::try_from(last).ok()?)));
+            let found = found.filter(|(first, last)| first <= last);
+            if found.is_none() {
+                let message = "bytes of the field, the first on the wire being 0: write `\"1..3\"`";
+                self.reader.report(&codes::TABLE_PLACE, self.reader.span(part), message);
+            }
+            found
+        });
+        MessageField::Echo { field: text(echo), bytes }
+    }
+
+    fn space(&mut self, name: &At<String>) {
+        if !self.rows.spaces.iter().any(|space| space.name == name.value) {
+            let known: Vec<String> = self.rows.spaces.iter().map(|space| space.name.clone()).collect();
+            self.reader.unresolved("space", &name.value, self.reader.span(name), known.iter().map(String::as_str));
+        }
+    }
+
+    /// Length of a code; 16 bits where the field doesn't say.
+    fn code_bits(&mut self, field: &At<FieldTable>) -> u8 {
+        let Some(ty) = &field.value.ty else { return 16 };
+        match types::named(&ty.value).map(|named| named.ty) {
+            Some(Type::Unsigned(bits)) => bits,
+            _ => {
+                let message = format!("`{}` is no type of a code such as `u16`", brief(&ty.value));
+                self.reader.report(&codes::TABLE_VALUE, self.reader.span(ty), message);
+                16
+            }
+        }
+    }
+
+    /// A value in a message: read as a row is, with what a field has in common with it.
+    fn typed(&mut self, field: &At<FieldTable>, name: &At<String>) -> Option<MessageField> {
+        let own = &field.value;
+        let row = Row {
+            ty: own.ty.clone(),
+            bits: own.bits.clone(),
+            values: own.values.clone(),
+            unit: own.unit.clone(),
+            scale: own.scale.clone(),
+            offset: own.offset,
+            min: own.min.clone(),
+            max: own.max.clone(),
+            na: own.na.clone(),
+            orig: own.orig.clone(),
+            doc: own.doc.clone(),
+            cite: own.cite.clone(),
+            doubt: own.doubt.clone(),
+            doubts: own.doubts.clone(),
+            ..Row::default()
+        };
+        let named = Named { name: &name.value, key: name, number: 0, end: field.end };
+        let ty = self.rows.ty(self.reader, named, &row)?;
+        let mut item = Item::new(Binding::Ascii(CompactString::default()));
+        item.bindings.clear();
+        item.access = Access::ReadWrite;
+        self.rows.fill(self.reader, &mut item, named, &row, Some(ty));
+        let byte_order = own.order.as_ref().map(|order| byte_order(self.reader, order)).unwrap_or_default();
+        let bytes = self.rows.underlying(ty).bits().map(|bits| bits.div_ceil(8) as usize);
+        if let Some((order, bytes)) =
+            own.order.as_ref().zip(bytes.filter(|&bytes| !byte_order.is_empty() && byte_order.len() != bytes))
+        {
+            let message = format!("the order has {} bytes, and the type {bytes}", byte_order.len());
+            self.reader.report(&codes::TABLE_VALUE, self.reader.span(order), message);
+        }
+        Some(MessageField::Value(Box::new(MessageValue { item, byte_order })))
+    }
+}
+
+/// `CDAB`: the bytes in the order of the wire, the most significant one being `A`.
+fn byte_order(reader: &mut Reader<'_, '_>, order: &At<String>) -> Vec<u8> {
+    let bytes: Vec<u8> = order.value.bytes().map(|letter| letter.wrapping_sub(b'A')).collect();
+    let mut sorted = bytes.clone();
+    sorted.sort_unstable();
+    let is_order = (1..=8).contains(&bytes.len()) && sorted.iter().zip(0u8..).all(|(own, expected)| *own == expected);
+    if is_order {
+        return bytes;
+    }
+    let message = format!("`{}` is no order of bytes: each letter from `A` on once, as in `CDAB`", brief(&order.value));
+    reader.report(&codes::TABLE_VALUE, reader.span(order), message);
+    Vec::new()
+}

@@ -1,0 +1,96 @@
+//! State machines and procedures.
+
+use serde::{Deserialize, Serialize};
+
+use super::{CompactString, Direction, Documentation, Texts, Value};
+use crate::source::Origin;
+
+/// A state machine.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StateMachine {
+    /// Its name.
+    pub name: CompactString,
+    /// The item that tells the state.
+    pub status_item: CompactString,
+    /// The item that commands it.
+    pub control_item: CompactString,
+    /// States, by the bits of the status item.
+    pub states: Vec<Pattern>,
+    /// Commands, by the bits of the control item.
+    pub commands: Vec<Pattern>,
+    /// From which state to which.
+    pub transitions: Vec<Transition>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+}
+
+/// A state or a command: bits that have to have a value.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Pattern {
+    /// Its name.
+    pub name: CompactString,
+    /// The bits that count.
+    pub mask: u32,
+    /// The value that they have.
+    pub value: u32,
+    /// The name in other languages.
+    pub names: Texts,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+}
+
+/// A change from one state to another.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Transition {
+    /// Its number in the source.
+    pub number: Option<u16>,
+    /// The state that it leaves; `None` = any.
+    pub from: Option<CompactString>,
+    /// The state that it leads to.
+    pub to: CompactString,
+    /// The command or the message that causes it; `None` where the device does.
+    pub command: Option<CompactString>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+}
+
+/// A sequence of steps.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Procedure {
+    /// Its name.
+    pub name: CompactString,
+    /// The name in other languages.
+    pub names: Texts,
+    /// What its caller gives: names that steps write.
+    pub arguments: Vec<CompactString>,
+    /// Its steps.
+    pub steps: Vec<Step>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+    /// Where it is declared.
+    pub origin: Origin,
+}
+
+/// A step of a procedure.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Step {
+    /// Write a value to an item.
+    Write(CompactString, Value),
+    /// Write a value to some bits of an item, and leave the others as they are: item, mask, value.
+    WriteBits(CompactString, u64, Value),
+    /// Write to an item what the caller gives: item, name of the argument.
+    WriteArgument(CompactString, CompactString),
+    /// Read an item: its value is what the procedure gives.
+    Read(CompactString),
+    /// Wait until an item, under a mask, has a value; at most so many milliseconds, where the source says.
+    WaitFor(CompactString, u64, Value, Option<u32>),
+    /// Wait so many milliseconds.
+    Delay(u32),
+    /// Send a message.
+    Send(CompactString),
+    /// Exchange process data once in this direction.
+    Exchange(Direction),
+    /// Something a person has to do.
+    Manual(String),
+}
