@@ -944,6 +944,139 @@ fn bits_that_nobody_named() {
     flags(&text, &[]);
 }
 
+// What a row says of its values, held against itself.
+
+#[test]
+fn only_values_against_the_limits_of_their_row() {
+    let found = |row: &str, code: &str, at: &str, says: &str| {
+        let found = registers(&format!("a = {{ {row} }}\n"), &[(code, at)]);
+        assert_eq!(message(&found, 0), says);
+        assert!(!help(&found, 0).is_empty() || code == "EDS025" || says.starts_with("the default"), "{row}");
+    };
+    let outside = |row: &str, at: &str, says: &str| found(row, "EDS050", at, says);
+    outside(
+        r#"reg = 20, type = "u16", min = 5, max = 9, fixed = 4"#,
+        "4",
+        "the fixed value 4 is below the lower limit 5",
+    );
+    outside(r#"reg = 20, type = "u16", fixed = 4, default = 5"#, "5", "the default 5 isn't the fixed value 4");
+    outside(
+        r#"reg = 20, type = "u16", allowed = [1, 2], default = 4"#,
+        "4",
+        "the default 4 is none of the allowed values",
+    );
+    outside(
+        r#"reg = 20, type = "u16", allowed = [1, 2], min = 2, max = 9"#,
+        "[1, 2]",
+        "the allowed value 1 is below the lower limit 2",
+    );
+    outside(
+        r#"reg = 20, type = "u16", min = 0, max = 9, writable = [3, 12]"#,
+        "[3, 12]",
+        "the value 12, which may be written, is above the upper limit 9",
+    );
+    outside(
+        r#"reg = 20, type = "u16[3]", min = 1, max = 2, default = [1, 2, 7]"#,
+        "[1, 2, 7]",
+        "the default 7 of element 3 is above the upper limit 2",
+    );
+    outside(
+        r#"reg = 20, type = "u16[2]", min = 1, max = 2, default = [3, 2]"#,
+        "[3, 2]",
+        "the default 3 is above the upper limit 2",
+    );
+    found(r#"reg = 20, type = "u16", writable = [70000]"#, "EDS025", "[70000]", "UNSIGNED16 is never 70000");
+    let short = r#"a = { reg = 20, type = "u16[3]", default = [1, 2] }
+"#;
+    registers(short, &[("TAB004", "[1, 2]")]);
+}
+
+#[test]
+fn only_values_within_the_limits_of_their_row() {
+    let rows = r#"a = { reg = 20, type = "u16", min = 4, max = 4, fixed = 4, default = 4 }
+b = { reg = 21, type = "u16", min = 1, max = 100, allowed = [1, 10, 100], default = 10, writable = [1] }
+c = { reg = 30, type = "u16[3]", min = 1, max = 2, default = [1, 2, 2] }
+"d{n}" = { reg = 40, count = 2, type = "u16", min = 1, max = 2, default = [1, 2] }
+e = { reg = 50, type = "u16[3]", min = 1, max = 2, default = 1 }
+"#;
+    registers(rows, &[]);
+}
+
+#[test]
+fn item_34_a_length_that_is_not_that_of_the_type() {
+    let rows = r#"d = { reg = 6, type = "u32", length = 2 }
+f = { reg = 12, type = "str(25)", length = 27 }
+g = { reg = 40, type = "str(25)", summary = { length = 27 } }
+"#;
+    let found = registers(rows, &[("TAB020", "2"), ("TAB020", "27"), ("TAB021", "27")]);
+    assert_eq!(message(&found, 0), "`d` is printed with 2 bytes, and its type takes 4");
+    assert_eq!(message(&found, 2), "the summary says 27 bytes, and the row 25");
+    let rows = r#"d = { reg = 6, type = "u32", length = 4 }
+e = { esc = 0x100, type = "u32", length = 4 }
+f = { reg = 12, type = "str(25)", length = 25, summary = { length = 25 } }
+g = { reg = 40, type = "u8[3]", length = 3 }
+"#;
+    registers(rows, &[]);
+}
+
+#[test]
+fn registers_that_reach_into_each_other() {
+    let rows = r#"c = { reg = "12-13", type = "u32" }
+d = { reg = 13, type = "u16" }
+e = { reg = 20, type = "u16[4]" }
+f = { reg = 22, type = "u16" }
+h = { reg = 30, type = "u8", part = "7-0" }
+i = { reg = 30, type = "u8", part = "8-1" }
+"#;
+    let found = registers(rows, &[("TAB007", "d"), ("TAB007", "f"), ("TAB007", "i")]);
+    assert_eq!(message(&found, 0), "`d` takes holding register 13, and `c` takes 12 to 13");
+    assert_eq!(message(&found, 1), "`f` takes holding register 22, and `e` takes 20 to 23");
+    assert_eq!(message(&found, 2), "`i` and `h` are parts of object 0x201E:0 and share bits");
+    // The other way round, and beyond one that follows.
+    let rows = r#"d = { reg = 13, type = "u16" }
+c = { reg = "12-13", type = "u32" }
+"#;
+    registers(rows, &[("TAB007", "c")]);
+    let rows = r#"c = { reg = "12-13", type = "u32" }
+d = { reg = 14, type = "u16" }
+b = { reg = 11, type = "u16" }
+h = { reg = 30, type = "u8", part = "7-0" }
+i = { reg = 30, type = "u8", part = "15-8" }
+"#;
+    registers(rows, &[]);
+}
+
+#[test]
+fn bits_and_values_of_one_name() {
+    let rows = r#"j = { reg = 10, type = "u16", bits = { 0 = "x", 15 = "x", 3 = { reserved = 0 }, 4 = { reserved = 0 } } }
+k = { reg = 11, type = "u16", enum = { 0 = "x", 1 = "x", 2 = { zone = "reserved" }, 3 = { zone = "reserved" } } }
+l = { reg = 12, type = "u16", enum = { 0 = { name = "x", until = "6" }, 1 = { name = "x", since = "6" } } }
+"#;
+    let found = registers(rows, &[("TAB040", "j"), ("TAB040", "k")]);
+    assert_eq!(message(&found, 0), "bit 0 and bit 15 of `j` are both called `x`");
+    assert_eq!(message(&found, 1), "0 and 1 of `k` are both called `x`");
+}
+
+#[test]
+fn labels_that_are_empty_and_values_without_one() {
+    let rows = r#"f = { reg = 6, type = "u16", bits = { 0 = "x", 8 = "", 9 = "" } }
+e = { reg = 5, type = "u16", enum = { 0 = "x", 1 = " ", 2 = { zone = "reserved" } } }
+i = { reg = 9, type = "u16", writable = [1, 5], enum = { 0 = "x", 1 = "y" } }
+"#;
+    let found = registers(rows, &[("EDS038", "8"), ("EDS038", "9"), ("EDS038", "1"), ("TAB018", "i")]);
+    assert_eq!(message(&found, 0), "bit 8 of `f` has an empty name");
+    assert_eq!(message(&found, 3), "the writable value 5 has no name in `i`");
+    let values = format!(
+        r#"{REGISTERS}h = {{ reg = 8, type = "u16", bits = {{ "1-0" = {{ name = "f", values = {{ 0 = "a", 1 = "b", 3 = "c" }} }},
+    "15-2" = {{ reserved = 0 }} }} }}
+"#
+    );
+    let found = flags_with(&["unnamed-bits"], &values, &[("TAB036", "h")]);
+    assert_eq!(message(&found, 0), "bits 1-0 (`f`) of `h` says nothing of the values 2");
+    flags(&values, &[]);
+    flags_with(&["unnamed-bits"], &values.replace("3 = \"c\"", "\"2..3\" = \"c\""), &[]);
+}
+
 // Items of section 4 that no linter sees, because nothing in a faithful table contradicts anything else:
 //
 // - 11, 15, 42, 50, 54, 55: what is wrong is the wording, or the meaning of a word, beside facts that agree (a TPDO that is

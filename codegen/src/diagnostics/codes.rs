@@ -225,7 +225,8 @@ codes! {
         "Octet strings are pairs of hexadecimal digits. The text is kept as it is."
     EDS038 EMPTY_NAME "empty-name" Lint Warn
         "an object has no name"
-        "ParameterName is mandatory. Generated code names the object by its index."
+        "ParameterName is mandatory. Generated code names the object by its index. In a register table, a value or a bit whose \
+        label is empty is found too."
     EDS039 COMPLEX_DATA_TYPE "complex-data-type" Lint Warn
         "an entry has a reserved or a record data type"
         "A single value can't have a record type (0x20 to 0x23) or a reserved code. It is kept as raw bytes."
@@ -266,7 +267,8 @@ codes! {
         0x1003 are exempt, because there it is the number of valid entries."
     EDS050 DEFAULT_OUT_OF_LIMITS "default-out-of-limits" Lint Warn
         "a default lies outside of its limits"
-        "The device could not be written with its own default. One of the three numbers is wrong."
+        "The device could not be written with its own default. One of the numbers is wrong. In a register table the same is \
+        said of the only value (`fixed`), of the values that are allowed, and of those that may be written."
     EDS051 LIMITS_SWAPPED "limits-swapped" Lint Warn
         "LowLimit is greater than HighLimit"
         "No value satisfies the limits. They are kept, and generated code doesn't check them."
@@ -674,9 +676,10 @@ codes! {
         "Registers are `63` or `\"63-64\"`, objects `0x6040` or `\"0x1018:1\"`, ranges of objects `\"0x1400..0x1403:1\"`, bits `7` or \
         `\"3-2\"`."
     TAB007 TABLE_DUPLICATE "table-duplicate" Error Deny
-        "a name or an address occurs twice"
-        "Names of registers become names of Rust, and an address has one value. Where the manual has one name for two \
-        registers, one of them gets a suffix and a doubt."
+        "a name or an address occurs twice, or two rows share a register"
+        "Names of registers become names of Rust, and an address has one value: two rows share neither a \
+        register nor bits of their parts of one. Where the manual has one name for two registers, one of them gets a suffix and \
+        a doubt."
     TAB008 ROW_WITHOUT_ADDRESS "row-without-address" Error Deny
         "a row has no address"
         "An item is reached by a register (`reg`), an object (`obj`), a parameter (`param`), a name (`ascii`) or an address in a \
@@ -718,14 +721,14 @@ codes! {
     TAB018 UNNAMED_VALUE "unnamed-value" Lint Warn
         "a default, limit or condition is a value that is reserved or has no name"
         "The value is reserved, or has no name in an enumeration that is closed, or a limit is one off the last value with a \
-        name. For the fields of a bit field the default and the fixed value are looked at, for conditions each value."
+        name, or a value that may be written has none. For the fields of a bit field the default and the fixed value are looked at, for conditions each value."
     TAB019 RESERVED_BITS "reserved-bits" Lint Warn
         "a default, limit or fixed value sets bits without a meaning"
         "The number sets a bit that is reserved or that nobody named, or lacks one that is always set. A limit is looked at where \
         it is a pattern of bits, and not all bits up to some place."
     TAB020 LENGTH_MISMATCH "length-mismatch" Lint Warn
         "a length isn't that of the type"
-        "The bytes of an address, or of a default text, aren't as many as the type takes."
+        "The bytes of an address, of a default text, or those that the manual prints (`length`) aren't as many as the type takes."
     TAB021 SUMMARY_DIFFERS "summary-differs" Lint Warn
         "another place of the manual says otherwise"
         "The row's `summary` holds what a table of contents, an overview or the prose says of the same item. The row itself is \
@@ -784,8 +787,8 @@ codes! {
         "The mapping that the procedure writes has no effect, because the sync manager carries other PDOs."
     TAB036 UNNAMED_BITS "unnamed-bits" Lint Allow
         "a bit field says nothing of some bits"
-        "Bits that are neither named nor reserved. Manuals leave them out as often as not, so that this lint is off unless \
-        asked for."
+        "Bits that are neither named nor reserved, or values of a narrow field between those that have names. Manuals leave \
+        them out as often as not, so that this lint is off unless asked for."
     TAB037 MODE_WITHOUT_BITS "mode-without-bits" Lint Allow
         "bits that depend on a mode have no meaning in one of the modes"
         "Some modes don't use the bits, so that this lint is off unless asked for."
@@ -797,7 +800,7 @@ codes! {
         "a state or command wants bits that its mask leaves out"
         "The value has bits that the mask doesn't have, so that nothing ever matches it."
     TAB040 NAME_TWICE "name-twice" Lint Warn
-        "two objects, or two sub-entries of an object, have one name"
+        "two objects, sub-entries of an object, bits or values have one name"
         "Often the name was copied from the box above. Generated code tells the two apart by a number."
     TAB041 BROKEN_NAME "broken-name" Lint Warn
         "a name has the hyphen of a line break in it"

@@ -1,10 +1,13 @@
 //! After this pass the fields of every bit field were held against the integer below and against each other.
 
 use super::firmware_comparable::apart;
-use super::owner::Owner;
+use super::owner::{reserved, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{BitFieldEntry, BitMeaning, Shape, Type, TypeDef, TypeId};
 use crate::text::brief;
+
+/// The widest field of which every value is looked for.
+const MAX_LISTED_BITS: u8 = 4;
 
 pub(super) fn run(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     for (definition, id) in owner.types.iter().zip(0..) {
@@ -12,7 +15,7 @@ pub(super) fn run(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
         let Some(width) = base.bits().filter(|&bits| bits <= 64) else { continue };
         outside(owner, TypeId(id), definition, (*base, width), fields, diagnostics);
         overlaps(definition, fields, diagnostics);
-        unnamed(definition, width, fields, diagnostics);
+        unnamed(owner, definition, width, fields, diagnostics);
     }
 }
 
@@ -69,7 +72,7 @@ fn overlaps(definition: &TypeDef, fields: &[BitFieldEntry], diagnostics: &mut Di
 }
 
 /// Whether never both meanings hold, or one is the rule and the other its case.
-fn told_apart(one: &BitFieldEntry, other: &BitFieldEntry) -> bool {
+pub(super) fn told_apart(one: &BitFieldEntry, other: &BitFieldEntry) -> bool {
     let by_condition = match (&one.when, &other.when) {
         (None, None) => false,
         (Some(one), Some(other)) => {
@@ -80,7 +83,13 @@ fn told_apart(one: &BitFieldEntry, other: &BitFieldEntry) -> bool {
     by_condition || apart(one.availability.as_deref(), other.availability.as_deref())
 }
 
-fn unnamed(definition: &TypeDef, width: u32, fields: &[BitFieldEntry], diagnostics: &mut Diagnostics) {
+fn unnamed(
+    owner: Owner<'_>,
+    definition: &TypeDef,
+    width: u32,
+    fields: &[BitFieldEntry],
+    diagnostics: &mut Diagnostics,
+) {
     if fields.is_empty() || !diagnostics.wants(&codes::UNNAMED_BITS) {
         return;
     }
@@ -88,6 +97,22 @@ fn unnamed(definition: &TypeDef, width: u32, fields: &[BitFieldEntry], diagnosti
     let missing: Vec<String> = (0..width).filter(|bit| named >> bit & 1 == 0).map(|bit| bit.to_string()).collect();
     if !missing.is_empty() {
         let message = format!("`{}` says nothing of the bits {}", brief(&definition.name), missing.join(", "));
+        diagnostics.push(Diagnostic::new(&codes::UNNAMED_BITS, definition.origin.span, message));
+    }
+    fields.iter().for_each(|field| unnamed_values(owner, definition, field, diagnostics));
+}
+
+/// The values of a field whose others have names. A wide field has too many to want each of them.
+fn unnamed_values(owner: Owner<'_>, definition: &TypeDef, field: &BitFieldEntry, diagnostics: &mut Diagnostics) {
+    let BitMeaning::Enumeration(id) = field.meaning else { return };
+    let Some((values, _)) = owner.enumeration(Type::Named(id)).filter(|_| field.bits <= MAX_LISTED_BITS) else {
+        return;
+    };
+    let missing = (0..1i128 << field.bits).filter(|&value| reserved(values, value).is_none());
+    let missing: Vec<String> = missing.map(|value| value.to_string()).collect();
+    if !missing.is_empty() {
+        let (name, missing) = (brief(&definition.name), missing.join(", "));
+        let message = format!("{} of `{name}` says nothing of the values {missing}", called(field));
         diagnostics.push(Diagnostic::new(&codes::UNNAMED_BITS, definition.origin.span, message));
     }
 }

@@ -82,6 +82,10 @@ impl Check<'_, '_> {
         for (what, value, span) in self.values() {
             self.named(values, closed, (what, value, span));
         }
+        let behaviour = self.item.behaviour.as_deref();
+        for value in behaviour.iter().flat_map(|own| &own.writable_values).filter_map(Value::as_int) {
+            self.named(values, true, ("writable value", value, Span::default()));
+        }
         let extremes = base.integer_range();
         for (what, value, span) in self.limits() {
             let is_upper = what == "upper limit";

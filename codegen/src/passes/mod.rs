@@ -26,7 +26,7 @@ mod procedures_possible;
 mod process_image_checked;
 mod records_checked;
 mod subslots_distinct;
-mod values_checked;
+pub(crate) mod values_checked;
 mod values_named_once;
 
 use crate::diagnostics::Diagnostics;

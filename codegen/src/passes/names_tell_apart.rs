@@ -3,8 +3,10 @@
 
 use std::collections::HashMap;
 
+use super::bit_fields_checked::told_apart;
+use super::firmware_comparable::apart;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Device, Group, GroupKind};
+use crate::ir::{BitFieldEntry, Device, EnumValue, Group, GroupKind, Shape, TypeDef};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -24,6 +26,50 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
             _ => {}
         }
     }
+    device.types.iter().for_each(|definition| meanings(definition, diagnostics));
+}
+
+/// The bits of a bit field, or the values of an enumeration. Names that depend on something may return.
+fn meanings(definition: &TypeDef, diagnostics: &mut Diagnostics) {
+    let twice: Option<(&str, String, String)> = match &definition.shape {
+        Shape::BitField { fields, .. } => {
+            let place = |field: &BitFieldEntry| match field.bits {
+                1 => format!("bit {}", field.offset),
+                bits => format!("bits {}-{}", u32::from(field.offset) + u32::from(bits) - 1, field.offset),
+            };
+            let found = repeated(fields.iter(), |field| field.name.as_str(), told_apart);
+            found.map(|(one, other)| (one.name.as_str(), place(one), place(other)))
+        }
+        Shape::Enumeration { values, .. } => {
+            let apart =
+                |one: &EnumValue, other: &EnumValue| apart(one.availability.as_deref(), other.availability.as_deref());
+            let named = values.iter().filter(|value| value.zone.is_none());
+            let found = repeated(named, |value| value.name.as_str(), apart);
+            found.map(|(one, other)| (one.name.as_str(), one.value.to_string(), other.value.to_string()))
+        }
+        _ => None,
+    };
+    if let Some((name, one, other)) = twice {
+        let message = format!("{one} and {other} of `{}` are both called `{}`", brief(&definition.name), brief(name));
+        let found = Diagnostic::new(&codes::NAME_TWICE, definition.origin.span, message);
+        diagnostics.push(found.help("give one of them the name that the manual means, or say what tells them apart"));
+    }
+}
+
+/// The first two that have one name.
+fn repeated<'v, V>(
+    list: impl Iterator<Item = &'v V>,
+    name: impl Fn(&'v V) -> &'v str,
+    apart: impl Fn(&V, &V) -> bool,
+) -> Option<(&'v V, &'v V)> {
+    let mut seen: HashMap<&str, &V> = HashMap::new();
+    for own in list.filter(|own| !name(own).is_empty()) {
+        match seen.get(name(own)) {
+            Some(first) if !apart(first, own) => return Some((*first, own)),
+            _ => seen.insert(name(own), own),
+        };
+    }
+    None
 }
 
 fn subs(group: &Group, index: u16, diagnostics: &mut Diagnostics) {

@@ -1,17 +1,18 @@
 //! After this pass every default was held against its limits, and the limits against each other.
 
 use std::cmp::Ordering;
+use std::fmt;
 
 use super::owner::Owner;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Group, Item, Type, TypeDef, Value};
+use crate::ir::{Group, Item, Limits, Type, TypeDef, Value};
 use crate::source::Span;
 
 pub(super) fn run<'a>(groups: impl Iterator<Item = &'a Group>, types: &[TypeDef], diagnostics: &mut Diagnostics) {
     let owner = Owner { types, groups: &[] };
     for group in groups {
         for item in &group.items {
-            if !item.limits.is_empty() {
+            if !item.limits.is_empty() || !item.limits.allowed.is_empty() {
                 limits(owner, item, diagnostics);
             }
         }
@@ -60,21 +61,39 @@ fn limits(owner: Owner<'_>, item: &Item, diagnostics: &mut Diagnostics) {
     let values = [(item.default.as_ref(), item.at.default, "default"), (configured, item.at.configured, "value")];
     for (value, span, what) in values {
         let Some(value) = value else { continue };
-        let below = low.filter(|low| compare(value, low) == Some(Ordering::Less));
-        let above = high.filter(|high| compare(value, high) == Some(Ordering::Greater));
-        let (relation, limit, at) = match (below, above) {
-            (Some(low), _) => ("below the lower", low, item.at.low),
-            (_, Some(high)) => ("above the upper", high, item.at.high),
-            _ => {
-                if !is_allowed(value, &item.limits.allowed) {
-                    let message = format!("the {what} {value} is none of the allowed values");
-                    report(diagnostics, span.or(item.origin.span), message, item.at.low);
-                }
-                continue;
-            }
+        let Some(reason) = excluded(&item.limits, value) else { continue };
+        let limit = match reason {
+            Excluded::Above(_) => item.at.high,
+            _ => item.at.low,
         };
-        report(diagnostics, span.or(item.origin.span), format!("the {what} {value} is {relation} limit {limit}"), at);
+        report(diagnostics, span.or(item.origin.span), format!("the {what} {value} is {reason}"), limit);
     }
+}
+
+/// Why limits exclude a value.
+pub(crate) enum Excluded<'l> {
+    Below(&'l Value),
+    Above(&'l Value),
+    NotAllowed,
+}
+
+impl fmt::Display for Excluded<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Excluded::Below(low) => write!(f, "below the lower limit {low}"),
+            Excluded::Above(high) => write!(f, "above the upper limit {high}"),
+            Excluded::NotAllowed => f.write_str("none of the allowed values"),
+        }
+    }
+}
+
+/// Whether limits exclude a value. What is no number they don't.
+pub(crate) fn excluded<'l>(limits: &'l Limits, value: &Value) -> Option<Excluded<'l>> {
+    let is = |limit: &&Value, order| compare(value, limit) == Some(order);
+    let below = || limits.low.as_ref().filter(|low| is(low, Ordering::Less)).map(Excluded::Below);
+    let above = || limits.high.as_ref().filter(|high| is(high, Ordering::Greater)).map(Excluded::Above);
+    let not_allowed = || (!is_allowed(value, &limits.allowed)).then_some(Excluded::NotAllowed);
+    below().or_else(above).or_else(not_allowed)
 }
 
 /// Whether a number is in one of the ranges, where there are any.

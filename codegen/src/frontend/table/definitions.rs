@@ -10,7 +10,7 @@ use super::format::{
 };
 use super::tree::{cited, Reader};
 use super::{place, types, value};
-use crate::diagnostics::codes;
+use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     Availability, BitFieldEntry, BitMeaning, Condition, Doubt, EnumValue, Scale, Shape, Trigger, Type, TypeDef, TypeId,
     Zone,
@@ -186,6 +186,7 @@ impl Definitions {
             let cite = more.cite.as_ref().map(cited);
             let origin = reader.origin(key);
             self.doubts.extend(reader.doubts([more.doubt.as_ref(), more.doubts.as_ref()], origin, cite.as_deref()));
+            let name = name.filter(|name| !nameless(reader, name, key, &about.name, "value"));
             let unnamed = || zone.map_or_else(|| format_compact!("value {first}"), |zone| zone_name(zone).into());
             values.push(EnumValue {
                 name: name.map_or_else(unnamed, CompactString::from),
@@ -231,6 +232,7 @@ impl Definitions {
     ) -> BitFieldEntry {
         let (origin, cite) = (reader.origin(key), table.cite.as_ref().map(cited));
         self.doubts.extend(reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()));
+        let name = name.filter(|name| table.reserved.is_some() || !nameless(reader, name, key, owner, "bit"));
         let name = name.map_or_else(|| format_compact!("bit {}", key.value), CompactString::from);
         let meaning = self.meaning(reader, (owner, &name, key), bits, table);
         let triggers = [
@@ -306,6 +308,18 @@ impl Definitions {
         let values = values.filter_map(|literal| value::convert(literal, Type::Opaque(None), false)).collect();
         Some(Condition { item: item.value.as_str().into(), values })
     }
+}
+
+/// Reports a label that is empty.
+fn nameless(reader: &mut Reader<'_, '_>, name: &str, key: &At<String>, owner: &str, what: &str) -> bool {
+    let is_empty = name.trim().is_empty();
+    if is_empty {
+        let message = format!("{what} {} of `{}` has an empty name", brief(&key.value), brief(owner));
+        let found = Diagnostic::new(&codes::EMPTY_NAME, reader.span(key), message);
+        let help = "give it a name, say that it is reserved, or leave it out where the manual does";
+        reader.diagnostics.push(found.label(format!("called `{what} {}`", brief(&key.value))).help(help));
+    }
+    is_empty
 }
 
 fn zone_name(zone: Zone) -> &'static str {

@@ -1,6 +1,8 @@
 //! The register table format, as `serde` reads it. What the keys mean to whoever writes them is told in
 //! `dictionaries/README.md`; the doc comments are what editors show.
 
+use std::fmt;
+
 use serde::Deserialize;
 
 use super::at::{At, Entries, FlagOr, Literal, OneOrMany, TextOr};
@@ -39,6 +41,15 @@ pub enum NumberOrText {
     Number(i64),
     /// A text.
     Text(String),
+}
+
+impl fmt::Display for NumberOrText {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NumberOrText::Number(number) => number.fmt(f),
+            NumberOrText::Text(text) => text.fmt(f),
+        }
+    }
 }
 
 /// `true`, `false` or a text.
@@ -385,8 +396,8 @@ tables! {
         pub obj: Option<At<NumberOrText>>,
         /// Address in the memory of an EtherCAT slave controller.
         pub esc: Option<At<u16>>,
-        /// Length there, in bytes.
-        pub length: Option<u16>,
+        /// Length there, in bytes; of any other row what the manual prints, which is compared with the type.
+        pub length: Option<At<u16>>,
         /// Name in an ASCII protocol.
         pub ascii: Option<String>,
         /// Number of a parameter.
@@ -440,7 +451,7 @@ tables! {
         /// Writing is allowed while these items have one of these values.
         pub when: Option<Entries<OneOrMany<Literal>>>,
         /// The only values that may be written.
-        pub writable: Option<Vec<Literal>>,
+        pub writable: Option<At<Vec<Literal>>>,
         /// The device clears it by itself.
         pub clears: Option<bool>,
         /// It can be written once.

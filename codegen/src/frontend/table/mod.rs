@@ -6,8 +6,9 @@
 //! | `tree` | from the text to those tables, with every error at its place; options |
 //! | `place`, `types`, `value`, `units` | numbers and places, names of types, literals, symbols of units |
 //! | `definitions` | units, enumerations, bit fields |
+//! | `taken` | names and addresses that are in use |
 //! | `spaces` | what the number of a register means on each bus |
-//! | `rows`, `objects` | rows to items and objects |
+//! | `rows`, `limits`, `objects` | rows to items and objects; default, limits and only values of a row |
 //! | `device` | the head: device, models, axes |
 //! | `process`, `images` | process data: PDOs, fixed process images |
 //! | `code_tables`, `machines`, `messages` | codes; state machines and procedures; messages and their frames |
@@ -21,6 +22,7 @@ mod definitions;
 mod device;
 pub mod format;
 mod images;
+mod limits;
 mod lints;
 mod machines;
 mod messages;
@@ -33,6 +35,7 @@ mod rows;
 pub mod schema;
 mod spaces;
 mod summary;
+mod taken;
 mod tree;
 mod types;
 mod units;
@@ -43,14 +46,15 @@ use serde::de::DeserializeOwned;
 use toml::de::DeValue;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Catalog, Device, Group, GroupKind, Item, ObjectCode, Shape};
+use crate::ir::{Catalog, Device, Group, GroupKind, ObjectCode, Shape};
 use crate::source::{FileId, Source, Span};
 use at::{At, Entries};
 use definitions::Definitions;
 use format::{ChapterTable, DeviceTable, OptionTable, Row};
 use objects::Dictionary;
-use rows::{Rows, Seen};
+use rows::Rows;
 use spaces::Buses;
+use taken::Taken;
 use tree::{Node, Reader};
 
 /// The symbol of a unit that is spelled in another way.
@@ -122,20 +126,13 @@ pub fn read(
     }
     let mut rows = table.rows(&mut reader, buses);
     let mut dictionary = Dictionary::new();
-    let mut named = Seen::default();
-    let mut placed = Seen::default();
+    let mut taken = Taken::default();
     for chapter in table.nodes(&mut reader, "chapters") {
-        let group = self::chapter(&mut reader, &mut rows, &mut dictionary, chapter);
-        for item in group.iter().flat_map(|group| &group.items) {
-            note(&mut reader, item, &mut named, &mut placed);
-        }
-        device.groups.extend(group);
+        device.groups.extend(self::chapter(&mut reader, &mut rows, (&mut dictionary, &mut taken), chapter));
     }
     summary::objects(&mut reader, &rows, &dictionary);
     for item in dictionary.values().flat_map(|group| &group.items) {
-        for address in item.bindings.iter().filter_map(rows::address) {
-            placed.note(&mut reader, address.clone(), || address.to_string(), item.at.name);
-        }
+        taken.place(&mut reader, item);
     }
     device.groups.extend(dictionary.into_values());
     // Their fields have types as rows do.
@@ -315,7 +312,7 @@ impl<'a> Table<'a> {
 fn chapter<'a>(
     reader: &mut Reader<'a, '_>,
     rows: &mut Rows,
-    dictionary: &mut Dictionary,
+    (dictionary, taken): (&mut Dictionary, &mut Taken),
     node: Node<'a>,
 ) -> Option<Group> {
     let (start, end) = (node.span().start as u32, node.span().end as u32);
@@ -344,7 +341,10 @@ fn chapter<'a>(
     group.doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], group.origin, cite.as_deref());
     lints::series(reader, &registers, space.and_then(|at| rows.spaces.get(at)));
     for (key, row) in registers {
-        group.items.extend(rows.registers(reader, space, (&key, &row), defaults));
+        let items = rows.registers(reader, space, (&key, &row), defaults);
+        let part = row.value.part.as_ref().and_then(|part| place::bits(&part.value.to_string()));
+        items.iter().for_each(|item| taken.register(reader, item, part));
+        group.items.extend(items);
     }
     for (key, row) in objects {
         objects::add(reader, rows, dictionary, (&key, &row), defaults);
@@ -378,14 +378,6 @@ fn divide<'a>(reader: &mut Reader<'a, '_>, node: Node<'a>) -> Option<(RowList, R
     let registers = read(registers, "chapters.registers");
     let objects = read(objects, "chapters.objects");
     Some((registers, objects, node))
-}
-
-/// Names and addresses have to be distinct.
-fn note(reader: &mut Reader<'_, '_>, item: &Item, named: &mut Seen<CompactString>, placed: &mut Seen<CompactString>) {
-    named.note(reader, item.name.clone(), || format!("the name `{}`", item.name), item.at.name);
-    for address in item.bindings.iter().filter_map(rows::address) {
-        placed.note(reader, address.clone(), || address.to_string(), item.at.name);
-    }
 }
 
 /// The states of a device: those of its machines, and the names in its enumerations, as a state may be told by one.

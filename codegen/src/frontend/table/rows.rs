@@ -1,8 +1,6 @@
 //! Rows to items.
 
-use std::collections::HashMap;
-
-use compact_str::{format_compact, CompactString};
+use compact_str::CompactString;
 use smallvec::SmallVec;
 
 use super::at::{At, Entries, Literal, OneOrMany, TextOr};
@@ -14,7 +12,7 @@ use super::{lints, place, types, value};
 use crate::diagnostics::{codes, Code, Diagnostic};
 use crate::ir::{
     Access, Availability, Behaviour, Binding, Extension, Item, Mappable, ObjectBuses, Quantity, Shape, Storage, Type,
-    TypeDef, TypeId, Value,
+    TypeDef, TypeId,
 };
 use crate::source::Span;
 use crate::text::brief;
@@ -271,7 +269,7 @@ impl Rows {
         ty
     }
 
-    fn bits(&self, ty: Type) -> Option<u32> {
+    pub fn bits(&self, ty: Type) -> Option<u32> {
         match ty {
             Type::Named(TypeId(id)) => self.definitions.types.get(id as usize).and_then(|def| def.bits),
             ty => match ty {
@@ -313,7 +311,8 @@ impl Rows {
             self.explicit_object(reader, object, (by_rule, shift), buses, &mut bindings);
         }
         if let Some(address) = &row.esc {
-            let length = row.length.unwrap_or_else(|| bits.map_or(1, |bits| bits.div_ceil(8) as u16));
+            let length = row.length.as_ref().map(|length| length.value);
+            let length = length.unwrap_or_else(|| bits.map_or(1, |bits| bits.div_ceil(8) as u16));
             bindings.push(Binding::EscMemory { address: address.value, length });
         }
         if let Some(name) = &row.ascii {
@@ -373,10 +372,7 @@ impl Rows {
 
     /// The first bit of a part of a register.
     fn part(&self, reader: &mut Reader<'_, '_>, part: &At<NumberOrText>, bits: Option<u32>) -> Option<u8> {
-        let text = match &part.value {
-            NumberOrText::Number(bit) => bit.to_string(),
-            NumberOrText::Text(text) => text.clone(),
-        };
+        let text = part.value.to_string();
         let Some((offset, count)) = place::bits(&text) else {
             let message = format!("`{}` are no bits: write `7` or `\"7-0\"`", brief(&text));
             reader.report(&codes::TABLE_PLACE, reader.span(part), message);
@@ -455,6 +451,7 @@ impl Rows {
         }
         self.access(reader, item, row);
         self.values(reader, item, named, row);
+        self.length(reader, item, named, row);
         self.quantity(reader, item, row);
         self.behaviour(reader, item, row);
         self.availability(reader, item, row);
@@ -462,6 +459,21 @@ impl Rows {
         if let Some(summary) = &row.summary {
             super::summary::item(reader, self, summary, item);
         }
+    }
+
+    /// A printed length, where it isn't that of an address. One of the defaults is meant for addresses.
+    fn length(&self, reader: &mut Reader<'_, '_>, item: &Item, named: Named<'_>, row: &Row) {
+        let Some(length) = row.length.as_ref().filter(|_| row.esc.is_none()) else { return };
+        let is_own = named.key.start <= length.start && length.end <= named.end;
+        let Some(bits) = self.bits(item.ty).filter(|bits| is_own && bits.div_ceil(8) != u32::from(length.value)) else {
+            return;
+        };
+        let (name, bytes) = (brief(named.name), bits.div_ceil(8));
+        let message = format!("`{name}` is printed with {} bytes, and its type takes {bytes}", length.value);
+        let found = Diagnostic::new(&codes::LENGTH_MISMATCH, reader.span(length), message).label("the type is used");
+        reader
+            .diagnostics
+            .push(found.help("give it the type of this length, or leave the `length` out with a `doubt`"));
     }
 
     fn access(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
@@ -472,45 +484,6 @@ impl Rows {
         if let Some(pdo) = &row.pdo {
             item.mappable = reader.word(pdo, "direction of PDOs", &DIRECTIONS).unwrap_or(item.mappable);
             item.at.mappable = reader.span(pdo);
-        }
-    }
-
-    fn values(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, row: &Row) {
-        let base = self.underlying(item.ty);
-        if let Some(given) = &row.default {
-            let list = &given.value.0;
-            let own = if list.len() > 1 { list.get(named.number as usize) } else { list.first() };
-            match own {
-                Some(own) => {
-                    let own = At { value: own.clone(), start: given.start, end: given.end };
-                    item.default = Some(value::value(reader, &own, base));
-                    item.at.default = reader.span(given);
-                }
-                None => {
-                    let message =
-                        format!("the list has {} defaults, and this is number {}", list.len(), named.number + 1);
-                    reader.report(&codes::TABLE_VALUE, reader.span(given), message);
-                }
-            }
-        }
-        if let Some(low) = &row.min {
-            (item.limits.low, item.at.low) = (Some(value::value(reader, low, base)), reader.span(low));
-        }
-        if let Some(high) = &row.max {
-            (item.limits.high, item.at.high) = (Some(value::value(reader, high, base)), reader.span(high));
-        }
-        if let Some(fixed) = &row.fixed {
-            let value = value::value(reader, fixed, base);
-            (item.limits.low, item.limits.high) = (Some(value.clone()), Some(value.clone()));
-            (item.default, item.at.default) = (Some(value), reader.span(fixed));
-            if row.access.is_none() {
-                item.access = Access::Constant;
-            }
-        }
-        if let Some(allowed) = &row.allowed {
-            let one = |literal: &Literal| value::convert(literal, base, false).unwrap_or(Value::Raw("".into()));
-            item.limits.allowed = allowed.value.iter().map(one).map(|value| (value.clone(), value)).collect();
-            item.limits.allowed.iter().for_each(|(one, _)| lints::range(reader, one, base, reader.span(allowed)));
         }
     }
 
@@ -587,7 +560,8 @@ impl Rows {
                 .collect();
         }
         if let Some(values) = &row.writable {
-            behaviour.writable_values = values.iter().filter_map(|value| value::convert(value, base, false)).collect();
+            behaviour.writable_values =
+                values.value.iter().filter_map(|value| value::convert(value, base, false)).collect();
         }
         behaviour.self_clearing = row.clears.unwrap_or(behaviour.self_clearing);
         behaviour.write_once = row.once.unwrap_or(behaviour.write_once);
@@ -646,39 +620,4 @@ impl Rows {
 
 fn extension(key: &str, value: &str, span: Span) -> Extension {
     Extension { key: key.into(), value: value.into(), span }
-}
-
-/// Where each name is used first, for those that have to be distinct.
-#[derive(Default)]
-pub(super) struct Seen<K>(HashMap<K, Span>);
-
-impl<K: std::hash::Hash + Eq> Seen<K> {
-    /// Reports the second use of a name.
-    pub fn note(&mut self, reader: &mut Reader<'_, '_>, key: K, what: impl FnOnce() -> String, span: Span) -> bool {
-        match self.0.entry(key) {
-            std::collections::hash_map::Entry::Vacant(free) => {
-                free.insert(span);
-                true
-            }
-            std::collections::hash_map::Entry::Occupied(first) => {
-                let diagnostic = Diagnostic::new(&codes::TABLE_DUPLICATE, span, format!("{} occurs twice", what()));
-                reader.diagnostics.push(diagnostic.note_at(*first.get(), "the first is here"));
-                false
-            }
-        }
-    }
-}
-
-/// How a binding is told apart from others; `None` where two items may share it.
-pub(super) fn address(binding: &Binding) -> Option<CompactString> {
-    Some(match binding {
-        Binding::Object { index, sub_index, .. } => format_compact!("object 0x{index:04X}:{sub_index}"),
-        Binding::Register(own) if own.bit_offset.is_none() => {
-            let space = format!("{:?}", own.space).to_lowercase();
-            format_compact!("{space} register {}", own.address)
-        }
-        Binding::Parameter { space, code } => format_compact!("parameter {code} of `{space}`"),
-        Binding::Ascii(name) => format_compact!("`{name}`"),
-        _ => return None,
-    })
 }

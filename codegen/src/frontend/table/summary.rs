@@ -83,9 +83,10 @@ fn of_item(reader: &mut Reader<'_, '_>, rows: &Rows, summary: &SummaryTable, own
             differs.push((reader.span(given), given.value.clone(), direction(own.mappable).to_owned()));
         }
     }
-    if let (Some(given), Some(bits)) = (&summary.length, base.bits()) {
-        if given.value.checked_mul(8) != Some(bits) {
-            differs.push((reader.span(given), format!("{} bytes", given.value), format!("{base}")));
+    if let (Some(given), Some(bits)) = (&summary.length, rows.bits(own.ty)) {
+        if given.value != bits.div_ceil(8) {
+            let has = base.bits().map_or_else(|| bits.div_ceil(8).to_string(), |_| base.to_string());
+            differs.push((reader.span(given), format!("{} bytes", given.value), has));
         }
     }
     numbers(reader, summary, own, base, &mut differs);
