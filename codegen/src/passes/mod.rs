@@ -16,6 +16,7 @@ mod limits_named;
 mod mapped_objects_exist;
 mod mentioned_objects_exist;
 mod modules_fit;
+mod names_in_texts_exist;
 mod names_tell_apart;
 pub mod names_unique;
 mod objects_checked;
@@ -111,5 +112,6 @@ fn table(device: &Device, diagnostics: &mut Diagnostics) {
     firmware_comparable::run(device, diagnostics);
     aliases_agree::run(device, diagnostics);
     mentioned_objects_exist::run(device, diagnostics);
+    names_in_texts_exist::run(device, diagnostics);
     procedures_possible::run(device, diagnostics);
 }

@@ -26,6 +26,7 @@ mod limits;
 mod lints;
 mod machines;
 mod messages;
+mod numbered;
 mod objects;
 pub mod overlay;
 mod place;
@@ -258,6 +259,7 @@ impl<'a> Table<'a> {
             buses,
             defaults: self.take::<Row>(reader, "defaults").map(|row| row.value),
             references: Vec::new(),
+            numbered: Vec::new(),
             allowed: Vec::new(),
             summaries: Vec::new(),
         }
@@ -417,6 +419,7 @@ fn resolve(reader: &mut Reader<'_, '_>, rows: &Rows, device: &Device) {
             "model" => reader.unresolved(what, text, span, device.variants.iter().map(|own| own.name.as_str())),
             "message" => reader.unresolved(what, text, span, device.messages.iter().map(|own| own.name.as_str())),
             "state" => reader.unresolved(what, text, span, states(device)),
+            _ if numbered::report(reader, &rows.numbered, text, span) => {}
             _ => reader.unresolved(what, text, span, items()),
         }
     }

@@ -6,6 +6,7 @@ use smallvec::SmallVec;
 use super::at::{At, Entries, Literal, OneOrMany, TextOr};
 use super::definitions::{self, Definitions, Kind};
 use super::format::{FlagOrText, NumberOrText, Row};
+use super::numbered::Numbered;
 use super::spaces::{self, Buses, Numbers, Space};
 use super::tree::{cited, Reader};
 use super::{lints, place, types, value};
@@ -46,6 +47,8 @@ pub(super) struct Rows {
     pub defaults: Option<Row>,
     /// Names that rows refer to, and what for.
     pub references: Vec<(At<String>, &'static str)>,
+    /// The items that have numbers of registers.
+    pub numbered: Vec<Numbered>,
     /// Findings that a row takes upon itself.
     pub allowed: Vec<(Span, &'static Code)>,
     /// What is said elsewhere of objects that have sub-entries.
@@ -299,6 +302,9 @@ impl Rows {
                     let span = reader.span(reg);
                     let found = space.and_then(|at| self.spaces.get(at));
                     by_rule = found.and_then(|space| space.object(numbers.first));
+                    let unit = found.map_or(16, |space| u32::from(space.bits)).max(1);
+                    let last = numbers.first.saturating_add(bits.unwrap_or(unit).div_ceil(unit).saturating_sub(1));
+                    self.numbered.push(Numbered { first: numbers.first, last, name: named.name.into() });
                     match found {
                         Some(space) => bindings.extend(space.bindings(reader, numbers, buses, span)),
                         None => reader.report(&codes::UNRESOLVED_NAME, span, "there is no `[spaces]` for this number"),

@@ -108,6 +108,7 @@ impl Patch {
             buses: Buses::ALL,
             defaults: None,
             references: Vec::new(),
+            numbered: Vec::new(),
             allowed: Vec::new(),
             summaries: Vec::new(),
         }
