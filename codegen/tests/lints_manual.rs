@@ -239,3 +239,94 @@ target_speed = { reg = 3, type = "i16", doc = "the traget_speed" }
 "#;
     registers(rows, &[("TAB025", 3, "target_speed = { reg = 3, type = \"i16\", doc = \"the traget_speed\" }")]);
 }
+
+#[test]
+fn item_24_rows_without_a_name_and_one_with_its_description() {
+    let rows = r#"Rstsprg = { reg = 204, type = "u16", cite = 3196 }
+"Rprgrunmode Run mode User Programmare 0 = Stop 1 = Single step 2 = Run" = { reg = 205, type = "u16", min = 0, max = 2, cite = 3197 }
+"" = { reg = "2011-6998", type = "u16[4988]", cite = 3216 }
+[[chapters]]
+[chapters.registers]
+"" = { reg = 6999, type = "u16", cite = 3217 }
+"Rprgrunmode Run mode User Programmare Stop or Run" = { reg = 206, type = "u16" }
+"#;
+    let pasted = r#""Rprgrunmode Run mode User Programmare 0 = Stop 1 = Single step 2 = Run""#;
+    let long = r#""Rprgrunmode Run mode User Programmare Stop or Run""#;
+    let expected = [
+        ("TAB041", 2, pasted),
+        ("EDS038", 3, r#""""#),
+        ("TAB007", 6, r#""""#),
+        ("EDS038", 6, r#""""#),
+        ("TAB041", 7, long),
+    ];
+    let found = registers(rows, &expected);
+    let said = "`Rprgrunmode Run mode User Programmare 0 = Stop 1 = Single step 2` has values in it";
+    assert_eq!((message(&found, 0), help(&found, 0)), (said, "write the name alone, and the rest as `doc`"));
+    // Where registers are called by several words, a long name is one.
+    let words = r#""Maximum charging current of the first battery bank" = { reg = 1, type = "u16" }
+"Low-pass filter" = { reg = 2, type = "u16" }
+low-pass = { reg = 3, type = "u16" }
+"#;
+    registers(words, &[]);
+}
+
+/// The 44 rows whose name has the hyphen of a line break, as they are printed.
+const BROKEN: [(u32, &str); 44] = [
+    (2446, "Rstpout-maxfreq"),
+    (2458, "Rstepout-time"),
+    (2459, "Rstepout-count"),
+    (2549, "Renc2top-sample"),
+    (2687, "Rveladjo- penmode"),
+    (2725, "Rpidposin-pact"),
+    (2726, "Rpidpospro-pact"),
+    (2728, "Rpidposde-ract"),
+    (2731, "Rpidposou-tact"),
+    (2732, "Rpidvelin-pact"),
+    (2733, "Rpidvelpro-pact"),
+    (2753, "Rmottens-nom"),
+    (2951, "Rtouchpro- befunc"),
+    (2952, "Rtouchpro- bestatus"),
+    (2953, "Rtouchpro- bepos1pos"),
+    (2954, "Rtouchpro- bepos1neg"),
+    (2955, "Rtouchpro- bepos2pos"),
+    (2963, "Rtouchpro- befunc"),
+    (2964, "Rtouchpro- bestatus"),
+    (2965, "Rtouchpro- bepos1pos"),
+    (2966, "Rtouchpro- bepos1neg"),
+    (2970, "Rtouchprobe1time-stamppos"),
+    (2971, "Rtouchprobe1time-stampneg"),
+    (2972, "Rtouchprobe1posed-gecnt"),
+    (2973, "Rtouchprobe1neged-gecnt"),
+    (2979, "Rtouchprobe2time-stamppos"),
+    (2980, "Rtouchprobe2time-stampneg"),
+    (2981, "Rtouchprobe2time-stampneg"),
+    (2982, "Rtouchprobe2posed-gecnt"),
+    (2983, "Rtouchprobe2neged-gecnt"),
+    (3105, "Rcaptvel-max"),
+    (3124, "Rcamst-spmstmm-pulse"),
+    (3125, "Rcamst-spslvmm-step"),
+    (3126, "Rcamst-spcor"),
+    (3127, "Rcamst-spaccspace"),
+    (3128, "Rcamstspc-trl"),
+    (3129, "Rcamst-spstatus"),
+    (3130, "Rcamst-splowquotestlv"),
+    (3132, "Rcamst-splowquotemst"),
+    (3134, "Rcammode-select"),
+    (3135, "Rcamst-spsimvel"),
+    (3136, "Rcamst-spdecspace"),
+    (3137, "Rcamst-spstartdly"),
+    (3138, "Rcamst-spstopdly"),
+];
+
+#[test]
+fn item_27_the_hyphen_of_a_line_break() {
+    let row = |at: usize, (line, name): (u32, &str)| {
+        format!("\"{name}\" = {{ reg = {at}, type = \"u16\", cite = {line} }}\n")
+    };
+    // The old and the new registers of the touch probe have one name (item 28): each row is a table of its own.
+    for (at, &(line, name)) in BROKEN.iter().enumerate() {
+        let found = registers(&row(at, (line, name)), &[("TAB041", 1, &format!("\"{name}\""))]);
+        let whole = name.replace("- ", "").replace('-', "");
+        assert_eq!(help(&found, 0), format!("write `{whole}`, if the manual's text does"), "L{line}");
+    }
+}

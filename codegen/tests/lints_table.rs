@@ -351,23 +351,6 @@ Rprgcnt = { reg = 207, type = "u16", min = 0, max = 4998, cite = 3199, summary =
 }
 
 #[test]
-fn item_24_rows_without_a_name() {
-    registers(
-        r#""" = { reg = "2011-6998", type = "u16[4988]", cite = 3216 }
-"#,
-        &[("EDS038", r#""""#)],
-    );
-}
-
-#[test]
-fn item_27_the_hyphen_of_a_line_break() {
-    let rows = r#""Rtouchpro- befunc" = { reg = 331, type = "u16", cite = 2951 }
-"#;
-    let found = registers(rows, &[("TAB041", r#""Rtouchpro- befunc""#)]);
-    assert_eq!(help(&found, 0), "write `Rtouchprobefunc`, if the manual's text does");
-}
-
-#[test]
 fn item_28_one_name_of_an_old_and_a_new_register() {
     let rows = r#"Rtouchprobefunc = { reg = 331, type = "u16", cite = 2951 }
 [[chapters]]

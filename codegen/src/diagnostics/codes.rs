@@ -803,8 +803,9 @@ codes! {
         "two objects, sub-entries of an object, bits or values have one name"
         "Often the name was copied from the box above. Generated code tells the two apart by a number."
     TAB041 BROKEN_NAME "broken-name" Lint Warn
-        "a name has the hyphen of a line break in it"
-        "The column of the manual was too narrow for the name. Its prose often has the whole one."
+        "a name has the hyphen of a line break, or a description, in it"
+        "The column of the manual was too narrow for the name; its prose often has the whole one. Or the name's cell has the \
+        description beside it as well: values (`0 = Stop`), tags, or a sentence where other registers are called by a word."
     MOD001 MODULE_INDEX_CLASH "module-index-clash" Lint Warn
         "a module's fixed object exists in the device already"
         "The fixed objects of a module get an index of their own; the device describes this one itself, so that one \

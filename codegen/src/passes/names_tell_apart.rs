@@ -10,8 +10,12 @@ use crate::ir::{BitFieldEntry, Device, EnumValue, Group, GroupKind, Shape, TypeD
 use crate::source::Span;
 use crate::text::brief;
 
+/// A name of a register with more words is a description, where the others are single words.
+const NAME_WORDS: usize = 6;
+
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     let mut objects = HashMap::new();
+    let are_words = are_words(device);
     for group in &device.groups {
         match group.kind {
             GroupKind::Object { index, .. } => {
@@ -22,7 +26,7 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
                     subs(group, index, diagnostics);
                 }
             }
-            GroupKind::Chapter => registers(group, diagnostics),
+            GroupKind::Chapter => registers(group, are_words, diagnostics),
             _ => {}
         }
     }
@@ -83,13 +87,51 @@ fn subs(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     }
 }
 
-fn registers(group: &Group, diagnostics: &mut Diagnostics) {
+fn registers(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
     for item in &group.items {
         let at = item.at.name.or(item.origin.span);
         if item.name.trim().is_empty() {
             diagnostics.push(Diagnostic::new(&codes::EMPTY_NAME, at, "the row has no name"));
         }
-        unbroken(&item.name, at, diagnostics);
+        if let Some(what) = description(&item.name, are_words) {
+            let message = format!("`{}` has {what} in it", brief(&item.name));
+            let found = Diagnostic::new(&codes::BROKEN_NAME, at, message);
+            diagnostics.push(found.help("write the name alone, and the rest as `doc`"));
+        } else if !unbroken(&item.name, at, diagnostics) {
+            syllables(&item.name, at, diagnostics);
+        }
+    }
+}
+
+/// Whether a table's registers are called by single words, as three of four are. Descriptions don't count.
+fn are_words(device: &Device) -> bool {
+    let chapters = device.groups.iter().filter(|group| matches!(group.kind, GroupKind::Chapter));
+    let words = chapters.flat_map(|group| &group.items).map(|item| item.name.split_whitespace().count());
+    let (single, several) = words.fold((0, 0), |(single, several), words| match words {
+        1 => (single + 1, several),
+        2..=NAME_WORDS => (single, several + 1),
+        _ => (single, several),
+    });
+    single > 3 * several
+}
+
+/// What stands in a name that is none: the cell beside it was pasted into its own.
+fn description(name: &str, are_words: bool) -> Option<&'static str> {
+    match () {
+        () if name.contains('<') => Some("a tag"),
+        () if name.contains('=') => Some("values"),
+        () if are_words && name.split_whitespace().count() > NAME_WORDS => Some("a description"),
+        () => None,
+    }
+}
+
+/// A column breaks `Rcamstspctrl` into `Rcamstspc-trl`, too; but `low-pass` is a word of small letters, as a whole.
+fn syllables(name: &str, at: Span, diagnostics: &mut Diagnostics) {
+    let letters = || name.chars().zip(name.chars().skip(1)).zip(name.chars().skip(2));
+    let is_broken =
+        letters().any(|((before, mark), after)| before.is_alphanumeric() && mark == '-' && after.is_lowercase());
+    if is_broken && name.contains(char::is_uppercase) && !name.contains(char::is_whitespace) {
+        broken(name, &name.replace('-', ""), at, diagnostics);
     }
 }
 
@@ -104,15 +146,19 @@ fn once<'n>(seen: &mut HashMap<&'n str, Span>, name: &'n str, at: Span, whose: &
     }
 }
 
-/// A column of a manual breaks `Rtouchprobefunc` into `Rtouchpro- befunc`.
-fn unbroken(name: &str, at: Span, diagnostics: &mut Diagnostics) {
+/// A column of a manual breaks `Rtouchprobefunc` into `Rtouchpro- befunc`. Returns whether this one is broken.
+fn unbroken(name: &str, at: Span, diagnostics: &mut Diagnostics) -> bool {
     let is_broken = name.split_once("- ").is_some_and(|(head, tail)| {
         head.ends_with(char::is_alphanumeric) && tail.trim_start().starts_with(char::is_alphanumeric)
     });
     if is_broken {
-        let whole: String = name.replace("- ", "");
-        let message = format!("`{}` has the hyphen of a line break in it", brief(name));
-        let found = Diagnostic::new(&codes::BROKEN_NAME, at, message);
-        diagnostics.push(found.help(format!("write `{}`, if the manual's text does", brief(&whole))));
+        broken(name, &name.replace("- ", ""), at, diagnostics);
     }
+    is_broken
+}
+
+fn broken(name: &str, whole: &str, at: Span, diagnostics: &mut Diagnostics) {
+    let message = format!("`{}` has the hyphen of a line break in it", brief(name));
+    let found = Diagnostic::new(&codes::BROKEN_NAME, at, message);
+    diagnostics.push(found.help(format!("write `{}`, if the manual's text does", brief(whole))));
 }
