@@ -1,6 +1,7 @@
 //! Lints of EtherCAT process data, each with its place.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::diagnostics::Level;
 use lexibus_codegen::source::Source;
 
 /// A slave with one sync manager for outputs and these PDOs, one a line from line 4 on.
@@ -95,4 +96,36 @@ fn pdo022_in_a_module() {
     );
     let found = check(Source::new("module.xml", text.into_bytes()), &Options::default());
     assert!(findings(&found).iter().any(|found| found.0 == "PDO022"), "{:?}", findings(&found));
+}
+
+/// A slave whose dictionary has 0x7000:1 with these flags, and an RxPDO maps it.
+fn mapped(flags: &str) -> Compilation {
+    let text = format!(
+        "<EtherCATInfo><Vendor><Id>1</Id><Name>x</Name></Vendor><Descriptions><Devices>\n\
+         <Device Physics=\"YY\"><Type ProductCode=\"#x10\" RevisionNo=\"#x1\">D</Type><Name>d</Name>\n\
+         <Profile><Dictionary><DataTypes><DataType><Name>UINT</Name><BitSize>16</BitSize></DataType></DataTypes><Objects>\
+         <Object><Index>#x7000</Index><Name>O</Name><Type>UINT</Type><BitSize>16</BitSize><Flags>{flags}</Flags></Object>\
+         </Objects></Dictionary></Profile>\n{OUTPUTS}\n{}\n</Device></Devices></Descriptions></EtherCATInfo>",
+        pdo(0x1600, "Sm=\"0\"", "")
+    );
+    let mut options = Options::default();
+    options.levels.set("mapped-read-only", Level::Warn).unwrap();
+    check(Source::new("slave.xml", text.into_bytes()), &options)
+}
+
+#[test]
+fn directions_of_mapped_objects() {
+    let wrong = "0x7000 sub-index 0x0 is mapped into an RxPDO, and its PdoMapping has the other direction only";
+    let cases = [
+        ("<Access>rw</Access><PdoMapping>T</PdoMapping>", vec![("PDO003", 5, wrong.to_owned())]),
+        ("<Access>rw</Access><PdoMapping>R</PdoMapping>", vec![]),
+        ("<Access>rw</Access>", vec![]),
+        (
+            "<Access>ro</Access><PdoMapping>R</PdoMapping>",
+            vec![("PDO023", 5, "0x7000 sub-index 0x0 is ro and mapped into an RxPDO".to_owned())],
+        ),
+    ];
+    for (flags, expected) in cases {
+        assert_eq!(findings(&mapped(flags)), expected, "{flags}");
+    }
 }

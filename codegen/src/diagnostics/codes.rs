@@ -652,6 +652,10 @@ codes! {
         "an entry of a PDO is longer than 65535 bits"
         "No frame of EtherCAT carries so much, so that BitLen can't be right. The PDO is described as the file has it, but \
         generated code has no struct, view or field of an image for it."
+    PDO023 MAPPED_READ_ONLY "mapped-read-only" Lint Allow
+        "a PDO of EtherCAT maps an object against its access by SDO"
+        "The dictionary of the slave says that the object is read-only, and an RxPDO carries it. Many slaves give the access by SDO \
+        only, so that this lint is off unless asked for."
     TAB001 REGISTER_FORMULA "register-formula" Lint Warn
         "an object isn't the one that its register's rule gives"
         "A row has the number of a register and an object, and the rule of its space gives another object for the number. \
@@ -746,9 +750,10 @@ codes! {
         "A value that can't be written is saved, comes in an RPDO or has values that may be written; one that can't be read goes \
         into a TPDO; or one that the device clears by itself is saved."
     TAB025 MENTIONED_OBJECT "mentioned-object" Lint Warn
-        "a text mentions an object that the table doesn't have"
+        "a text mentions an object or item that the table doesn't have"
         "Documentation, names and effects mention objects by index: 0x6000 to 0x67FF, `object 0x2010`, or with a sub-index, \
-        `0x1003:1`. Either a row is missing, or the index is misprinted."
+        `0x1003:1`. Either a row is missing, or the index is misprinted. They also mention items by name, where names are told \
+        from other words (`Rposwrtime`): one or two letters beside a name, and no name itself, is a name that is misspelt."
     TAB026 FIRMWARE_WINDOW "firmware-window" Lint Warn
         "firmware windows contradict each other"
         "`since` is the first firmware that has something, `until` the first that doesn't. A window is empty, or the \

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{CompactString, Direction, Documentation, Texts, Value};
-use crate::source::Origin;
+use crate::source::{Origin, Span};
 
 /// A state machine.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -65,10 +65,20 @@ pub struct Procedure {
     pub arguments: Vec<CompactString>,
     /// Its steps.
     pub steps: Vec<Step>,
+    /// Where its steps stand.
+    pub step_spans: Vec<Span>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
     /// Where it is declared.
     pub origin: Origin,
+}
+
+impl Procedure {
+    /// The steps, each with its place; without one of its own, that of the procedure.
+    pub fn spanned(&self) -> impl Iterator<Item = (&Step, Span)> {
+        let span = |at: usize| self.step_spans.get(at).copied().unwrap_or_default().or(self.origin.span);
+        self.steps.iter().enumerate().map(move |(at, step)| (step, span(at)))
+    }
 }
 
 /// A step of a procedure.

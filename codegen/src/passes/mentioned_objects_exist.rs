@@ -4,70 +4,37 @@ use std::collections::HashSet;
 use std::ops::RangeInclusive;
 
 use super::owner::{Index, Owner};
+use super::texts;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{AxisStep, Device, Documentation, Item, Shape, Step, TypeDef};
-use crate::source::Span;
+use crate::ir::{AxisStep, Device};
 
 /// Indices that are told from other numbers by themselves: those of the first axis of a drive profile.
 const PROFILE: RangeInclusive<u16> = 0x6000..=0x67FF;
 
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
-    let groups = [device.groups.as_slice()];
-    let owner = Owner { types: &device.types, groups: &groups };
-    let mut known = Index::new(owner).indices();
+    let known = known(device);
     if known.is_empty() {
         return;
+    }
+    for text in texts::all(device) {
+        for index in mentions(text.words).filter(|index| !known.contains(index)) {
+            let message = format!("object 0x{index:04X} is mentioned, and the table doesn't have it");
+            diagnostics.push(Diagnostic::new(&codes::MENTIONED_OBJECT, text.span, message));
+        }
+    }
+}
+
+/// The indices that a device has, those of further axes among them; none where it has no objects.
+pub(super) fn known(device: &Device) -> HashSet<u16> {
+    let groups = [device.groups.as_slice()];
+    let mut known = Index::new(Owner { types: &device.types, groups: &groups }).indices();
+    if known.is_empty() {
+        return known;
     }
     known.extend(device.groups.iter().filter_map(|group| group.index()));
     known.extend(device.process_data.pdos.iter().map(|pdo| pdo.mapping_index));
     of_axes(device, &mut known);
-    let mut check = |span: Span, text: &str| {
-        for index in mentions(text).filter(|index| !known.contains(index)) {
-            let message = format!("object 0x{index:04X} is mentioned, and the table doesn't have it");
-            diagnostics.push(Diagnostic::new(&codes::MENTIONED_OBJECT, span, message));
-        }
-    };
-    for group in &device.groups {
-        words(&group.documentation, |text| check(group.origin.span, text));
-        group.items.iter().for_each(|item| of_item(item, |text| check(item.origin.span, text)));
-    }
-    for definition in &device.types {
-        of_definition(definition, |text| check(definition.origin.span, text));
-    }
-    for procedure in &device.procedures {
-        words(&procedure.documentation, |text| check(procedure.origin.span, text));
-        for step in &procedure.steps {
-            if let Step::Manual(text) = step {
-                check(procedure.origin.span, text);
-            }
-        }
-    }
-}
-
-fn words(documentation: &Option<Box<Documentation>>, check: impl FnMut(&str)) {
-    documentation.as_deref().map(|own| own.text.as_str()).into_iter().for_each(check);
-}
-
-fn of_item(item: &Item, mut check: impl FnMut(&str)) {
-    words(&item.documentation, &mut check);
-    for effect in item.behaviour.iter().flat_map(|behaviour| &behaviour.side_effects) {
-        check(effect);
-    }
-}
-
-fn of_definition(definition: &TypeDef, mut check: impl FnMut(&str)) {
-    words(&definition.documentation, &mut check);
-    match &definition.shape {
-        Shape::BitField { fields, .. } => fields.iter().for_each(|field| {
-            check(&field.name);
-            words(&field.documentation, &mut check);
-        }),
-        Shape::Enumeration { values, .. } => values.iter().for_each(|value| {
-            check(&value.name);
-            words(&value.documentation, &mut check);
-        }),
-        _ => {}
-    }
+    known
 }
 
 /// The indices of further axes.

@@ -8,12 +8,14 @@ mod aliases_agree;
 mod bit_fields_checked;
 mod conditions_possible;
 mod declared_pdos_checked;
+mod directions_agree;
 mod firmware_comparable;
 mod identity_agrees;
 mod implicit_pdos_exist;
 mod lengths_checked;
 mod limits_named;
 mod mapped_objects_exist;
+mod mapping_steps_checked;
 mod mentioned_objects_exist;
 mod modules_fit;
 mod names_in_texts_exist;
@@ -27,6 +29,7 @@ mod procedures_possible;
 mod process_image_checked;
 mod records_checked;
 mod subslots_distinct;
+mod texts;
 pub(crate) mod values_checked;
 mod values_named_once;
 
@@ -59,6 +62,9 @@ fn device(device: &mut Device, modules: &[Module], is_table: bool, diagnostics: 
     pdo_layout_checked::run(device, modules, diagnostics);
     if device.ethercat.is_some() {
         pdo_entries_resolved::device(device, diagnostics);
+        if !is_table {
+            directions_agree::device(device, diagnostics);
+        }
         mapped_objects_exist::device(device);
         process_image_checked::run(device, diagnostics);
     }
@@ -73,6 +79,7 @@ fn device(device: &mut Device, modules: &[Module], is_table: bool, diagnostics: 
 fn module(module: &mut Module, diagnostics: &mut Diagnostics) {
     pdo_layout_checked::module(module, diagnostics);
     pdo_entries_resolved::module(module, diagnostics);
+    directions_agree::module(module, diagnostics);
     mapped_objects_exist::module(module);
     process_image_checked::module(module, diagnostics);
     values_checked::run(module.fixed_objects.iter().chain(&module.groups), &module.types, diagnostics);
@@ -114,4 +121,5 @@ fn table(device: &Device, diagnostics: &mut Diagnostics) {
     mentioned_objects_exist::run(device, diagnostics);
     names_in_texts_exist::run(device, diagnostics);
     procedures_possible::run(device, diagnostics);
+    mapping_steps_checked::run(device, diagnostics);
 }

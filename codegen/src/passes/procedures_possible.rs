@@ -1,7 +1,7 @@
 //! After this pass every step of a register table's procedures was held against the item that it writes or waits for,
 //! and the PDOs that steps and defaults assign against those that there are.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::owner::{reserved, Index, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
@@ -17,10 +17,10 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     let owner = Owner { types: &device.types, groups: &groups };
     let items = Index::new(owner);
     for procedure in &device.procedures {
-        for step in &procedure.steps {
+        for (step, span) in procedure.spanned() {
             for problem in problems(owner, &items, step) {
                 let message = format!("`{}`: {problem}", brief(&procedure.name));
-                diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, procedure.origin.span, message));
+                diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
             }
         }
         assignments(device, &items, procedure, diagnostics);
@@ -35,23 +35,33 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
 
 /// What is wrong with a step.
 fn problems(owner: Owner<'_>, items: &Index<'_>, step: &Step) -> Vec<String> {
-    let (name, value) = match step {
-        Step::Write(name, value) => (name, value),
-        Step::WaitFor(name, mask, value, _) => {
-            let never = value.as_int().is_some_and(|value| *mask != u64::MAX && value & !i128::from(*mask) != 0);
-            let never = never.then(|| format!("`{}` & {mask:#X} is never {value}", brief(name)));
-            let unreadable = items.find(name).is_some_and(|item| !item.access.readable());
-            let unreadable = unreadable.then(|| format!("waits for `{}`, which can't be read", brief(name)));
-            return never.into_iter().chain(unreadable).collect();
-        }
-        _ => return Vec::new(),
+    let read_only = |name: &str| {
+        let item = items.find(name).filter(|item| !item.access.writable())?;
+        Some(format!("writes `{}`, which is {}", brief(name), item.access.name()))
     };
-    let Some(item) = items.find(name) else { return Vec::new() };
-    let access =
-        (!item.access.writable()).then(|| format!("writes `{}`, which is {}", brief(name), item.access.name()));
-    let value = value.as_int().and_then(|number| refused(owner, item, number));
-    let value = value.map(|why| format!("writes {} to `{}`, {why}", shown(step), brief(name)));
-    access.into_iter().chain(value).collect()
+    let write_only = |name: &str, what: &str| {
+        let unreadable = items.find(name).is_some_and(|item| !item.access.readable());
+        unreadable.then(|| format!("{what} `{}`, which can't be read", brief(name)))
+    };
+    let outside = |name: &str, mask: u64, value: &Value| {
+        let outside = value.as_int().is_some_and(|value| mask != u64::MAX && value & !i128::from(mask) != 0);
+        outside.then(|| format!("`{}` & {mask:#X} is never {value}", brief(name)))
+    };
+    match step {
+        Step::Write(name, value) => {
+            let item = items.find(name);
+            let why = item.zip(value.as_int()).and_then(|(item, number)| refused(owner, item, number));
+            let why = why.map(|why| format!("writes {} to `{}`, {why}", shown(step), brief(name)));
+            read_only(name).into_iter().chain(why).collect()
+        }
+        Step::WriteBits(name, mask, value) => read_only(name).into_iter().chain(outside(name, *mask, value)).collect(),
+        Step::WriteArgument(name, _) => read_only(name).into_iter().collect(),
+        Step::Read(name) => write_only(name, "reads").into_iter().collect(),
+        Step::WaitFor(name, mask, value, _) => {
+            outside(name, *mask, value).into_iter().chain(write_only(name, "waits for")).collect()
+        }
+        Step::Delay(_) | Step::Send(_) | Step::Exchange(_) | Step::Manual(_) => Vec::new(),
+    }
 }
 
 fn shown(step: &Step) -> String {
@@ -94,22 +104,23 @@ fn refused(owner: Owner<'_>, item: &Item, number: i128) -> Option<String> {
 
 /// What a procedure maps it also assigns, and what it assigns exists. COB-IDs are those of one PDO.
 fn assignments(device: &Device, items: &Index<'_>, procedure: &Procedure, diagnostics: &mut Diagnostics) {
-    let (mut mapped, mut taken) = (BTreeSet::new(), [BTreeSet::new(), BTreeSet::new()]);
-    let span = procedure.origin.span;
-    for step in &procedure.steps {
+    let (mut mapped, mut taken) = (BTreeMap::new(), [BTreeSet::new(), BTreeSet::new()]);
+    for (step, span) in procedure.spanned() {
         let Step::Write(name, value) = step else { continue };
         let (Some(object), Some(value)) = (items.find(name).and_then(Item::object), value.as_int()) else { continue };
         match object {
-            (index @ (0x1600..=0x17FF | 0x1A00..=0x1BFF), 1..) => _ = mapped.insert(index),
+            (index @ (0x1600..=0x17FF | 0x1A00..=0x1BFF), 1..) => _ = mapped.entry(index).or_insert(span),
             (index @ (0x1C12 | 0x1C13), 1..) => {
                 taken[usize::from(index - ASSIGNMENTS[0])].insert(value);
                 assigned(device, value, span, diagnostics);
             }
-            (index @ (0x1400..=0x15FF | 0x1800..=0x19FF), 1) => cob_id(device, index, value, procedure, diagnostics),
+            (index @ (0x1400..=0x15FF | 0x1800..=0x19FF), 1) => {
+                cob_id(device, (index, value), (procedure, span), diagnostics)
+            }
             _ => {}
         }
     }
-    for index in mapped {
+    for (index, span) in mapped {
         let own = &taken[usize::from(index >= 0x1A00)];
         if !own.is_empty() && !own.contains(&i128::from(index)) {
             let message = format!("`{}` maps 0x{index:04X}, and assigns other PDOs", brief(&procedure.name));
@@ -129,7 +140,12 @@ fn assigned(device: &Device, value: i128, span: Span, diagnostics: &mut Diagnost
 }
 
 /// Whether a COB-ID is another PDO's by default: that of some node, while its own would be of none.
-fn cob_id(device: &Device, index: u16, value: i128, procedure: &Procedure, diagnostics: &mut Diagnostics) {
+fn cob_id(
+    device: &Device,
+    (index, value): (u16, i128),
+    (procedure, span): (&Procedure, Span),
+    diagnostics: &mut Diagnostics,
+) {
     let of_some_node = |item: &Item| match item.default {
         Some(Value::NodeId(base)) => (1..=127).contains(&(value - base)),
         Some(Value::Int(default)) => default == value,
@@ -142,6 +158,6 @@ fn cob_id(device: &Device, index: u16, value: i128, procedure: &Procedure, diagn
     if let (Some(other), false) = (owners.first(), owners.contains(&index)) {
         let name = brief(&procedure.name);
         let message = format!("`{name}` gives 0x{index:04X} the COB-ID {value:#X}, which is that of 0x{other:04X}");
-        diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, procedure.origin.span, message));
+        diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
     }
 }

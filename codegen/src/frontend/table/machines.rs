@@ -123,12 +123,20 @@ pub(super) fn procedure(
             reader.unresolved("argument", &own.value, reader.span(own), known);
         }
     }
-    let steps = table.steps.iter().filter_map(|given| step(reader, given, references)).collect();
+    let mut steps = Vec::with_capacity(table.steps.len());
+    let mut step_spans = Vec::with_capacity(table.steps.len());
+    for given in &table.steps {
+        if let Some(step) = step(reader, given, references) {
+            steps.push(step);
+            step_spans.push(reader.span(given));
+        }
+    }
     device.procedures.push(Procedure {
         name: text(name),
         names: reader.original(table.orig.as_deref()),
         arguments: table.arguments.iter().map(text).collect(),
         steps,
+        step_spans,
         documentation: reader.documentation(table.doc.as_deref(), cite),
         origin,
     });

@@ -1,0 +1,66 @@
+//! After this pass the values that the procedures of a register table write into mapping objects were held against the items
+//! that they map, and the numbers of entries against the entries.
+
+use std::collections::BTreeMap;
+
+use super::declared_pdos_checked::{direction_of, Mapped, CAN_BITS};
+use super::owner::{Index, Owner};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{Device, Item, Procedure, Step, Value};
+use crate::source::Span;
+use crate::text::brief;
+
+pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
+    let groups = [device.groups.as_slice()];
+    let items = Index::new(Owner { types: &device.types, groups: &groups });
+    for procedure in &device.procedures {
+        let mut mapping = Mapping { device, procedure, words: BTreeMap::new() };
+        for (step, span) in procedure.spanned() {
+            let Step::Write(name, value) = step else { continue };
+            let (object, value) = (items.find(name).and_then(Item::object), value.as_int());
+            if let (Some(object), Some(value)) = (object, value) {
+                mapping.step(object, value, span, diagnostics);
+            }
+        }
+    }
+}
+
+/// What a procedure has mapped so far.
+struct Mapping<'a> {
+    device: &'a Device,
+    procedure: &'a Procedure,
+    words: BTreeMap<(u16, u8), i128>,
+}
+
+impl Mapping<'_> {
+    fn step(&mut self, (index, sub): (u16, u8), value: i128, span: Span, diagnostics: &mut Diagnostics) {
+        let Some(direction) = direction_of(index) else { return };
+        if sub > 0 {
+            self.words.insert((index, sub), value);
+            if let Some(mapped) = Mapped::word(value, direction, span) {
+                mapped.check(self.device, false, diagnostics);
+            }
+            return;
+        }
+        let entries = self.device.object(index).map_or(0, |group| group.items.len().saturating_sub(1));
+        if entries > 0 && value > entries as i128 {
+            let name = brief(&self.procedure.name);
+            let message =
+                format!("`{name}`: writes {value} as the number of entries of 0x{index:04X}, which has {entries}");
+            diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
+        }
+        let bits = self.bits(index, value);
+        if self.device.ethercat.is_none() && bits > i128::from(CAN_BITS) {
+            let message = format!("the mapping 0x{index:04X} has {bits} bits by then, and a CAN frame has 64");
+            diagnostics.push(Diagnostic::new(&codes::PDO_TOO_LONG, span, message));
+        }
+    }
+
+    /// The length of so many entries: those that were written, and by default the others.
+    fn bits(&self, index: u16, count: i128) -> i128 {
+        let by_default = |sub| self.device.entry(index, sub)?.default.as_ref().and_then(Value::as_int);
+        let word = |sub: u8| self.words.get(&(index, sub)).copied().or_else(|| by_default(sub)).unwrap_or(0);
+        let last = u8::try_from(count.clamp(0, 64)).unwrap_or(0);
+        (1..=last).map(|sub| word(sub) & 0xFF).sum()
+    }
+}
