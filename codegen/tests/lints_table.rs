@@ -455,7 +455,9 @@ fn item_43_one_word_with_other_bits_under_another_number() {
 "#;
     let found = registers(rows, &[("TAB022", "0x60B8")]);
     let message = message(&found, 0);
-    assert!(message.ends_with("differs: the bits 2, 2 to 3, 5 have a meaning in one of them only"), "{message}");
+    let differs = "differs: the bits 2, 2 to 3, 5 have a meaning in one of them only; \
+                   bit 4 is `sampling 1` and `positive edge 1`";
+    assert!(message.ends_with(differs), "{message}");
 }
 
 #[test]
@@ -627,7 +629,8 @@ Rcmd1rd = { reg = 62, type = "u16", access = "ro", cite = 2207, same_as = "Rcmd1
     6 = { reserved = "keep" }, 7 = "cam step/dir", 8 = "recover position" } }
 "#;
     let found = registers(rows, &[("TAB022", "Rcmd1rd")]);
-    assert!(message(&found, 0).ends_with("differs: the bits 2, 5, 6, 8 have a meaning in one of them only"));
+    assert!(message(&found, 0)
+        .contains("differs: the bits 2, 5, 6, 8 have a meaning in one of them only; bit 3 is `winding`"));
 }
 
 #[test]
@@ -997,6 +1000,52 @@ i = { reg = 9, type = "u16", writable = [1, 5], enum = { 0 = "x", 1 = "y" } }
     assert_eq!(message(&found, 0), "bits 1-0 (`f`) of `h` says nothing of the values 2");
     flags(&values, &[]);
     flags_with(&["unnamed-bits"], &values.replace("3 = \"c\"", "\"2..3\" = \"c\""), &[]);
+}
+
+#[test]
+fn what_a_summary_may_say() {
+    let rows = r#"0x6040 = { name = "C", type = "u16", access = "ro", summary = { name = "Controlword", code = "var" } }
+0x60C1 = { name = "I", code = "record", summary = { code = "array", subs = 2, name = "Interpolation" } }
+"0x60C1:0" = { name = "entries", type = "u8", access = "ro" }
+"0x60C1:1" = { name = "data", type = "u8", access = "ro" }
+0x6099 = { name = "Homing speeds", code = "array", summary = { type = "u32", pdo = "rx" } }
+"0x6099:0" = { name = "n", type = "u8", access = "ro" }
+"0x6099:1" = { name = "a", type = "u32", access = "rw", pdo = "rx" }
+"0x6099:2" = { name = "b", type = "u16", access = "rw", pdo = "no" }
+"0x1800..0x1803" = { name = "TPDO {n1}", code = "record", summary = { subs = 5 } }
+"0x1800..0x1803:0..1" = { name = "parameter {sub}", type = "u8", access = "ro" }
+"#;
+    let codes = ["\"Controlword\"", "\"Interpolation\"", "\"array\"", "\"u32\"", "\"rx\"", "5"];
+    let mut expected: Vec<_> = codes.iter().map(|&at| ("TAB021", at)).collect();
+    expected.swap(1, 2);
+    let found = objects(rows, &expected);
+    assert_eq!(message(&found, 0), "the summary says the name `Controlword`, and the row `C`");
+    assert_eq!(message(&found, 1), "the summary says code array, and the row record");
+    assert_eq!(message(&found, 3), "the summary says u32, and sub-index 2 UNSIGNED16".replace("u32", "UNSIGNED32"));
+    assert_eq!(message(&found, 4), "the summary says rx, and sub-index 2 no");
+    assert!(help(&found, 0).contains("doubt"));
+    let rows = r#"0x6040 = { name = "Control word", orig = "Comando", type = "u16", access = "ro",
+    summary = [{ name = "Controlword", code = "var" }, { name = "comando" }] }
+"0x1800..0x1803" = { name = "TPDO {n1}", code = "record", summary = { subs = 2, code = "record" } }
+"0x1800..0x1803:0..1" = { name = "parameter {sub}", type = "u8", access = "ro" }
+"#;
+    objects(rows, &[]);
+}
+
+#[test]
+fn names_and_units_of_one_value() {
+    let rows = r#"a = { reg = 1, type = "u16", enum = { 0 = "off", 1 = "on", 2 = "Stand-by" }, unit = "mm", scale = 0.1 }
+b = { reg = 2, type = "u16", enum = { 0 = "on", 1 = "off", 2 = "stand by" }, unit = "m", scale = 0.01, same_as = "a" }
+c = { reg = 3, type = "u16", bits = { 0 = "ready", 1 = "fault" } }
+d = { reg = 4, type = "u16", bits = { 0 = "ready", 1 = "error" }, same_as = "c" }
+e = { reg = 5, type = "u16", bits = { 0 = "Ready", 1 = "fault" }, same_as = "c" }
+f = { reg = 6, type = "u16", enum = { 0 = "off", 1 = "on", 2 = "standby" }, unit = "mm", scale = 0.1, same_as = "a" }
+g = { reg = 7, type = "u16", same_as = "a" }
+"#;
+    let found = registers(rows, &[("TAB022", "b"), ("TAB022", "d")]);
+    let differs = "differs: value 0 is `on` and `off`, and 1 more names; the units m and mm; the scales 0.01 and 0.1";
+    assert!(message(&found, 0).ends_with(differs), "{}", message(&found, 0));
+    assert!(message(&found, 1).ends_with("differs: bit 1 is `error` and `fault`"));
 }
 
 // Items of section 4 that no linter sees, because nothing in a faithful table contradicts anything else:

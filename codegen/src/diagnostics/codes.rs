@@ -739,7 +739,8 @@ codes! {
         used: write the doubt down, and allow this code on the row."
     TAB022 SAME_VALUE_DIFFERS "same-value-differs" Lint Warn
         "two names of the same value are described differently"
-        "`same_as` says that two rows are one value, and their types, limits, or the values and bits that have a meaning differ; \
+        "`same_as` says that two rows are one value, and their types, limits, units and scales, or the values and bits that have a \
+        meaning and their names differ; \
         or the row of a replacement (`replaced_by`) states another access than the row that it replaces."
     TAB023 READING_LIMITS "reading-limits" Lint Warn
         "a signed value that is only read has a lower limit above zero"

@@ -1,11 +1,11 @@
 //! After this pass what a register table says is the same value under two names was compared, and the access of what
 //! replaces an item.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::owner::{Index, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{BitMeaning, Device, Item, Shape};
+use crate::ir::{BitFieldEntry, BitMeaning, Device, Item, Quantity, Scale, Shape};
 use crate::text::brief;
 
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
@@ -69,8 +69,82 @@ fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
     let shapes = (owner.definition(one.ty).map(|own| &own.shape), owner.definition(other.ty).map(|own| &own.shape));
     if let (Some(one), Some(other)) = shapes {
         found.extend(meanings(one, other));
+        found.extend(names(one, other));
+    }
+    if let (Some(one), Some(other)) = (&one.quantity, &other.quantity) {
+        found.extend(quantities(one, other));
     }
     found
+}
+
+/// Unit and scale, where both give them.
+fn quantities(one: &Quantity, other: &Quantity) -> Vec<String> {
+    let mut found = Vec::new();
+    if !one.unit.is_empty() && !other.unit.is_empty() && one.unit != other.unit {
+        found.push(format!("the units {} and {}", brief(&one.unit), brief(&other.unit)));
+    }
+    if one.scale != other.scale {
+        let factor = |scale: &Option<Scale>| match scale {
+            None => Some(1.0),
+            Some(Scale::Linear { factor, .. }) => Some(*factor),
+            Some(_) => None,
+        };
+        found.push(match (factor(&one.scale), factor(&other.scale)) {
+            (Some(one), Some(other)) if one != other => format!("the scales {one} and {other}"),
+            _ => "the scales".to_owned(),
+        });
+    }
+    found
+}
+
+/// Values, or bits, that have another name in one than in the other.
+fn names(one: &Shape, other: &Shape) -> Option<String> {
+    let what = match one {
+        Shape::BitField { .. } => "bit",
+        _ => "value",
+    };
+    let (one, other) = (labels(one), labels(other));
+    let mut differing = one.iter().filter_map(|(place, names)| {
+        let others = other.get(place).filter(|others| !others.keys().eq(names.keys()))?;
+        Some((place, names.values().next()?, others.values().next()?))
+    });
+    let (place, one, other) = differing.next()?;
+    let more = match differing.count() {
+        0 => String::new(),
+        more => format!(", and {more} more names"),
+    };
+    Some(format!("{what} {} is `{}` and `{}`{more}", range(place), brief(one), brief(other)))
+}
+
+type Labels<'n> = BTreeMap<(i128, i128), BTreeMap<String, &'n str>>;
+
+/// What the values, or the bits, are called, by the name without case and punctuation.
+fn labels(shape: &Shape) -> Labels<'_> {
+    let mut labels = Labels::new();
+    fn add<'n>(labels: &mut Labels<'n>, place: (i128, i128), name: &'n str) {
+        let plain = name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect();
+        labels.entry(place).or_default().insert(plain, name);
+    }
+    match shape {
+        Shape::Enumeration { values, .. } => {
+            for value in values.iter().filter(|value| value.zone.is_none()) {
+                add(&mut labels, (value.value, value.last.unwrap_or(value.value)), &value.name);
+            }
+        }
+        Shape::BitField { fields, .. } => {
+            for field in fields.iter().filter(|field| !matches!(field.meaning, BitMeaning::Reserved { .. })) {
+                add(&mut labels, bits_of(field), &field.name);
+            }
+        }
+        _ => {}
+    }
+    labels
+}
+
+/// First and last bit.
+fn bits_of(field: &BitFieldEntry) -> (i128, i128) {
+    let first = i128::from(field.offset);
+    (first, first + i128::from(field.bits.max(1)) - 1)
 }
 
 /// What is named in one of two types and not in the other.
@@ -100,8 +174,7 @@ fn named(shape: &Shape) -> BTreeSet<(i128, i128)> {
         }
         Shape::BitField { fields, .. } => {
             let named = fields.iter().filter(|field| !matches!(field.meaning, BitMeaning::Reserved { .. }));
-            let last = |offset: u8, bits: u8| i128::from(offset) + i128::from(bits.max(1)) - 1;
-            named.map(|field| (i128::from(field.offset), last(field.offset, field.bits))).collect()
+            named.map(bits_of).collect()
         }
         _ => BTreeSet::new(),
     }

@@ -527,6 +527,11 @@ tables! {
         pub access: Option<At<String>>,
         /// The direction of PDOs that it says.
         pub pdo: Option<At<String>>,
+        /// The object code that it says.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["var", "array", "record", "domain"])))]
+        pub code: Option<At<String>>,
+        /// The name that it says.
+        pub name: Option<At<String>>,
         /// Number of sub-indices, with sub-index 0.
         pub subs: Option<At<u32>>,
         /// Length in bytes.

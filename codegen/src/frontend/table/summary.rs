@@ -2,12 +2,12 @@
 
 use super::at::{At, Literal, OneOrMany};
 use super::format::SummaryTable;
-use super::objects::Dictionary;
+use super::objects::{Dictionary, CODES};
 use super::rows::{Rows, ACCESSES, DIRECTIONS};
 use super::tree::{cited, Reader};
 use super::{types, value};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Access, Item, Mappable, ObjectCode, Type, Value};
+use crate::ir::{Access, Item, Mappable, ObjectCode, Texts, Type, Value};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -16,8 +16,11 @@ pub(super) type Summaries = At<OneOrMany<SummaryTable>>;
 
 /// Of an item.
 pub(super) fn item(reader: &mut Reader<'_, '_>, rows: &Rows, given: &Summaries, own: &Item) {
+    let is_domain = rows.underlying(own.ty) == Type::Domain;
     for summary in &given.value.0 {
-        of_item(reader, rows, summary, own);
+        of_item(reader, rows, summary, (own, "the row"));
+        names(reader, summary, (&own.name, &own.names));
+        code(reader, summary, if is_domain { ObjectCode::Domain } else { ObjectCode::Var });
         if let Some(subs) = summary.subs.as_ref().filter(|subs| subs.value != 1) {
             let message = format!("the summary says {} sub-indices, and it is one value", subs.value);
             report(reader, summary, reader.span(subs), message);
@@ -30,9 +33,12 @@ pub(super) fn objects(reader: &mut Reader<'_, '_>, rows: &Rows, dictionary: &Dic
     for (index, given) in &rows.summaries {
         let Some(group) = dictionary.get(index) else { continue };
         for summary in &given.value.0 {
+            names(reader, summary, (&group.name, &group.names));
+            group.object_code().iter().for_each(|own| code(reader, summary, *own));
             let elements = group.items.iter().filter(|item| item.object().is_some_and(|(_, sub)| sub > 0));
             for item in elements.filter(|item| item.ty != Type::Opaque(None)) {
-                if of_item(reader, rows, summary, item) {
+                let sub_index = item.object().map_or(0, |(_, sub)| sub);
+                if of_item(reader, rows, summary, (item, &format!("sub-index {sub_index}"))) {
                     break;
                 }
             }
@@ -47,14 +53,38 @@ pub(super) fn objects(reader: &mut Reader<'_, '_>, rows: &Rows, dictionary: &Dic
 
 fn report(reader: &mut Reader<'_, '_>, summary: &SummaryTable, span: Span, message: String) {
     let found = Diagnostic::new(&codes::SUMMARY_DIFFERS, span, message).label("the row is used");
+    let found = found.help("put what holds into the row, and the other into a `doubt`; then allow this code there");
     reader.diagnostics.push(match &summary.cite {
         Some(cite) => found.note(format!("cited from {}", cited(cite))),
         None => found,
     });
 }
 
-/// Whether anything differs.
-fn of_item(reader: &mut Reader<'_, '_>, rows: &Rows, summary: &SummaryTable, own: &Item) -> bool {
+/// The object code, where the summary has one.
+fn code(reader: &mut Reader<'_, '_>, summary: &SummaryTable, own: ObjectCode) {
+    let Some(given) = &summary.code else { return };
+    let said = reader.word(given, "object code", &CODES);
+    if said.is_some_and(|said| said != own) {
+        let word = CODES.iter().find(|(_, code)| *code == own).map_or("another", |(word, _)| word);
+        let message = format!("the summary says code {}, and the row {word}", brief(&given.value));
+        report(reader, summary, reader.span(given), message);
+    }
+}
+
+/// The name, where the summary has one: without regard to case and punctuation that of the row or of its language.
+fn names(reader: &mut Reader<'_, '_>, summary: &SummaryTable, (own, others): (&str, &Texts)) {
+    let Some(given) = &summary.name else { return };
+    let plain =
+        |name: &str| -> String { name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect() };
+    let said = plain(&given.value);
+    if said != plain(own) && !others.iter().any(|other| plain(&other.text) == said) {
+        let message = format!("the summary says the name `{}`, and the row `{}`", brief(&given.value), brief(own));
+        report(reader, summary, reader.span(given), message);
+    }
+}
+
+/// Whether anything differs. `whose` is what the messages call the item.
+fn of_item(reader: &mut Reader<'_, '_>, rows: &Rows, summary: &SummaryTable, (own, whose): (&Item, &str)) -> bool {
     let base = rows.underlying(own.ty);
     let mut differs = Vec::new();
     if let Some(given) = &summary.ty {
@@ -92,7 +122,7 @@ fn of_item(reader: &mut Reader<'_, '_>, rows: &Rows, summary: &SummaryTable, own
     numbers(reader, summary, own, base, &mut differs);
     let found = !differs.is_empty();
     for (span, says, has) in differs {
-        report(reader, summary, span, format!("the summary says {}, and the row {has}", brief(&says)));
+        report(reader, summary, span, format!("the summary says {}, and {whose} {has}", brief(&says)));
     }
     found
 }
