@@ -129,3 +129,42 @@ fn directions_of_mapped_objects() {
         assert_eq!(findings(&mapped(flags)), expected, "{flags}");
     }
 }
+
+/// A slave whose dictionary has the object 0x2000, a record of the type `DT2000`, one sub-item a line from line 4 on.
+fn record(bits: u32, sub_items: &[&str], default: &str) -> Compilation {
+    let basic = |name: &str, bits: u32| format!("<DataType><Name>{name}</Name><BitSize>{bits}</BitSize></DataType>");
+    let text = format!(
+        "<EtherCATInfo><Vendor><Id>1</Id><Name>x</Name></Vendor><Descriptions><Devices><Device Physics=\"YY\">\
+         <Type ProductCode=\"#x10\" RevisionNo=\"#x1\">D</Type><Name>d</Name><Profile><Dictionary><DataTypes>\n{}{}\n\
+         <DataType><Name>DT2000</Name><BitSize>{bits}</BitSize>\n{}\n</DataType></DataTypes><Objects><Object>\
+         <Index>#x2000</Index><Name>O</Name><Type>DT2000</Type><BitSize>{bits}</BitSize>{default}</Object></Objects>\
+         </Dictionary></Profile></Device></Devices></Descriptions></EtherCATInfo>",
+        basic("USINT", 8),
+        basic("UINT", 16),
+        sub_items.join("\n")
+    );
+    check(Source::new("slave.xml", text.into_bytes()), &Options::default())
+}
+
+fn sub_item(sub_index: u8, ty: &str, bits: u8, offset: u32) -> String {
+    format!(
+        "<SubItem><SubIdx>{sub_index}</SubIdx><Name>s{sub_index}</Name><Type>{ty}</Type><BitSize>{bits}</BitSize>\
+         <BitOffs>{offset}</BitOffs><Flags><Access>ro</Access></Flags></SubItem>"
+    )
+}
+
+#[test]
+fn eds049_sub_index_0_of_a_record() {
+    let subs = [sub_item(0, "USINT", 8, 0), sub_item(1, "UINT", 16, 16)];
+    let subs = [subs[0].as_str(), subs[1].as_str()];
+    let default = |value: &str| {
+        format!("<Info><SubItem><Name>s0</Name><Info><DefaultData>{value}</DefaultData></Info></SubItem></Info>")
+    };
+    let found = record(32, &subs, &default("07"));
+    let message = "sub-index 0 of 0x2000 says 7, but the highest sub-index is 1";
+    assert_eq!(
+        findings(&found).iter().map(|(code, _, text)| (*code, text.as_str())).collect::<Vec<_>>(),
+        [("EDS049", message)]
+    );
+    assert_eq!(findings(&record(32, &subs, &default("01"))), []);
+}

@@ -30,7 +30,9 @@ fn compile(text: &str, wanted: &[&str]) -> Compilation {
     let mut options = Options { no_profiles: true, ..Options::default() };
     // A fixture is no whole device.
     options.levels.set("missing-mandatory-object", Level::Allow).unwrap();
-    options.levels.set("half-a-pdo", Level::Allow).unwrap();
+    for code in ["half-a-pdo", "no-sub0", "no-subs"] {
+        options.levels.set(code, Level::Allow).unwrap();
+    }
     for code in wanted {
         options.levels.set(code, Level::Warn).unwrap();
     }
@@ -394,7 +396,9 @@ fn item_39_elements_that_exclude_sub_index_0() {
 0x60C4 = { name = "Data configuration", code = "record", summary = { subs = 7, cite = 1243 } }
 "0x60C4:1..6" = { name = "configuration {sub}", type = "u32", access = "rw" }
 "#;
-    canopen(rows, &[("EDS058", "0x60C1"), ("TAB021", r#""u32""#), ("EDS058", "0x60C4"), ("TAB021", "7")]);
+    let text = format!("{CANOPEN}[[chapters]]\n[chapters.objects]\n{rows}");
+    let expected = [("EDS058", "0x60C1"), ("TAB021", r#""u32""#), ("EDS058", "0x60C4"), ("TAB021", "7")];
+    flags_with(&["no-sub0"], &text, &expected);
 }
 
 #[test]
@@ -824,7 +828,7 @@ fn a_mapping_object_against_the_mapped_bits() {
 0x6040 = { name = "Controlword", type = "u16", access = "rw", pdo = "rx", bits = { 0 = "on" } }
 0x607A = { name = "Target position", type = "i32", access = "rw", pdo = "tx" }
 "#;
-    canopen(rows, &[("EDS058", "0x1400"), ("PDO005", "0x60400008"), ("PDO003", "0x607A0020")]);
+    canopen(rows, &[("PDO005", "0x60400008"), ("PDO003", "0x607A0020")]);
 }
 
 #[test]
@@ -1008,7 +1012,7 @@ fn what_a_summary_may_say() {
 0x60C1 = { name = "I", code = "record", summary = { code = "array", subs = 2, name = "Interpolation" } }
 "0x60C1:0" = { name = "entries", type = "u8", access = "ro" }
 "0x60C1:1" = { name = "data", type = "u8", access = "ro" }
-0x6099 = { name = "Homing speeds", code = "array", summary = { type = "u32", pdo = "rx" } }
+0x6099 = { name = "Homing speeds", code = "record", summary = { type = "u32", pdo = "rx" } }
 "0x6099:0" = { name = "n", type = "u8", access = "ro" }
 "0x6099:1" = { name = "a", type = "u32", access = "rw", pdo = "rx" }
 "0x6099:2" = { name = "b", type = "u16", access = "rw", pdo = "no" }
@@ -1046,6 +1050,30 @@ g = { reg = 7, type = "u16", same_as = "a" }
     let differs = "differs: value 0 is `on` and `off`, and 1 more names; the units m and mm; the scales 0.01 and 0.1";
     assert!(message(&found, 0).ends_with(differs), "{}", message(&found, 0));
     assert!(message(&found, 1).ends_with("differs: bit 1 is `error` and `fault`"));
+}
+
+#[test]
+fn sub_index_0_of_objects_on_any_bus() {
+    let rows = r#"0x6099 = { name = "Homing speeds", code = "array" }
+"0x6099:1" = { name = "a", type = "u32", access = "rw", pdo = "rx" }
+0x609A = { name = "x", code = "record" }
+"0x609A:0" = { name = "n", type = "u8", access = "ro", default = 3 }
+"0x609A:1" = { name = "a", type = "u32", access = "rw", pdo = "rx" }
+0x609B = { name = "y", code = "record" }
+0x609C = { name = "ok", code = "record" }
+"0x609C:0" = { name = "n", type = "u8", access = "ro", default = 1 }
+"0x609C:1" = { name = "a", type = "u32", access = "rw", pdo = "rx" }
+0x1C12 = { name = "RxPDO assign", code = "array" }
+"0x1C12:0" = { name = "n", type = "u8", access = "rw", default = 1 }
+"0x1C12:1..2" = { name = "PDO {sub}", type = "u16", access = "rw" }
+"#;
+    let wanted = ["no-sub0", "no-subs"];
+    let expected = [("EDS058", "0x6099"), ("EDS049", "3"), ("EDS057", "0x609B")];
+    for head in [DEVICE, CANOPEN, &DEVICE.replace("[device]", "[device]\nbuses = [\"ethercat\"]")] {
+        let found = flags_with(&wanted, &format!("{head}[[chapters]]\n[chapters.objects]\n{rows}"), &expected);
+        assert_eq!(message(&found, 2), "0x609B has no sub-indices");
+        assert!(help(&found, 0).contains("sub-index") && help(&found, 2).contains("sub-index 0"));
+    }
 }
 
 // Items of section 4 that no linter sees, because nothing in a faithful table contradicts anything else:

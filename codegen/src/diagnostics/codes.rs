@@ -263,8 +263,8 @@ codes! {
         compact description fills the gaps."
     EDS049 SUB0_MISMATCH "sub0-mismatch" Lint Warn
         "sub-index 0 doesn't give the highest sub-index"
-        "The default of sub-index 0 should be the highest sub-index that exists (CiA 301 7.4.3). PDO mappings and \
-        0x1003 are exempt, because there it is the number of valid entries."
+        "The default of sub-index 0 should be the highest sub-index that exists (CiA 301 7.4.3). PDO mappings, the \
+        PDOs of a sync manager and 0x1003 are exempt, because there it is the number of valid entries."
     EDS050 DEFAULT_OUT_OF_LIMITS "default-out-of-limits" Lint Warn
         "a default lies outside of its limits"
         "The device could not be written with its own default. One of the numbers is wrong. In a register table the same is \
@@ -292,11 +292,13 @@ codes! {
         "The sections [<index>Name], [<index>Value] and [<index>Denotation] refine the sub-indices of \
         CompactSubObj. This entry has none to refine."
     EDS057 NO_SUBS "no-subs" Lint Warn
-        "an ARRAY or RECORD has neither SubNumber nor CompactSubObj"
-        "Nothing says which sub-indices the object has. The sections that exist are used."
+        "an ARRAY or RECORD has no sub-indices"
+        "Nothing says which sub-indices the object has: in an EDS, there is neither SubNumber nor CompactSubObj, and the sections \
+        that exist are used."
     EDS058 NO_SUB0 "no-sub0" Lint Warn
         "sub-index 0 isn't described"
-        "Every ARRAY and RECORD has a sub-index 0 (CiA 301 7.4.3)."
+        "Every ARRAY and RECORD has a sub-index 0, which holds the highest sub-index (CiA 301 7.4.3). Who counts the entries \
+        reads it first."
     EDS059 ARRAY_TYPES "array-types" Lint Warn
         "the elements of an array have different types"
         "All elements of an ARRAY have one data type; an object with different ones is a RECORD."

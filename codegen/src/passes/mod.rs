@@ -39,9 +39,10 @@ use owner::Owner;
 
 /// Completes and checks every device of `catalog`.
 pub fn check(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
-    let is_table = catalog.files.iter().any(|file| file.format == Format::Table);
+    // The first file describes the devices; the others only refer to it, or are overlays.
+    let format = catalog.files.first().map(|file| file.format);
     for own in &mut catalog.devices {
-        device(own, &catalog.modules, is_table, diagnostics);
+        device(own, &catalog.modules, format, diagnostics);
     }
     for own in &mut catalog.modules {
         module(own, diagnostics);
@@ -51,12 +52,13 @@ pub fn check(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
     subslots_distinct::run(catalog, diagnostics);
 }
 
-fn device(device: &mut Device, modules: &[Module], is_table: bool, diagnostics: &mut Diagnostics) {
+fn device(device: &mut Device, modules: &[Module], format: Option<Format>, diagnostics: &mut Diagnostics) {
+    let is_table = format == Some(Format::Table);
     if is_table {
         declared_pdos_checked::run(device, diagnostics);
     }
     identity_agrees::run(device, diagnostics);
-    objects_checked::run(device, modules, diagnostics);
+    objects_checked::run(device, modules, format, diagnostics);
     values_checked::run(device.groups.iter(), &device.types, diagnostics);
     implicit_pdos_exist::run(device);
     pdo_layout_checked::run(device, modules, diagnostics);

@@ -1,18 +1,16 @@
-//! After this pass the structure of every object of a CANopen device was held against CiA 301 7.4.3 and reported on.
+//! After this pass the structure of every object of a dictionary, on CANopen or EtherCAT, was held against CiA 301 7.4.3
+//! and reported on.
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Device, Group, Item, Module, ObjectCode, Shape, Type, TypeDef, TypeId, Value};
+use crate::ir::{Device, Format, Group, Item, Module, ObjectCode, Shape, Type, TypeDef, TypeId, Value};
 
-pub(super) fn run(device: &Device, modules: &[Module], diagnostics: &mut Diagnostics) {
-    if device.canopen.is_none() {
-        return;
-    }
+pub(super) fn run(device: &Device, modules: &[Module], format: Option<Format>, diagnostics: &mut Diagnostics) {
     let fixed = device.own_modules(modules).flat_map(|module| &module.fixed_objects);
     for group in device.groups.iter().chain(fixed) {
         let (Some(index), Some(code)) = (group.index(), group.object_code()) else { continue };
         names(group, index, diagnostics);
         if matches!(code, ObjectCode::Array | ObjectCode::Record) {
-            structure(group, index, diagnostics);
+            structure(group, index, format, diagnostics);
             highest_sub(group, index, diagnostics);
             sub0_access(group, index, diagnostics);
         }
@@ -47,20 +45,31 @@ fn names(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     nameless(first.at.name.or(first.origin.span), format!("0x{index:04X} sub-index {:#x}{others}", sub_of(first)));
 }
 
-fn structure(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
+fn structure(group: &Group, index: u16, format: Option<Format>, diagnostics: &mut Diagnostics) {
     let span = group.origin.span;
     if group.items.is_empty() {
-        let message = format!("0x{index:04X} has neither sub-indices nor CompactSubObj");
-        diagnostics.push(Diagnostic::new(&codes::NO_SUBS, span, message));
+        let (message, help) = match format {
+            Some(Format::Eds | Format::Dcf) => (
+                format!("0x{index:04X} has neither sub-indices nor CompactSubObj"),
+                "give it SubNumber and the sections of its sub-indices, or CompactSubObj".to_owned(),
+            ),
+            _ => (
+                format!("0x{index:04X} has no sub-indices"),
+                "describe them, sub-index 0 included; an object that is one value is a VAR".to_owned(),
+            ),
+        };
+        diagnostics.push(Diagnostic::new(&codes::NO_SUBS, span, message).help(help));
     } else if group.sub(0).is_none() {
         let message = format!("sub-index 0 of 0x{index:04X} isn't described");
-        diagnostics.push(Diagnostic::new(&codes::NO_SUB0, span, message));
+        let highest = group.items.iter().map(sub_of).filter(|&sub| sub != 0xFF).max().unwrap_or(0);
+        let help = format!("describe it: UNSIGNED8, the highest sub-index, which is {highest}");
+        diagnostics.push(Diagnostic::new(&codes::NO_SUB0, span, message).help(help));
     }
 }
 
 /// Whether sub-index 0 is the number of valid entries, and not the highest sub-index.
 fn is_counter(index: u16) -> bool {
-    matches!(index, 0x1003 | 0x1600..=0x17FF | 0x1A00..=0x1BFF)
+    matches!(index, 0x1003 | 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C10..=0x1C2F)
 }
 
 fn highest_sub(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
