@@ -424,3 +424,159 @@ fn the_command_line_imports() {
         assert_eq!(call(arguments).status.code(), Some(code), "{arguments:?}");
     }
 }
+
+// Passages of the manual of the AEC Vector Step, as they are printed; the number in a test's name is that of the notes' section 4.
+
+/// The titles of the manual's register tables (L2128), and these rows below them.
+fn manual(rows: &str) -> Import {
+    let titles =
+        "Indirizzo Modbus / Profibus\tIndirizzo CAN EtherCAT Profinet\tNome Registro\tDescrizione\tU.M.\tValore \
+                  Minimo\tValore Massimo\tTipo\tNote\n";
+    read_as("list.tsv", format!("{titles}{rows}"), &import::Options::default())
+}
+
+/// The rows that were written.
+fn rows(import: &Import) -> Vec<&str> {
+    let lines = import.table.as_deref().expect("a table").lines();
+    lines.skip_while(|line| *line != "[chapters.registers]").skip(1).take_while(|line| !line.is_empty()).collect()
+}
+
+#[test]
+fn item_53_a_quote_that_would_swallow_seven_rows() {
+    let import = manual(
+        "10130-31\t0x4792\tRthetainit\tTheta acquisito da resolver durante allineamento (solo BMD con resolver)\t\t\t\tSigned32\tRW SAVE\n\
+         10132\t0x4794\tRthetaack\tFlag segnalazione theta da resolver acquisito (solo BMD con resolver)\t\t\t\tUnsigned16\t\"RW SAVE\n\
+         10133\t0x4795\tRrslvact\tValore attuale resolver (solo BMD con resolver)\t\t\t\tUnsigned16\tRO\n\
+         10134-35\t0x4796\tRrslvoffsetsin\tCompensazione offset SIN resolver (solo con resolver)\t\t\t\tSigned32\tRW SAVE\n\
+         10136-37\t0x4798\tRrslvoffsetcos\tCompensazione offset COS resolver (solo con resolver)\t\t\t\tSigned32\tRW SAVE\n\
+         10193\t0x47D1\tRrslvcorr\tCorrezione resolver (Solo con Resolver)\t\t\t\tSigned16\tRW SAVE\n\
+         10194-95\t0x47D2-D3\tRrslvrawangleout\tAngolo uscita resolver senza correzione (Solo con Resolver)\t\t\t\tSigned32\tRO\n\
+         10196-97\t0x47D4-D5\tRrslvsinfirot\tValore Seno in uscita filtro FIR (Solo con Resolver)\t\t\t\tSigned32\tRO\n\
+         10198-99\t0x47D6-D7\tRrslvcosfirot\tValore Coseno in uscita filtro FIR (Solo con Resolver)\t\t\t\tSigned32\tRO\n\
+         ",
+    );
+    let expected = [(1, 1, "CSV007"), (3, 108, "CSV008"), (8, 10, "CSV003"), (9, 10, "CSV003"), (10, 10, "CSV003")];
+    assert_eq!(findings(&import), expected);
+    let said = &import.compilation.diagnostics.list()[1].message;
+    assert_eq!(said, "a quote is opened here and not closed in its cell");
+    let names: Vec<&str> = rows(&import).iter().filter_map(|row| row.split(' ').next()).collect();
+    assert_eq!(names.len(), 9, "{names:?}");
+    assert!(rows(&import)[1].contains(r#"(solo BMD con resolver). \"RW SAVE" }"#), "{:?}", rows(&import)[1]);
+    // Item 21: a range is no index, and none is made of it.
+    assert!(
+        rows(&import)[6].starts_with(r#"Rrslvrawangleout = { reg = "10194-10195", "#)
+            && !rows(&import)[6].contains("obj")
+    );
+}
+
+#[test]
+fn item_53_quotes_around_whole_cells_and_at_the_end() {
+    let import = manual(
+        "10004\t0x4714\tRindregset\tMappatura registri 0= Revisione 1\"\t\t\t\tUnsign16\tWORD RO\n\
+         10012\t0x471C\tRenccamfbk\t\"Encoder feedback per funzioni camma/winding 0= Encoder 1 1= Encoder 2 2= Encoder 3 3= Encoder assoluto\"\t\tDefault 1\t\tUnsigned16\t\"WORD RW SAVE\"\n\
+         10081\t0x4761\tRprofinetnamechr\tCarattere puntato della stringa \"nome dispositivo PROFINET\"\t\t\t\tUnsigned16\tRW\n\
+         ",
+    );
+    assert_eq!(findings(&import), [(1, 1, "CSV007"), (2, 63, "CSV003"), (3, 131, "CSV003")]);
+    let rows = rows(&import);
+    assert_eq!(rows.len(), 3);
+    assert!(rows[0].contains(r#"0= Revisione 1\". WORD RO"#), "{}", rows[0]);
+    assert!(rows[1].contains(r#"3= Encoder assoluto. WORD RW SAVE" }"#), "{}", rows[1]);
+}
+
+#[test]
+fn item_25_a_row_of_ten_cells_and_a_title_of_none() {
+    let titles = "Indirizzo Modbus / Profibus\tIndirizzo CAN EtherCAT Profinet\tNome Registro\tDescrizione\tU.M.\tValore Minimo\tValore Massimo\tTipo\tNote\t\n";
+    let rows = "0198\t0x20C6\tRindtype\t<p>Tipo indexer</p> <p>0: SMD30.06LIM 77: SMD12.04LIC</p>\t<p>78: SMD12.04LIP 125: DMD</p>\t\t\t\t<p>Holding Register (16bit) Unsigned16</p> <p>Codifica HI-BYTE 0: SMD 1: DMD 2: BMD</p> <p>Codifica b7 LO-BYTE: 0: I (ex SMD506I) 1: A (ex SMD506S)</p>\tWORD NO MAP RO\n\
+                10000\t0x4710\tRindfamily\tFamiglia azionamento. (Da fw 5.50 il registro 198 viene letto a 0xFFFF) Esempio: -1204 -2204 -5206\t\t\t\tUnsign16\tWORD RO\n";
+    let import = read_as("list.tsv", format!("{titles}{rows}"), &import::Options::default());
+    let expected = [(1, 1, "CSV007"), (2, 1, "CSV007"), (2, 1, "CSV005"), (2, 80, "CSV003"), (3, 127, "CSV003")];
+    assert_eq!(findings(&import), expected);
+    let said: Vec<&str> = import.compilation.diagnostics.list().iter().map(|own| own.message.as_str()).collect();
+    assert!(said.contains(&"the line has 10 cells, and the titles are 9"), "{said:?}");
+    assert!(!import.table.as_deref().expect("a table").contains("[units]"));
+}
+
+#[test]
+fn item_26_a_line_of_dashes() {
+    let import = manual(
+        "10076\t0x475C\tRenc3code\tCodice modello encoder 3 0=CUSTOM 1= T-C 10= TO0512L05C 11= TO0512P24C 12=TO1000L05C\t\t\t\tUnsigned16\tRW SAVE\n\
+         -------\t--------\t------------------\t-----------------------------------------------------------------------------------------------------\t--\t--\t--\t------------\t------------\n\
+         ",
+    );
+    let codes: Vec<_> = findings(&import).into_iter().filter(|(line, ..)| *line == 3).map(|(.., code)| code).collect();
+    assert_eq!(codes, ["CSV004", "CSV003", "CSV003"]);
+    let said = &import.compilation.diagnostics.list()[1].message;
+    assert_eq!(said, "`-------` is no number of a register");
+    assert!(rows(&import)[1].starts_with("# the address can't be read: ------- | "));
+}
+
+#[test]
+fn items_18_and_19_indices_beside_numbers() {
+    // The number is the address on Modbus, and not what the index is counted from.
+    let import = manual(
+        "10144\t0x4800\tRalmbuffres\tReset buffer storico allarmi\t\t\t\tUnsigned16\tRW SAVE\n\
+         10145\t0x4801\tRalmbuffptr\tPuntatore al buffer storico allarmi\t\t0\t15\tUnsigned16\tRW SAVE\n\
+         10146-47\t0x4802\tRalmbufftime\tTimestamp allarme puntato da Ralmbuffptr\t\t\t\tUnsigned32\tRO\n\
+         10148-49\t0x4803\tRalmbuffcode\tCodice allarme puntato da Ralmbuffptr\t\t\t\tUnsigned32\tRO\n\
+         0166\t0x20A\tRprofists\tStato della comunicazione Profibus 0 = Disabilitato 1 = Parametrizzazione 2 = Configurazione 3 = Data Exchange FF = Fatal Error\t\t\t\tUnsigned16\tWORD NO MAP RO\n\
+         ",
+    );
+    assert_eq!(findings(&import), [(1, 1, "CSV007"), (6, 6, "CSV003")]);
+    let table = import.table.as_deref().expect("a table");
+    assert!(table.contains("modbus = { table = \"holding\", first = 0 }"), "{table}");
+    let device = check(Source::new("list.toml", table.as_bytes().to_vec()), &Options::default());
+    let codes: Vec<_> = device.diagnostics.list().iter().map(|own| (own.code.id, own.message.as_str())).collect();
+    let series = "the row says object 0x4803, and by the rows around it, it would be 0x4804";
+    assert_eq!(codes, [("TAB001", series)]);
+    let device = device.catalog.expect("a catalogue").devices.remove(0);
+    let bindings = &item(&device, "Ralmbuffres").bindings;
+    assert!(bindings.iter().any(|own| matches!(own, Binding::Object { index: 0x4800, .. })), "{bindings:?}");
+    assert!(bindings.iter().any(|own| matches!(own, Binding::Register(own) if own.address == 10144)), "{bindings:?}");
+}
+
+#[test]
+fn item_60_a_default_in_the_cell_of_a_limit() {
+    let import = manual(
+        "10014\t0x471E\tRalarmreact\tFunzionalità del drive al verificarsi di un allarme -4 = Abort in rampa di emergenza e Current off a seconda dell'allarme -3 = Abort in rampa di emergenza e current off -2 = Stop in rampa e current off -1 = Current off 0 = Current off 1 = Stop in rampa e current off 2 = Abort in rampa di emergenza e current off\t\t-4 (Default -4)\t2\tSigned16\tWORD RW SAVE\n\
+         0428\t0x21AC\tRoutenable\tMaschera abilitazione uscite digitali Bit0: Out0 Bit1: Out1 Bit8: Out8 Bit=0 Uscita disabilitata Bit=1 Uscita abilitata\t\tDefault 65535\t\tUnsigned16\tWORD SAVE\n\
+         0577\t0x2241\tRencalignsteps\tNumero passi eseguiti durante fase allineamento encoder\tStep\t(Default 4)\t\tUnsigned16\tWORD SAVE\n\
+         10010\t0x471A\tRencmotfbk\tEncoder feedback motore per chiusura anello 0= Encoder 1 1= Encoder 2 2= Encoder 3 3= Encoder assoluto\t\t(Default 0)\t\tUnsigned16\tWORD RW SAVE\n\
+         10026\t0x472A\tRenc2pulse\tImpulsi giro encoder 2\tImp.\tDefault 512\t\tUnsigned16\tRW SAVE\n\
+         10028\t0x472C\tRencabsframembit\tLunghezza trama encoder assoluto\tBit\tDefault 25\t\tUnsigned16\tRW SAVE\n\
+         10029\t0x472D\tRencabsposbit\tLunghezza trama conteggio implusi su giro\tBit\tDefault 12\t\tUnsigned16\tRW SAVE\n\
+         10030\t0x472E\tRencabsturnsbit\tLunghezza trama conteggio giri\tBit\tDefault 13\t\tUnsigned16\tRW SAVE\n\
+         0042-43\t0x202A\tRtestintmot\tRegistro per controllo modalita' di comunicazione 32bit Intel o Motorola. Il valore di questo registro e' fisso a 1234567890 (0x499602D2) Eseguendo una lettura a 32bit di questo registro si puo' ricavare se la comunicazione e' impostata in modo Intel o Motorola a seconda del risultato ottenuto.\t\t1234567890 0x499602D2\t1234567890 0x499602D2\tHolding Register (32bit)\tWORD RO\n\
+         ",
+    );
+    let cells: Vec<&str> = import
+        .compilation
+        .diagnostics
+        .list()
+        .iter()
+        .filter(|own| own.code.id == "CSV003" && !own.message.ends_with("type"))
+        .filter_map(|own| own.message.split('`').nth(1))
+        .collect();
+    let printed = ["-4 (Default -4)", "Default 65535", "(Default 4)", "(Default 0)", "Default 512", "Default 25"];
+    let more = ["Default 12", "Default 13", "1234567890 0x499602D2", "1234567890 0x499602D2"];
+    assert_eq!(cells, [printed.as_slice(), &more].concat());
+}
+
+#[test]
+fn units_that_nobody_knows_are_told() {
+    let import = read("Register,Name,Unit\n1,a,Imp. Enc.\n2,b,Imp. Enc.\n3,c,V\n4,d,a = b\n");
+    let said: Vec<&str> = import.compilation.diagnostics.list().iter().map(|own| own.message.as_str()).collect();
+    assert!(said.contains(&"the unit `Imp. Enc.` isn't known: `[units]` defines it, without a scale"), "{said:?}");
+    assert!(said.contains(&"`a = b` is no unit"), "{said:?}");
+    assert_eq!(said.iter().filter(|said| said.contains("Imp. Enc.")).count(), 1);
+}
+
+#[test]
+fn an_index_beside_a_number_without_a_title_that_says_so() {
+    let import = read("Register,Address,Name,Type,Access\n198,0x20C6,a,u16,rw\n199,0x20C7,b,u16,rw\n");
+    assert_eq!(findings(&import), [(2, 5, "CSV007")]);
+    assert_eq!(rows(&import)[0], r#"a = { reg = 198, obj = 0x20C6, type = "u16", access = "rw" }"#);
+    // Two addresses of one register stay what they are.
+    let import = read("Register,Address,Name,Type,Access\n40001,0x0000,a,u16,rw\n40002,0x0001,b,u16,rw\n");
+    assert_eq!((findings(&import), import.table.unwrap().contains("first = 40001")), (vec![], true));
+}

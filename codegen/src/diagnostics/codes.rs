@@ -850,7 +850,8 @@ codes! {
         what was assumed; it is told once, and holds for the whole list."
     CSV008 CSV_UNCLOSED_QUOTE "csv-unclosed-quote" Repair Warn
         "a quote is never closed"
-        "All that follows, to the end of the file, is one cell."
+        "All that follows, to the end of the file, is one cell. Where tabs divide cells, the quote is taken as a letter, and the \
+        lines behind it are read."
     CSV009 CSV_NO_SUCH_COLUMN "csv-no-such-column" Error Deny
         "a column that `--map` names doesn't exist"
         "Titles are compared without regard to case and punctuation. A column can also be named by its number: `--map reg=#2`."

@@ -331,7 +331,9 @@ fn titles<'m>(record: &Record, map: &'m [(Field, String)]) -> Result<Columns, &'
         list.retain(|column| column.at != at && (column.field != *field || *field == Field::Doc || is_mapped(column)));
         list.push(column_of(*field, at, &normal(record.text(at))));
     }
-    Ok(Columns { list, header: None, width: record.cells.len() })
+    // Behind the last title there are no columns.
+    let width = record.filled().last().map_or(0, |(at, _)| at + 1);
+    Ok(Columns { list, header: None, width })
 }
 
 /// Looking for a cell by its text.
@@ -380,6 +382,14 @@ const FILLERS: [&str; 24] = [
     "0",
 ];
 
+/// Whether an address is that of an object: on CANopen or EtherCAT, and not on Modbus.
+fn is_fieldbus(title: &str) -> bool {
+    let has = |list: &[&str]| title.split(' ').any(|word| list.contains(&word));
+    has(&["address", "adresse", "indirizzo", "addr"])
+        && has(&["can", "canopen", "ethercat", "coe", "sdo"])
+        && !has(&["modbus", "profibus", "rtu", "tcp"])
+}
+
 fn field_of(title: &str) -> Option<Field> {
     let exact = |title: &str| FIELDS.iter().find(|(_, _, titles)| titles.contains(&title)).map(|&(field, ..)| field);
     if title.is_empty() {
@@ -396,6 +406,8 @@ fn field_of(title: &str) -> Option<Field> {
         let has = |list: &[&str]| words().any(|word| list.contains(&word));
         match () {
             () if words().count() > 4 => None,
+            // "Indirizzo CAN EtherCAT Profinet", beside a column with the number on Modbus.
+            () if is_fieldbus(title) => Some(Field::Index),
             () if has(&["subindex", "sub"]) => Some(Field::Sub),
             () if has(&["address", "adresse", "indirizzo", "addr"]) => Some(Field::Reg),
             () if has(&["unit", "einheit", "unità"]) && !has(&["id"]) => Some(Field::Unit),

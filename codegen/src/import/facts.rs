@@ -7,12 +7,16 @@ use super::rows::{tidy, Definition, Place, Reader, Reference, Type};
 use super::types::{self, Base};
 use super::values::{self, List};
 use super::write::{digits, int, quoted, real};
-use crate::diagnostics::codes;
+use crate::diagnostics::{codes, Diagnostic};
+use crate::frontend::table::is_unit;
 use crate::source::Span;
 use crate::text::brief;
 
 /// How many letters of a description make a name.
 const NAME_LETTERS: usize = 60;
+
+/// What is longer is no unit.
+const UNIT_LETTERS: usize = 24;
 
 impl Reader<'_, '_> {
     pub fn order(&mut self, record: &Record, ty: Type) -> Order {
@@ -41,7 +45,7 @@ impl Reader<'_, '_> {
         }
         let (unit, by_unit) = cells::unit(self.text(record, Field::Unit), self.style.comma);
         let unit = tidy(&unit);
-        if !unit.is_empty() && unit.chars().any(|letter| !letter.is_numeric()) {
+        if !unit.is_empty() && unit.chars().any(|letter| !letter.is_numeric()) && self.is_symbol(record, &unit) {
             facts.push(("unit", quoted(&unit)));
         }
         let mut reference = None;
@@ -55,6 +59,20 @@ impl Reader<'_, '_> {
         }
         self.sentinel(record, ty, facts);
         (reference, (factor.unwrap_or(1.0), offset.unwrap_or(0.0)))
+    }
+
+    /// Whether a unit can be one. One that nobody knows is told once: it may be misspelt, or have a factor in it.
+    fn is_symbol(&mut self, record: &Record, unit: &str) -> bool {
+        let Some(cell) = self.cell(record, Field::Unit) else { return true };
+        if unit.chars().count() > UNIT_LETTERS || unit.contains(['<', '>', '=', ';']) {
+            self.unreadable(cell, "unit");
+            return false;
+        }
+        if !is_unit(unit) && self.units.insert(unit.to_owned()) {
+            let message = format!("the unit `{}` isn't known: `[units]` defines it, without a scale", brief(unit));
+            self.diagnostics.push(Diagnostic::new(&codes::CSV_ASSUMPTION, cell.span, message));
+        }
+        true
     }
 
     fn sentinel(&mut self, record: &Record, ty: Type, facts: &mut Vec<(&'static str, String)>) {

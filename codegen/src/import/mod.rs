@@ -3,6 +3,7 @@
 //! | file | subject |
 //! |---|---|
 //! | `records` | lines and cells, with their places |
+//! | `quotes` | the same where a quote is a letter |
 //! | `columns` | what each column is, by its title |
 //! | `cells`, `types`, `address`, `values` | what stands in a single cell |
 //! | `style` | what only all cells of a column tell: decimal comma, hexadecimal addresses, limits in physical units |
@@ -19,6 +20,7 @@ mod cells;
 mod columns;
 mod facts;
 mod layout;
+mod quotes;
 mod records;
 mod rows;
 mod style;
@@ -80,6 +82,10 @@ fn convert(source: &Source, options: &Options, diagnostics: &mut Diagnostics) ->
         let message = "a quote is opened here and never closed";
         diagnostics.push(Diagnostic::new(&codes::CSV_UNCLOSED_QUOTE, span, message));
     }
+    for &span in &records.letters {
+        let message = "a quote is opened here and not closed in its cell";
+        diagnostics.push(Diagnostic::new(&codes::CSV_UNCLOSED_QUOTE, span, message).label("taken as a letter"));
+    }
     if !columns.has_address() {
         let message = "no line has titles of columns, one of them an address";
         let help =
@@ -104,7 +110,10 @@ fn divide(source: &Source, options: &Options) -> Result<(Records, Columns), Stri
     let mut best: Option<(usize, Records, Columns)> = None;
     let mut missing = None;
     for delimiter in candidates {
-        let records = records::read(source, FILE, delimiter, start);
+        let mut records = records::read(source, FILE, delimiter, start);
+        if delimiter == quotes::TAB && quotes::swallows(&records) {
+            records = quotes::divide(source, FILE, start);
+        }
         match columns::find(&records, &options.map) {
             // The one under which most titles make sense.
             Ok(columns) if best.as_ref().is_none_or(|(score, ..)| columns.score() > *score) => {

@@ -36,6 +36,8 @@ pub(super) struct Records {
     pub list: Vec<Record>,
     /// A quote that nothing closes.
     pub unclosed: Option<Span>,
+    /// Quotes that were taken as letters.
+    pub letters: Vec<Span>,
 }
 
 /// Excel's own way to say what stands between cells: a first line `sep=;`.
@@ -76,7 +78,7 @@ pub(super) fn read(source: &Source, file: FileId, delimiter: u8, start: usize) -
     }
 }
 
-fn finish(records: &mut Records, mut record: Record) {
+pub(super) fn finish(records: &mut Records, mut record: Record) {
     if let (Some(first), Some(last)) = (record.cells.first(), record.cells.last()) {
         record.span = Span { end: last.span.end.max(first.span.start), ..first.span };
         records.list.push(record);
@@ -84,7 +86,7 @@ fn finish(records: &mut Records, mut record: Record) {
 }
 
 /// The part of a cell that is its text, and whether a quote is open at its end.
-fn visible(source: &Source, raw: Span, delimiter: u8) -> (Span, bool) {
+pub(super) fn visible(source: &Source, raw: Span, delimiter: u8) -> (Span, bool) {
     let text = source.slice(raw);
     let body = text.trim_start_matches(['\r', '\n']);
     let start = text.len() - body.len();

@@ -15,7 +15,7 @@ use crate::text::brief;
 /// Where a row is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
-    Register { address: Address, table: Option<Table>, wire: Option<u32> },
+    Register { address: Address, table: Option<Table>, wire: Option<u32>, object: Option<(u16, Option<u8>)> },
     Object { index: u16, sub: Option<u8> },
     Parameter(u32),
 }
@@ -126,6 +126,8 @@ pub(super) struct Reader<'r, 'd> {
     pub style: Style,
     /// Assumptions that were told.
     pub told: BTreeSet<&'static str>,
+    /// Units that nobody knows, of those that were told.
+    pub units: BTreeSet<String>,
     /// The names of all lines.
     pub names: BTreeSet<String>,
     pub definitions: Vec<Definition>,
@@ -141,6 +143,7 @@ pub(super) fn read(records: &Records, columns: &Columns, diagnostics: &mut Diagn
         diagnostics,
         style,
         told: BTreeSet::new(),
+        units: BTreeSet::new(),
         names: names.unwrap_or_default(),
         definitions: Vec::new(),
     };
@@ -158,6 +161,11 @@ pub(super) fn read(records: &Records, columns: &Columns, diagnostics: &mut Diagn
         reader.assume("access", header.span, "no column tells what may be written: all registers are read-only");
     }
     Rows { rows, definitions: reader.definitions, no_access, from_one: style.addresses[0].is_x }
+}
+
+/// Whether the second of two addresses is no address on the wire, which is never above the number by so much.
+fn is_index(number: Address, second: Address) -> bool {
+    second.is_hex && !number.is_hex && second.first > number.first && (0x1000..=0x9FFF).contains(&second.first)
 }
 
 /// A text on one line.
@@ -242,6 +250,9 @@ impl Reader<'_, '_> {
     /// A line has as many cells as there are titles.
     fn count_cells(&mut self, record: &Record) {
         let (own, width) = (record.cells.len(), self.columns.width);
+        // Cells without a title, and nothing in them, are no cells.
+        let last = record.filled().last().map_or(0, |(at, _)| at + 1);
+        let own = own.min(last.max(width));
         if own != width && width > 0 {
             let message = format!("the line has {own} cells, and the titles are {width}");
             self.report(&codes::CSV_RAGGED_ROW, record.span, message, "read from the left");
@@ -249,15 +260,16 @@ impl Reader<'_, '_> {
     }
 
     fn place(&mut self, record: &Record) -> Result<Place, &'static str> {
-        if let Some(cell) = self.cell(record, Field::Index) {
-            let sub = self.text(record, Field::Sub);
+        let (index, sub) = (self.cell(record, Field::Index), self.text(record, Field::Sub));
+        if let Some(cell) = self.cell(record, Field::Reg) {
+            let object = index.and_then(|index| self.object(index, sub));
+            return self.register(record, cell, object);
+        }
+        if let Some(cell) = index {
             return match address::object(&cell.text, sub) {
                 Some((index, sub)) => Ok(Place::Object { index, sub }),
                 None => self.no_row(cell, "index of an object", "the object can't be read"),
             };
-        }
-        if let Some(cell) = self.cell(record, Field::Reg) {
-            return self.register(record, cell);
         }
         if let Some(cell) = self.cell(record, Field::Param) {
             let number = cells::number(&cell.text, false).and_then(Number::int).and_then(|own| u32::try_from(own).ok());
@@ -277,7 +289,23 @@ impl Reader<'_, '_> {
         Err(reason)
     }
 
-    fn register(&mut self, record: &Record, cell: &Cell) -> Result<Place, &'static str> {
+    /// The object that a register is, too. An index with another number of digits than four is misprinted.
+    fn object(&mut self, cell: &Cell, sub: &str) -> Option<(u16, Option<u8>)> {
+        let digits = cell.text.split([':', '/', '.']).next().unwrap_or_default().chars();
+        let is_marked = cell.text.starts_with("0x") || cell.text.starts_with("0X");
+        let found = address::object(&cell.text, sub).filter(|_| !is_marked || digits.count() == 6);
+        if found.is_none() {
+            self.unreadable(cell, "index of an object, which has four digits");
+        }
+        found
+    }
+
+    fn register(
+        &mut self,
+        record: &Record,
+        cell: &Cell,
+        object: Option<(u16, Option<u8>)>,
+    ) -> Result<Place, &'static str> {
         let Some(address) = address::read(&cell.text, self.style.addresses[0]) else {
             return self.no_row(cell, "number of a register", "the address can't be read");
         };
@@ -295,9 +323,17 @@ impl Reader<'_, '_> {
             if found.is_none() {
                 self.unreadable(cell, "number of a register");
             }
-            found.map(|address| address.first)
+            Some((cell, found?))
         });
-        Ok(Place::Register { address, table: table.or(address.table), wire })
+        let table = table.or(address.table);
+        Ok(match wire {
+            Some((cell, second)) if object.is_none() && is_index(address, second) => {
+                let message = "the second address is hexadecimal and above the number: read as the index of an object";
+                self.assume("index", cell.span, message);
+                Place::Register { address, table, wire: None, object: Some((second.first as u16, None)) }
+            }
+            wire => Place::Register { address, table, wire: wire.map(|(_, own)| own.first), object },
+        })
     }
 
     /// The bits of the register that the row is about.

@@ -79,7 +79,9 @@ pub(super) fn table(list: &Listing, name: &str, source: &str) -> String {
         comment(&format!("Register table, made of {source} by `lexibus import`. Compare it with the manual."));
     out += "lexibus = 1\n\n[device]\n";
     let _ = writeln!(out, "name = {}", quoted(name));
-    if !list.spaces.is_empty() {
+    let is_object = |row: &Row| matches!(row.place, Ok(Place::Register { object: Some(_), .. }));
+    // On which of the other buses the objects are is for a person to say.
+    if !list.spaces.is_empty() && !list.chapters.iter().flat_map(|chapter| &chapter.rows).any(is_object) {
         out += "buses = [\"modbus\"]\n";
     }
     if list.no_access {
@@ -134,11 +136,15 @@ fn chapter(out: &mut String, chapter: &Chapter, list: &Listing) {
 /// The entries that stand below each other: the address, the type, the access.
 fn head(row: &Row) -> [String; 3] {
     let place = match row.place {
-        Ok(Place::Register { address, .. }) => {
+        Ok(Place::Register { address, object, .. }) => {
+            let obj = object.map_or(String::new(), |(index, sub)| match sub {
+                Some(sub) => format!(", obj = \"0x{index:04X}:{sub}\""),
+                None => format!(", obj = 0x{index:04X}"),
+            });
             let number = |value: u32| if address.is_hex { format!("0x{value:04X}") } else { value.to_string() };
             match address.last {
-                Some(last) => format!("reg = \"{}-{}\"", number(address.first), number(last)),
-                None => format!("reg = {}", number(address.first)),
+                Some(last) => format!("reg = \"{}-{}\"{obj}", number(address.first), number(last)),
+                None => format!("reg = {}{obj}", number(address.first)),
             }
         }
         Ok(Place::Object { index, sub }) => format!("obj = \"0x{index:04X}:{}\"", sub.unwrap_or(0)),
