@@ -47,12 +47,16 @@ title = "Objects that the examples refer to"
 "0x60C1:1" = { name = "Position", type = "i32", access = "rw", pdo = "rx" }
 "#;
 
+/// The space of examples that have none, as the documentation says.
+const SPACE: &str = "[spaces.register]\nmodbus = { table = \"holding\" }\n";
+
 /// A block as a whole table.
 pub fn whole(block: &str) -> String {
     if block.contains("lexibus = 1") {
         return block.to_owned();
     }
     let head = "lexibus = 1\n[device]\nname = \"Example\"\n";
+    let space = if block.contains("[spaces") { "" } else { SPACE };
     let chapter = if block.starts_with("[chapters") { "[[chapters]]\n" } else { "" };
-    format!("{head}{chapter}{block}{SURROUNDINGS}")
+    format!("{head}{space}{chapter}{block}{SURROUNDINGS}")
 }
