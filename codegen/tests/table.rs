@@ -241,7 +241,7 @@ proptest! {
     /// Whatever stands in a table, it is read, checked and, where it has no errors, generated without a panic.
     #[test]
     fn mutated_tables_do_not_panic(
-        block in 0usize..16,
+        block in 0usize..128,
         changes in prop::collection::vec((any::<Index>(), 0u8..5, value(), any::<Index>()), 1..8),
     ) {
         let examples = examples();
