@@ -44,6 +44,7 @@ title = "Objects that the examples refer to"
 0x6041 = { name = "Statusword", type = "u16", access = "ro", pdo = "tx" }
 0x6060 = { name = "Modes of operation", type = "i8", access = "rw", pdo = "rx" }
 0x60C1 = { name = "Interpolation data", code = "record" }
+"0x60C1:0" = { name = "Highest sub-index", type = "u8", access = "const", default = 1 }
 "0x60C1:1" = { name = "Position", type = "i32", access = "rw", pdo = "rx" }
 "#;
 
