@@ -168,3 +168,16 @@ fn eds049_sub_index_0_of_a_record() {
     );
     assert_eq!(findings(&record(32, &subs, &default("01"))), []);
 }
+
+#[test]
+fn esi025_sub_items_share_bits_or_lie_beyond() {
+    let places = |bits, offset| {
+        let subs = [sub_item(0, "USINT", 8, 0), sub_item(1, "UINT", 16, 16), sub_item(2, "UINT", 16, offset)];
+        findings(&record(bits, &subs.each_ref().map(String::as_str), ""))
+    };
+    assert_eq!(places(48, 32), []);
+    let message = "the sub-items `s1` and `s2` share bits: 16 to 31 and 24 to 39";
+    assert_eq!(places(48, 24), [("ESI025", 6, message.to_owned())]);
+    let message = "the sub-item `s2` reaches to bit 48 of a data type of 40 bits";
+    assert_eq!(places(40, 32), [("ESI025", 6, message.to_owned())]);
+}

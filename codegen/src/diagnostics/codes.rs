@@ -431,6 +431,10 @@ codes! {
     ESI024 MINUS_ONE "minus-one" Repair Warn
         "-1 is given for an unsigned integer"
         "That is how C writes a number of which all bits are set. It is read as such."
+    ESI025 SUB_ITEM_PLACE "sub-item-place" Lint Warn
+        "a sub-item shares bits with another, or lies beyond its data type"
+        "BitOffs and BitSize of the sub-items say where each is in the value as a whole, and BitSize of the data type how long \
+        that is. A complete access (CoE) exchanges the value as a whole, and mixes them up."
     ESI030 ESI_MISSING_ACCESS "esi-missing-access" Lint Warn
         "nothing says how an object may be accessed"
         "Flags of the object or of the sub-item have an Access: ro, rw or wo. Without it the item is kept read-only, which \

@@ -232,6 +232,7 @@ impl<'t, 'a> Types<'t, 'a> {
             let sub_index = field.sub_index;
             fields.push(Field { name, sub_index, ty: resolved, bits, bit_offset: offset });
         }
+        places(reader, ty, &fields);
         (Shape::Record(fields), ty.bits.or(Some(end)))
     }
 
@@ -503,6 +504,40 @@ impl<'n> Seen<'n> {
 }
 
 /// Lower bounds and numbers of elements; a number that is missing follows from BitSize.
+/// Reports the first sub-item that lies within another, and the first beyond the end of the type.
+fn places(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, fields: &[Field]) {
+    let end = |field: &Field| field.bit_offset.saturating_add(field.bits);
+    let mut order: Vec<(&Field, &RawField<'_>)> =
+        fields.iter().zip(&ty.fields).filter(|(own, _)| own.bits > 0).collect();
+    order.sort_by_key(|(field, _)| field.bit_offset);
+    let shared = order.windows(2).find(|pair| matches!(pair, [one, other] if end(one.0) > other.0.bit_offset));
+    if let Some([one, other]) = shared {
+        let (first, second) = (shortened(&one.0.name), shortened(&other.0.name));
+        let message = format!("the sub-items `{first}` and `{second}` share bits: {}", extents(one.0, other.0));
+        let found = Diagnostic::new(&codes::SUB_ITEM_PLACE, other.1.origin.span, message).label("both are kept");
+        let found = found.note_at(one.1.origin.span, "the other one");
+        reader.diagnostics.push(found.help("one of the two has the wrong BitOffs or BitSize"));
+    }
+    let Some(bits) = ty.bits else { return };
+    if let Some((field, raw)) = order.iter().find(|(field, _)| end(field) > bits) {
+        let name = shortened(&field.name);
+        let message = format!("the sub-item `{name}` reaches to bit {} of a data type of {bits} bits", end(field));
+        let found = Diagnostic::new(&codes::SUB_ITEM_PLACE, raw.origin.span, message).label("kept as it is");
+        reader
+            .diagnostics
+            .push(found.help("the BitSize of the data type is too small, or BitOffs or BitSize here wrong"));
+    }
+}
+
+/// The bits of two fields.
+fn extents(one: &Field, other: &Field) -> String {
+    let bits = |field: &Field| {
+        let last = field.bit_offset.saturating_add(field.bits).saturating_sub(1);
+        format!("{} to {last}", field.bit_offset)
+    };
+    format!("{} and {}", bits(one), bits(other))
+}
+
 fn dimensions(reader: &mut Reader<'_, '_>, ty: &RawType<'_>, element: Option<u32>) -> Vec<(i32, u32)> {
     const MAX_DIMENSIONS: usize = 3;
     if let Some(more) = ty.dimensions.get(MAX_DIMENSIONS) {
