@@ -834,13 +834,22 @@ fn a_mapping_object_against_the_mapped_bits() {
 #[test]
 fn codes_that_contain_each_other() {
     // Eco D12.
-    let text = format!(
-        r#"{DEVICE}[codes.abort.rows]
-"0x06010000..0x0601000F" = "unsupported access"
-0x06010002 = "read-only"
+    let codes = |wide: &str| {
+        format!(
+            r#"{DEVICE}[codes.abort.rows]
+"{wide}" = "unsupported access"
+"0x06010002..0x06010004" = "read-only"
 "#
-    );
-    flags(&text, &[("TAB017", "abort")]);
+        )
+    };
+    let same = "`read-only` (100728834 to 100728836) of `abort` are the same value";
+    for (wide, at) in [("0x06010000..0x06010003", 0), ("0x6010002..0x06010004", 1)] {
+        let found = flags(&codes(wide), &[("TAB017", "abort")]);
+        assert!(at == 1 || message(&found, 0).ends_with(same), "{}", message(&found, 0));
+    }
+    // The narrowest range wins.
+    flags(&codes("0x06010000..0x0601000F"), &[]);
+    flags(&codes("0x06010003"), &[]);
 }
 
 #[test]
@@ -1074,6 +1083,20 @@ fn sub_index_0_of_objects_on_any_bus() {
         assert_eq!(message(&found, 2), "0x609B has no sub-indices");
         assert!(help(&found, 0).contains("sub-index") && help(&found, 2).contains("sub-index 0"));
     }
+}
+
+#[test]
+fn a_limit_of_all_bits_that_reaches_into_reserved_ones() {
+    let row = |max: &str, bits: &str| {
+        format!("a = {{ reg = 1, type = \"u32\", min = 0, max = {max}, bits = {{ {bits} }} }}\n")
+    };
+    let found = registers(&row("0x7FFFFFFF", r#""31-24" = { reserved = 0 }"#), &[("TAB019", "0x7FFFFFFF")]);
+    assert_eq!(message(&found, 0), "the upper limit 0x7FFFFFFF sets bits 31-24 (reserved) of `a`");
+    let bits = r#"1 = { reserved = 0 }, 3 = "on", "31-24" = { reserved = 0 }"#;
+    registers(&row("0xFFFFFFFF", bits), &[]);
+    registers(&row("0x0000000F", bits), &[]);
+    registers(&row("0x000000FF", bits), &[("TAB019", "0x000000FF")]);
+    registers(&row("0x00FFFFFF", r#"3 = "on", "31-24" = { reserved = 0 }"#), &[]);
 }
 
 // Items of section 4 that no linter sees, because nothing in a faithful table contradicts anything else:

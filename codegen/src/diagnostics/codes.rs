@@ -726,8 +726,8 @@ codes! {
         limit is wrong, or the item has an enumeration of its own with fewer values."
     TAB017 VALUE_NAMED_TWICE "value-named-twice" Lint Warn
         "a value or code has two names"
-        "Two entries of an enumeration or of a table of codes are the same number, or a range contains another entry. Generated \
-        code decodes the first. Names that depend on the firmware or the model say so in each of them."
+        "Two entries of an enumeration or of a table of codes are the same number, or have some in common. Of codes a range may \
+        contain narrower ones, which count there. Generated code decodes the first. Names that depend on the firmware or the model say so in each of them."
     TAB018 UNNAMED_VALUE "unnamed-value" Lint Warn
         "a default, limit or condition is a value that is reserved or has no name"
         "The value is reserved, or has no name in an enumeration that is closed, or a limit is one off the last value with a \
@@ -735,7 +735,7 @@ codes! {
     TAB019 RESERVED_BITS "reserved-bits" Lint Warn
         "a default, limit or fixed value sets bits without a meaning"
         "The number sets a bit that is reserved or that nobody named, or lacks one that is always set. A limit is looked at where \
-        it is a pattern of bits, and not all bits up to some place."
+        it is a pattern of bits, and not all bits up to the end of the type or the last one that has a name."
     TAB020 LENGTH_MISMATCH "length-mismatch" Lint Warn
         "a length isn't that of the type"
         "The bytes of an address, of a default text, or those that the manual prints (`length`) aren't as many as the type takes."

@@ -147,8 +147,7 @@ impl Check<'_, '_> {
         }
         for (what, value, span) in self.limits() {
             let bits = pattern(value);
-            // A limit of one bit, or of all bits up to some place, says how many there are, and not which.
-            if bits & bits.wrapping_add(1) != 0 && !bits.is_power_of_two() && !base.is_signed() {
+            if !is_count(bits, width, fields) && !base.is_signed() {
                 self.meaningless(fields, (what, value, span), bits);
             }
             if what == "upper limit" && !base.is_signed() {
@@ -206,6 +205,17 @@ impl Check<'_, '_> {
         let message = format!("{} can't be set below the upper limit {limit}{others}", called(first));
         self.report(&codes::NAME_OUTSIDE_LIMITS, span, message);
     }
+}
+
+/// Whether a limit says how many bits there are, and not which: it is one bit, or all up to the end of the type or the last
+/// bit that has a name.
+fn is_count(bits: u64, width: u32, fields: &[BitFieldEntry]) -> bool {
+    if bits & bits.wrapping_add(1) != 0 {
+        return bits.is_power_of_two();
+    }
+    let named = fields.iter().filter(|field| !matches!(field.meaning, BitMeaning::Reserved { .. }));
+    let last = named.map(|field| u32::from(field.offset) + u32::from(field.bits)).max();
+    bits.count_ones() <= 1 || bits.count_ones() == width || Some(bits.count_ones()) == last
 }
 
 #[cfg(test)]

@@ -30,7 +30,13 @@ pub(super) fn codes<'a>(tables: impl Iterator<Item = &'a CodeTable>, diagnostics
         let mut sorted: Vec<_> = table.rows.iter().collect();
         sorted.sort_by_key(|row| row.code);
         let range = |row: &crate::ir::CodeRow| (row.code, row.last.unwrap_or(row.code));
-        if let Some((one, other)) = overlap(&sorted, range, |_, _| false) {
+        // Of a code that lies in several ranges, the narrowest says the most, and counts.
+        let is_within = |inner: (i128, i128), outer: (i128, i128)| outer.0 <= inner.0 && inner.1 <= outer.1;
+        let narrower = |one: &crate::ir::CodeRow, other: &crate::ir::CodeRow| {
+            let (one, other) = (range(one), range(other));
+            one != other && (is_within(one, other) || is_within(other, one))
+        };
+        if let Some((one, other)) = overlap(&sorted, range, narrower) {
             let names = [(one.code, one.last, one.name.as_str()), (other.code, other.last, other.name.as_str())];
             report(&table.name, table.origin.span, names, diagnostics);
         }
