@@ -93,30 +93,6 @@ fn item_02_ten_digits_of_a_limit() {
     objects(rows, &[("TAB012", "0x007FFFFFFF")]);
 }
 
-#[test]
-fn item_03_how_many_objects_can_be_mapped() {
-    let rows = r#"0x1600 = { name = "RPDO 1 mapping", code = "record", summary = { subs = 5, cite = 602 } }
-"0x1600:0" = { name = "entries", type = "u8", access = "rw" }
-"0x1600:1..8" = { name = "entry {sub}", type = "u32", access = "rw" }
-"#;
-    let found = objects(rows, &[("TAB021", "5")]);
-    assert_eq!(message(&found, 0), "the summary says 5 sub-indices, and 9 are described");
-}
-
-#[test]
-fn item_06_sub_indices_of_the_summary() {
-    let rows = r#"0x1003 = { name = "errors", code = "array", summary = { subs = 3, cite = 583 } }
-"0x1003:0..2" = { name = "error {sub}", type = "u32", access = "ro" }
-0x1018 = { name = "identity", code = "record", summary = { subs = 4, cite = 596 } }
-"0x1018:0..4" = { name = "identity {sub}", type = "u32", access = "ro" }
-0x1400 = { name = "RPDO 1", code = "record", summary = { subs = 5, cite = 598 } }
-"0x1400:0..2" = { name = "parameter {sub}", type = "u32", access = "rw" }
-0x1800 = { name = "TPDO 1", code = "record", summary = { subs = 9, cite = 606 } }
-"0x1800:0..5" = { name = "parameter {sub}", type = "u32", access = "rw" }
-"#;
-    objects(rows, &[("TAB021", "4"), ("TAB021", "5"), ("TAB021", "9")]);
-}
-
 const SYNC: &str = r#"0x1005 = { name = "COD_ID_SYNC", type = "u32", access = "rw", pdo = "no", min = 0x00000000, max = 0xFFFFFFFF,
     default = DEFAULT, cite = 712, bits = { 31 = { reserved = "keep" }, 30 = "generates SYNC",
     29 = "29-bit identifier", "28-11" = { name = "extension", number = true }, "10-0" = { name = "SYNC COB-ID",
@@ -197,33 +173,6 @@ fn item_13_a_default_of_four_digits_for_four_bytes() {
 }
 
 #[test]
-fn item_14_symbols_twice_in_one_object_and_mixed_prefixes() {
-    let rows = r#"0x23E8 = { name = "User variables", code = "record" }
-"0x23E8:1" = { name = "variable_number", type = "u16", access = "rw", cite = 3244 }
-"0x23E8:2" = { name = "variable_value", type = "i32", access = "rw", cite = 3252 }
-"0x23E8:3" = { name = "variable_number", type = "u16", access = "rw", cite = 3260 }
-"0x23E8:4" = { name = "variable_value", type = "i32", access = "rw", cite = 3268 }
-"#;
-    objects(rows, &[("TAB040", r#""0x23E8:3""#), ("TAB040", r#""0x23E8:4""#)]);
-    let text = format!(
-        r#"{DEVICE}[[chapters]]
-[chapters.objects]
-0x1005 = {{ type = "u32", min = 0X00000000 }}
-"#
-    );
-    assert_eq!(compile(&text, &[]).diagnostics.list()[0].code.id, "TAB002");
-}
-
-#[test]
-fn item_16_a_default_that_counts_another_number_of_entries() {
-    let rows = r#"0x23E8 = { name = "User variables", code = "record" }
-"0x23E8:0" = { name = "entries", type = "u8", access = "ro", default = 0x02, cite = 3236 }
-"0x23E8:1..6" = { name = "variable {sub}", type = "i32", access = "rw" }
-"#;
-    canopen(rows, &[("EDS049", "0x02")]);
-}
-
-#[test]
 fn item_17_an_index_of_five_digits() {
     let text = format!(
         r#"{DEVICE}[axes]
@@ -284,22 +233,6 @@ fn item_20_a_register_printed_twice() {
     let again = format!("{first}[[chapters]]\n[chapters.registers]\n{second}");
     registers(&again, &[("TAB007", "Rtouchprobe2timestampneg"); 3]);
     registers(&format!("{first}{second}"), &[("TAB002", "Rtouchprobe2timestampneg")]);
-}
-
-#[test]
-fn item_21_an_index_printed_as_a_range() {
-    let rows = r#"Rrslvrawangleout = { reg = "10194-95", obj = "0x47D2-D3", type = "i32", access = "ro", cite = 2590 }
-"#;
-    registers(rows, &[("TAB006", r#""0x47D2-D3""#)]);
-}
-
-#[test]
-fn item_23_how_many_locations_a_program_has() {
-    // Locations 0 to 4988 at registers 2010 to 6999.
-    let rows = r#"Rprgusrprg = { reg = "2010-6999", type = "u16[4989]", cite = [3215, 3217] }
-Rprgcnt = { reg = 207, type = "u16", min = 0, max = 4998, cite = 3199, summary = { max = 4988, cite = 3201 } }
-"#;
-    registers(rows, &[("TAB009", r#""2010-6999""#), ("TAB021", "4988")]);
 }
 
 #[test]
@@ -389,19 +322,6 @@ fn item_38_a_measured_velocity_that_is_never_zero() {
 }
 
 #[test]
-fn item_39_elements_that_exclude_sub_index_0() {
-    let rows = r#"0x60C1 = { name = "Interpolation data", code = "array", cite = 1823, summary = { type = "u32", subs = 2,
-    cite = 1240 } }
-"0x60C1:1..2" = { name = "data {sub}", type = "i32", access = "rw" }
-0x60C4 = { name = "Data configuration", code = "record", summary = { subs = 7, cite = 1243 } }
-"0x60C4:1..6" = { name = "configuration {sub}", type = "u32", access = "rw" }
-"#;
-    let text = format!("{CANOPEN}[[chapters]]\n[chapters.objects]\n{rows}");
-    let expected = [("EDS058", "0x60C1"), ("TAB021", r#""u32""#), ("EDS058", "0x60C4"), ("TAB021", "7")];
-    flags_with(&["no-sub0"], &text, &expected);
-}
-
-#[test]
 fn item_40_a_limit_that_sets_reserved_bits() {
     let row = r#"0x60FD = { name = "Digital inputs", type = "u32", access = "ro", min = 0, max = 0xFFFF00F7, cite = 1949,
     bits = "Inputs" }
@@ -429,51 +349,6 @@ const MODE: &str = r#"[enums.Mode.values]
 7 = "interpolated"
 "8..127" = { zone = "reserved", cite = 1469 }
 "#;
-
-#[test]
-fn item_41_a_mode_without_bits() {
-    let rows = format!(
-        r#"{DEVICE}[[chapters]]
-[chapters.objects]
-{MODES}0x6040 = {{ name = "Controlword", type = "u16", access = "rw", bits = "Control" }}
-{MODE}[bits.Control.at]
-4 = [ {{ name = "new set-point", when = {{ "Modes of operation" = [1] }} }}, {{ name = "homing start",
-    when = {{ "Modes of operation" = [6] }} }}, {{ name = "jog", when = {{ "Modes of operation" = [-1] }} }} ]
-"#
-    );
-    let found = flags_with(&["mode-without-bits"], &rows, &[("TAB037", "Control")]);
-    assert_eq!(message(&found, 0), "`Control` has no bits for `Modes of operation` = 7 (`interpolated`)");
-    flags(&rows, &[]);
-}
-
-#[test]
-fn item_43_one_word_with_other_bits_under_another_number() {
-    let rows = r#"Rtouchprobefunc = { reg = 331, type = "u16", pdo = "rx", min = 0, max = 65535, cite = 2951,
-    bits = { 0 = "enable 1", 1 = "continuous 1", "3-2" = { name = "source 1", values = { 0b00 = "input 0",
-    0b01 = "TOP", 0b10 = "by object" } }, 4 = "positive edge 1", 5 = "negative edge 1", "7-6" = { name = "position 1", number = true }, 8 = "enable 2" } }
-[chapters.objects]
-0x60B8 = { name = "Touch probe function", type = "u16", access = "rw", pdo = "rx", cite = 1703,
-    same_as = "Rtouchprobefunc", bits = { 0 = "enable 1", 1 = "continuous 1", 2 = "source 1",
-    3 = { reserved = "keep" }, 4 = "sampling 1", 5 = { reserved = "keep" }, "7-6" = { name = "position 1",
-    number = true }, 8 = "enable 2" } }
-"#;
-    let found = registers(rows, &[("TAB022", "0x60B8")]);
-    let message = message(&found, 0);
-    let differs = "differs: the bits 2, 2 to 3, 5 have a meaning in one of them only; \
-                   bit 4 is `sampling 1` and `positive edge 1`";
-    assert!(message.ends_with(differs), "{message}");
-}
-
-#[test]
-fn item_43_an_object_that_is_named_and_nowhere_described() {
-    let rows = r#"0x60B8 = { name = "Touch probe function", type = "u16", access = "rw", bits = "Function" }
-[bits.Function.at]
-"3-2" = { name = "source 1", values = { 0b00 = "input 0", 0b01 = "TOP", 0b10 = "input that 0x60D0 defines",
-    0b11 = { zone = "reserved" } }, cite = 3005 }
-"#;
-    let found = objects(rows, &[("TAB025", r#""3-2""#)]);
-    assert_eq!(message(&found, 0), "object 0x60D0 is mentioned, and the table doesn't have it");
-}
 
 #[test]
 fn item_44_types_that_dont_go_with_their_limits() {
@@ -566,24 +441,6 @@ Rcamstspcor = { reg = 458, type = "i16", unit = "%", min = -1000, max = 1000, ci
     assert_eq!(message(&found, 3), "the upper limit 8 has no name in `Rcanbaud`");
     let bits = "bit 18 (`no SYNC`) can't be set below the upper limit 65536, and neither can 1 more";
     assert_eq!(message(&found, 5), bits);
-}
-
-#[test]
-fn item_46_access_that_contradicts_storage_and_mapping() {
-    let rows = r#"Rtouchprobe1inpdef = { reg = 341, type = "i16", access = "ro", pdo = "rx", cite = 2959 }
-Rtouchprobe2inpdef = { reg = 342, type = "i16", access = "ro", pdo = "rx", cite = 2960 }
-Rposactsaved = { reg = "55-56", type = "i32", access = "ro", pdo = "no", save = true, order = "low_first",
-    cite = 2134 }
-Rtouchprobestatus = { reg = 332, type = "u16", access = "ro", until = "6", replaced_by = "Rtouchprobestatus_v6",
-    cite = 2952 }
-Rtouchprobestatus_v6 = { reg = 10085, type = "u16", access = "rw", save = true, since = "6", cite = 2964 }
-"#;
-    let expected = [("TAB024", r#""rx""#), ("TAB024", r#""rx""#), ("TAB024", r#""ro""#), ("TAB022", r#""ro""#)];
-    let found = registers(rows, &expected);
-    assert_eq!(message(&found, 0), "`Rtouchprobe1inpdef` is ro and may come in an RPDO");
-    assert_eq!(message(&found, 2), "`Rposactsaved` is ro and saved, though nobody can write it");
-    let replaced = "`Rtouchprobestatus` is ro, and `Rtouchprobestatus_v6`, which replaces it, rw";
-    assert_eq!(message(&found, 3), replaced);
 }
 
 #[test]
@@ -690,20 +547,6 @@ Rmotenc = { reg = "151-152", type = "i32", until = "6", cite = 2503 }
     let rows = r#"Rmoved = { reg = 279, type = "u16", since = "6.27", until = "6.3" }
 "#;
     registers(rows, &[("TAB026", "Rmoved")]);
-}
-
-#[test]
-fn item_60_defaults_in_the_cell_of_the_limit() {
-    let rows = r#"Rencabsframembit = { reg = 10028, type = "u16", min = "Default 25", cite = 2570 }
-Rtestintmot = { reg = "42-43", type = "u32", min = "1234567890 (0x499602D2)", cite = 2795 }
-"#;
-    registers(rows, &[("TAB004", r#""Default 25""#), ("TAB004", r#""1234567890 (0x499602D2)""#)]);
-    let timer = format!(
-        r#"{REGISTERS}Rtim4 = {{ reg = "536-37", type = "u32", min = 0, cite = 2765 }}
-"#
-    );
-    flags_with(&["one-limit"], &timer, &[("TAB038", "0")]);
-    flags(&timer, &[]);
 }
 
 #[test]

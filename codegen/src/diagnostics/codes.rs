@@ -664,7 +664,8 @@ codes! {
         only, so that this lint is off unless asked for."
     TAB001 REGISTER_FORMULA "register-formula" Lint Warn
         "an object isn't the one that its register's rule gives"
-        "A row has the number of a register and an object, and the rule of its space gives another object for the number. \
+        "A row has the number of a register and an object, and the rule of its space gives another object for the number; or it \
+        has none, where the rows around it have one. \
         What the row says is used. One of the two is misprinted: look at the neighbours, write the doubt down, and allow \
         this code on the row."
     TAB002 TABLE_SYNTAX "table-syntax" Error Deny
@@ -708,7 +709,7 @@ codes! {
         "a hexadecimal number doesn't have the digits of its type"
         "A number with more digits than its type has bits for (`0x007FFFFFFF` of 32 bits), one that is filled up with zeros to \
         another length (`0x0000` of 32 bits), or an index without four digits (`0x20A`). A digit was doubled or lost, or the \
-        type is another."
+        type is another. Or it begins with `0X`, which is read, and often is a mark of another hand in the manual."
     TAB013 BIT_OUTSIDE_TYPE "bit-outside-type" Lint Warn
         "a bit lies outside of its integer"
         "The integer has fewer bits than the bit field names. Generated code leaves the field out."
@@ -800,10 +801,11 @@ codes! {
     TAB036 UNNAMED_BITS "unnamed-bits" Lint Allow
         "a bit field says nothing of some bits"
         "Bits that are neither named nor reserved, or values of a narrow field between those that have names. Manuals leave \
-        them out as often as not, so that this lint is off unless asked for."
-    TAB037 MODE_WITHOUT_BITS "mode-without-bits" Lint Allow
+         them out as often as not, so that this lint is off unless asked for."
+    TAB037 MODE_WITHOUT_BITS "mode-without-bits" Lint Warn
         "bits that depend on a mode have no meaning in one of the modes"
-        "Some modes don't use the bits, so that this lint is off unless asked for."
+        "The table of the bits lacks a column for the mode, or the mode doesn't use them: say so, and allow this code on the \
+        bit field. The value 0, which mostly is no mode at all, doesn't count."
     TAB038 ONE_LIMIT "one-limit" Lint Allow
         "a row has one limit only"
         "A cell of the manual is empty beside one that isn't. Often the limit is that of the type, so that this lint is off \
@@ -813,11 +815,15 @@ codes! {
         "The value has bits that the mask doesn't have, so that nothing ever matches it."
     TAB040 NAME_TWICE "name-twice" Lint Warn
         "two objects, sub-entries of an object, bits or values have one name"
-        "Often the name was copied from the box above. Generated code tells the two apart by a number."
+        "Often the name was copied from the box or line above. Generated code tells the two apart by a number."
     TAB041 BROKEN_NAME "broken-name" Lint Warn
-        "a name has the hyphen of a line break, or a description, in it"
+        "a name has the hyphen of a line break, or a description, in it, or is the title of a column"
         "The column of the manual was too narrow for the name; its prose often has the whole one. Or the name's cell has the \
-        description beside it as well: values (`0 = Stop`), tags, or a sentence where other registers are called by a word."
+        description beside it as well: values (`0 = Stop`), tags, or a sentence where other registers are called by a word. Or a \
+        bit or value is called `Definition`, as columns are: then a line of the printed table slid."
+    TAB050 EMPTY_LIMIT "empty-limit" Lint Warn
+        "a row has one limit, which is that of its type"
+        "A lower limit of 0 says nothing of an unsigned value. The manual's cell for the other limit is empty, or was lost."
     MOD001 MODULE_INDEX_CLASH "module-index-clash" Lint Warn
         "a module's fixed object exists in the device already"
         "The fixed objects of a module get an index of their own; the device describes this one itself, so that one \

@@ -68,7 +68,7 @@ fn complete(
         let values: HashSet<i128> = own.flat_map(|own| &own.values).filter_map(Value::as_int).collect();
         let missing = labels.iter().filter(|label| label.zone.is_none() && label.last.is_none());
         let missing: Vec<String> = missing
-            .filter(|label| !values.contains(&label.value))
+            .filter(|label| label.value != 0 && !values.contains(&label.value))
             .map(|label| format!("{} (`{}`)", label.value, brief(&label.name)))
             .collect();
         if !missing.is_empty() {

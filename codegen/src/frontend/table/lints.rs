@@ -10,9 +10,13 @@ use crate::ir::{Type, Value};
 use crate::source::Span;
 use crate::text::brief;
 
+/// So many objects beside numbers are how a chapter prints its rows.
+const PRINTED: usize = 3;
+
 /// Holds a number against its type: the digits that it is written in, and its value.
 pub(super) fn number(reader: &mut Reader<'_, '_>, given: &At<Literal>, value: &Value, ty: Type) {
     let span = reader.span(given);
+    capital(reader, span);
     if let (Type::Integer(bits) | Type::Unsigned(bits), Some(digits)) = (ty, hexadecimal(reader.source.slice(span))) {
         let (own, needed) = (digits.len(), usize::from(bits).div_ceil(4));
         let problem = match own {
@@ -26,6 +30,16 @@ pub(super) fn number(reader: &mut Reader<'_, '_>, given: &At<Literal>, value: &V
         }
     }
     range(reader, value, ty, span);
+}
+
+/// Reports `0X`, which TOML has no numbers with: in quotation marks it is read all the same.
+fn capital(reader: &mut Reader<'_, '_>, span: Span) {
+    let text = reader.source.slice(span).trim_matches(['"', '\'']);
+    if text.starts_with("0X") {
+        let message = format!("`{}` begins with `0X`, and other numbers with `0x`", brief(text));
+        let found = Diagnostic::new(&codes::HEX_DIGITS, span, message).label("read as a hexadecimal number");
+        reader.diagnostics.push(found.help("write `0x`, unless the X stands for a digit that was lost"));
+    }
 }
 
 /// Reports a number that its type can't have.
@@ -54,6 +68,7 @@ fn hexadecimal(text: &str) -> Option<String> {
 /// Reports an index that isn't written in four digits: one was lost.
 pub(super) fn index<T>(reader: &mut Reader<'_, '_>, given: &At<T>) {
     let span = reader.span(given);
+    capital(reader, span);
     let text = reader.source.slice(span).trim_matches(['"', '\'']);
     let indices = text.split(':').next().unwrap_or_default().split("..");
     let short = indices.filter_map(hexadecimal).find(|digits| digits.len() != 4);
@@ -113,6 +128,26 @@ pub(super) fn series(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)]
             );
             reader.report(&codes::REGISTER_FORMULA, own.span, message);
         }
+    }
+}
+
+/// Reports rows without an object, where others of their chapter have the one that the rule gives: the manual prints none.
+pub(super) fn unprinted(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)], space: Option<&Space>) {
+    let printed = rows.iter().filter_map(|(_, row)| Printed::new(reader, &row.value, space));
+    if printed.filter(|own| own.rule == Some(own.index)).count() < PRINTED {
+        return;
+    }
+    for (_, row) in rows.iter().filter(|(_, row)| row.value.obj.is_none()) {
+        let Some(reg) = &row.value.reg else { continue };
+        let number = match &reg.value {
+            NumberOrText::Number(number) => u32::try_from(*number).ok(),
+            NumberOrText::Text(text) => place::registers(text).map(|(first, _)| first),
+        };
+        let Some((index, _)) = number.and_then(|number| space?.object(number)) else { continue };
+        let message =
+            format!("the row says no object, as others here do, and the rule of its space gives 0x{index:04X}");
+        let found = Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(reg), message);
+        reader.diagnostics.push(found.help("a space without that rule keeps the register on its own bus"));
     }
 }
 

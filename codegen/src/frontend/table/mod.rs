@@ -342,6 +342,7 @@ fn chapter<'a>(
     group.documentation = reader.documentation(own.doc.as_deref(), cite.clone());
     group.doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], group.origin, cite.as_deref());
     lints::series(reader, &registers, space.and_then(|at| rows.spaces.get(at)));
+    lints::unprinted(reader, &registers, space.and_then(|at| rows.spaces.get(at)));
     for (key, row) in registers {
         let items = rows.registers(reader, space, (&key, &row), defaults);
         let part = row.value.part.as_ref().and_then(|part| place::bits(&part.value.to_string()));
