@@ -824,6 +824,10 @@ codes! {
     TAB050 EMPTY_LIMIT "empty-limit" Lint Warn
         "a row has one limit, which is that of its type"
         "A lower limit of 0 says nothing of an unsigned value. The manual's cell for the other limit is empty, or was lost."
+    TAB051 REGISTERS_SHARED "shared-registers" Lint Warn
+        "two items share registers, or bits of one"
+        "One of the two has the wrong number, or a type that is too long. Where the device shows a part of a value in registers \
+         of its own, say so: `part`, or `same_as` and this code in `allow`."
     MOD001 MODULE_INDEX_CLASH "module-index-clash" Lint Warn
         "a module's fixed object exists in the device already"
         "The fixed objects of a module get an index of their own; the device describes this one itself, so that one \

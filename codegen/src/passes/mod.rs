@@ -8,7 +8,6 @@ mod aliases_agree;
 mod bit_fields_checked;
 mod conditions_possible;
 mod declared_pdos_checked;
-mod definitions_distinct;
 mod directions_agree;
 mod firmware_comparable;
 mod identity_agrees;
@@ -32,6 +31,7 @@ mod process_image_checked;
 mod records_checked;
 mod subslots_distinct;
 mod texts;
+mod titles_are_no_names;
 pub(crate) mod values_checked;
 mod values_named_once;
 
@@ -121,7 +121,7 @@ fn table(device: &Device, diagnostics: &mut Diagnostics) {
     limits_complete::run(owner, diagnostics);
     conditions_possible::run(owner, diagnostics);
     names_tell_apart::run(device, diagnostics);
-    definitions_distinct::run(owner, diagnostics);
+    titles_are_no_names::run(owner, diagnostics);
     firmware_comparable::run(device, diagnostics);
     aliases_agree::run(device, diagnostics);
     mentioned_objects_exist::run(device, diagnostics);
