@@ -359,3 +359,33 @@ fn the_command_line_takes_overlays() {
         .expect("lexibus runs");
     assert_eq!(missing.status.code(), Some(2));
 }
+
+#[test]
+fn an_overlay_changes_no_lints_of_the_rest() {
+    // A value that can't be written comes in an RPDO; two objects of one name; a text that mentions what isn't there.
+    let eds = EDS.replace("DataType=6\nAccessType=ro\n", "DataType=6\nAccessType=ro\nPDOMapping=1\n");
+    let eds = eds.replace("ParameterName=Mode", "ParameterName=Speed");
+    let alone =
+        check(Source::new("pump.eds", eds.as_bytes().to_vec()), &Options { no_profiles: true, ..Options::default() });
+    let with = apply_to("pump.eds", &eds, &rows("0x2000 = { unit = \"rpm\" }\n"));
+    let codes = |found: &Compilation| found.diagnostics.list().iter().map(|own| own.code.id).collect::<Vec<_>>();
+    assert_eq!(codes(&alone), codes(&with));
+    let mut options = Options { no_profiles: true, ..Options::default() };
+    options.levels.set("TAB040", lexibus_codegen::diagnostics::Level::Warn).unwrap();
+    let asked = check(Source::new("pump.eds", eds.into_bytes()), &options);
+    assert_eq!(codes(&asked).iter().filter(|code| **code == "TAB040").count(), 1);
+}
+
+#[test]
+fn findings_about_what_an_overlay_said_are_in_the_overlay() {
+    let text = rows("0x2000 = { min = 1, max = 9, same_as = \"Mode\" }\n0x2001 = { min = 2, max = 9 }\n");
+    let found = findings(&apply(&text));
+    assert_eq!(found, [("TAB022", "\"Mode\"".to_owned())]);
+    let table = "lexibus = 1\n[device]\nname = \"P\"\n[[chapters]]\n[chapters.objects]\n\
+                 0x2000 = { name = \"Speed\", type = \"u16\", access = \"rw\" }\n";
+    let text = rows("0x2000 = { doc = \"As object 0x2010\" }\n");
+    let found = apply_to("pump.toml", table, &text);
+    let found = findings(&found);
+    assert_eq!(found.len(), 1);
+    assert!(found[0].0 == "TAB025" && found[0].1.starts_with("0x2000 ="), "{found:?}");
+}

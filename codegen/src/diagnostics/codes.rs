@@ -756,7 +756,8 @@ codes! {
     TAB024 ACCESS_CONFLICT "access-conflict" Lint Warn
         "access, storage and process data contradict each other"
         "A value that can't be written is saved, comes in an RPDO or has values that may be written; one that can't be read goes \
-        into a TPDO; or one that the device clears by itself is saved."
+        into a TPDO; or one that the device clears by itself is saved. Descriptions other than register tables are looked at only \
+        where a level of this code is set."
     TAB025 MENTIONED_OBJECT "mentioned-object" Lint Warn
         "a text mentions an object or item that the table doesn't have"
         "Documentation, names and effects mention objects by index: 0x6000 to 0x67FF, `object 0x2010`, or with a sub-index, \
@@ -815,7 +816,8 @@ codes! {
         "The value has bits that the mask doesn't have, so that nothing ever matches it."
     TAB040 NAME_TWICE "name-twice" Lint Warn
         "two objects, sub-entries of an object, bits or values have one name"
-        "Often the name was copied from the box or line above. Generated code tells the two apart by a number."
+        "Often the name was copied from the box or line above. Generated code tells the two apart by a number. Descriptions \
+         other than register tables are looked at only where a level of this code is set."
     TAB041 BROKEN_NAME "broken-name" Lint Warn
         "a name has the hyphen of a line break, or a description, in it, or is the title of a column"
         "The column of the manual was too narrow for the name; its prose often has the whole one. Or the name's cell has the \

@@ -81,6 +81,11 @@ impl Levels {
         }
     }
 
+    /// Whether a user set a level of this code by its name, at which it is reported.
+    pub(super) fn asks_for(&self, code: &Code) -> bool {
+        self.by_code.get(code.id).is_some_and(|level| *level != Level::Allow)
+    }
+
     /// The severity of findings of this kind; `None` when they aren't reported.
     pub fn severity(&self, code: &'static Code) -> Option<Severity> {
         if code.class == Class::Error {

@@ -169,6 +169,11 @@ impl Diagnostics {
         self.levels.severity(code).is_some()
     }
 
+    /// Whether the user named this kind of finding: for lints that are on by default for one format only.
+    pub fn asks_for(&self, code: &'static Code) -> bool {
+        self.levels.asks_for(code)
+    }
+
     /// All findings, in the order in which they were made.
     pub fn list(&self) -> &[Diagnostic] {
         &self.list

@@ -111,6 +111,8 @@ pub struct ItemSpans {
     pub high: Span,
     /// The configured value.
     pub configured: Span,
+    /// The words that say what it is.
+    pub documentation: Span,
 }
 
 /// What a configuration file (DCF, XDC) sets for one device.

@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::owner::{Index, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{BitFieldEntry, BitMeaning, Device, Item, Quantity, Scale, Shape};
+use crate::ir::{BitFieldEntry, BitMeaning, Device, Extension, Item, Quantity, Scale, Shape};
+use crate::source::Span;
 use crate::text::brief;
 
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
@@ -26,10 +27,17 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
                 brief(&alias.value),
                 differences.join("; ")
             );
-            let found = Diagnostic::new(&codes::SAME_VALUE_DIFFERS, item.origin.span, message);
+            let found = Diagnostic::new(&codes::SAME_VALUE_DIFFERS, place(item, alias), message);
             diagnostics.push(found.note_at(other.origin.span, "the other one"));
         }
     }
+}
+
+/// Where an overlay says what differs, else the row.
+fn place(item: &Item, alias: &Extension) -> Span {
+    let own = item.origin.span;
+    let facts = [alias.span, item.at.ty, item.at.low, item.at.high];
+    facts.into_iter().find(|fact| !fact.is_empty() && fact.file != own.file).unwrap_or(own)
 }
 
 /// An item and its replacement are used alike. What only a default says of either isn't compared.

@@ -75,8 +75,10 @@ fn device(device: &mut Device, modules: &[Module], format: Option<Format>, diagn
     let groups = [device.groups.as_slice()];
     meanings(Owner { types: &device.types, groups: &groups }, diagnostics);
     values_named_once::codes(device.code_tables.iter(), diagnostics);
+    facts(device, is_table, diagnostics);
     if is_table {
-        table(device, diagnostics);
+        mentioned_objects_exist::run(device, diagnostics);
+        names_in_texts_exist::run(device, diagnostics);
     }
 }
 
@@ -111,21 +113,20 @@ fn meanings(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     lengths_checked::run(owner, diagnostics);
 }
 
-/// What only a register table says, and what the authors of other formats don't mind: 52 files of the corpus say that values
-/// which can't be written come in RPDOs.
-fn table(device: &Device, diagnostics: &mut Diagnostics) {
+/// What rows say, be it those of a table or of an overlay.
+fn facts(device: &Device, is_table: bool, diagnostics: &mut Diagnostics) {
     let groups = [device.groups.as_slice()];
     let owner = Owner { types: &device.types, groups: &groups };
-    access_checked::run(owner, diagnostics);
+    access_checked::run(owner, is_table, diagnostics);
     limits_named::both_given(owner, diagnostics);
     limits_complete::run(owner, diagnostics);
     conditions_possible::run(owner, diagnostics);
-    names_tell_apart::run(device, diagnostics);
+    names_tell_apart::run(device, is_table, diagnostics);
     titles_are_no_names::run(owner, diagnostics);
     firmware_comparable::run(device, diagnostics);
     aliases_agree::run(device, diagnostics);
-    mentioned_objects_exist::run(device, diagnostics);
-    names_in_texts_exist::run(device, diagnostics);
-    procedures_possible::run(device, diagnostics);
-    mapping_steps_checked::run(device, diagnostics);
+    if is_table || !device.procedures.is_empty() {
+        procedures_possible::run(device, diagnostics);
+        mapping_steps_checked::run(device, diagnostics);
+    }
 }

@@ -6,31 +6,58 @@ use std::collections::HashMap;
 use super::bit_fields_checked::told_apart;
 use super::firmware_comparable::apart;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{BitFieldEntry, Device, EnumValue, Group, GroupKind, Shape, TypeDef};
+use crate::ir::{BitFieldEntry, Device, EnumValue, Group, GroupKind, Item, Shape, TypeDef};
 use crate::source::Span;
 use crate::text::brief;
 
 /// A name of a register with more words is a description, where the others are single words.
 const NAME_WORDS: usize = 6;
 
-pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
-    let mut objects = HashMap::new();
-    let are_words = are_words(device);
+/// Of other formats than tables, names are compared where the user asks for it: tools number their objects, and call many
+/// alike.
+pub(super) fn run(device: &Device, is_table: bool, diagnostics: &mut Diagnostics) {
+    if is_table {
+        let are_words = are_words(device);
+        device.groups.iter().for_each(|group| whole(group, are_words, diagnostics));
+    }
+    if !is_table && !diagnostics.asks_for(&codes::NAME_TWICE) {
+        return;
+    }
+    let mut names = HashMap::new();
     for group in &device.groups {
-        match group.kind {
-            GroupKind::Object { index, .. } => {
-                let at = group.name_at.or(group.origin.span);
-                once(&mut objects, &group.name, at, "another object", diagnostics);
-                unbroken(&group.name, at, diagnostics);
-                if group.object_code().is_some_and(|code| code.has_subs()) {
-                    subs(group, index, diagnostics);
-                }
+        if let GroupKind::Object { index, .. } = group.kind {
+            once(&mut names, &group.name, group.name_at.or(group.origin.span), "another object", diagnostics);
+            if group.object_code().is_some_and(|code| code.has_subs()) {
+                subs(group, index, diagnostics);
             }
-            GroupKind::Chapter => registers(group, are_words, diagnostics),
-            _ => {}
         }
     }
     device.types.iter().for_each(|definition| meanings(definition, diagnostics));
+}
+
+/// Whether every name is there, and in one piece.
+fn whole(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
+    match group.kind {
+        GroupKind::Object { .. } => {
+            unbroken(&group.name, group.name_at.or(group.origin.span), diagnostics);
+            if group.object_code().is_some_and(|code| code.has_subs()) {
+                for item in group.items.iter().filter(is_meant) {
+                    unbroken(&item.name, place(item), diagnostics);
+                }
+            }
+        }
+        GroupKind::Chapter => registers(group, are_words, diagnostics),
+        _ => {}
+    }
+}
+
+fn place(item: &Item) -> Span {
+    item.at.name.or(item.origin.span)
+}
+
+/// Of a reserved sub-index there is nothing to say.
+fn is_meant(item: &&Item) -> bool {
+    !item.extensions.iter().any(|own| own.key == "reserved")
 }
 
 /// The bits of a bit field, or the values of an enumeration. Names that depend on something may return.
@@ -79,17 +106,14 @@ fn repeated<'v, V>(
 fn subs(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     let mut names = HashMap::new();
     let other = format!("another sub-index of 0x{index:04X}");
-    // Of a reserved sub-index there is nothing to say.
-    for item in group.items.iter().filter(|item| !item.extensions.iter().any(|own| own.key == "reserved")) {
-        let at = item.at.name.or(item.origin.span);
-        once(&mut names, &item.name, at, &other, diagnostics);
-        unbroken(&item.name, at, diagnostics);
+    for item in group.items.iter().filter(is_meant) {
+        once(&mut names, &item.name, place(item), &other, diagnostics);
     }
 }
 
 fn registers(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
     for item in &group.items {
-        let at = item.at.name.or(item.origin.span);
+        let at = place(item);
         if item.name.trim().is_empty() {
             diagnostics.push(Diagnostic::new(&codes::EMPTY_NAME, at, "the row has no name"));
         }

@@ -53,7 +53,7 @@ impl<'a> List<'a> {
 
     fn item(&mut self, item: &'a Item) {
         let span = item.origin.span;
-        self.documented(span, &item.name, &item.documentation, &item.names);
+        self.documented(item.at.documentation.or(span), &item.name, &item.documentation, &item.names);
         let effects = item.behaviour.iter().flat_map(|behaviour| &behaviour.side_effects);
         effects.for_each(|effect| self.push(span, &item.name, effect));
     }

@@ -608,6 +608,9 @@ impl Rows {
         if row.orig.is_some() {
             item.names = reader.original(row.orig.as_deref());
         }
+        if row.doc.is_some() {
+            item.at.documentation = item.origin.span;
+        }
         if row.doc.is_some() || cite.is_some() {
             item.documentation = reader.documentation(row.doc.as_deref(), cite.clone());
         }
