@@ -390,6 +390,23 @@ fn value_out_of_range() {
 // Lists.
 
 #[test]
+fn digits_beyond_the_type() {
+    assert_lint("HighLimit=100", "HighLimit=0x000064", &["TAB012"]);
+    assert_lint("HighLimit=100", "HighLimit=0x0000000064", &["TAB012"]);
+    assert_lint("HighLimit=100", "HighLimit=0x0064", &[]);
+    // As tools write it.
+    let text = CLEAN.replace("HighLimit=100", "HighLimit=0x00000064");
+    let found = |options: &Options| {
+        let found = check(Source::new("clean.dcf", text.clone().into_bytes()), options);
+        found.diagnostics.list().iter().filter(|own| own.code.id == "TAB012").count()
+    };
+    let mut options = Options::default();
+    assert_eq!(found(&options), 0);
+    options.levels.set("hex-digits", Level::Warn).unwrap();
+    assert_eq!(found(&options), 1);
+}
+
+#[test]
 fn fewer_entries_than_announced() {
     for (from, to) in [
         ("SupportedObjects=4", "SupportedObjects=5"),

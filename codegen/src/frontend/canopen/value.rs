@@ -4,6 +4,7 @@ use super::number::{self, Number, Parsed, Quirk};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{CompactString, Type, Value};
 use crate::source::Span;
+use crate::text::brief;
 
 /// What a value is for, which decides how it is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,6 +97,7 @@ impl Converter<'_> {
     fn fit(&mut self, value: i128, hex: bool, text: &str, span: Span, ty: Type, role: Role) -> Value {
         let Some((low, high)) = ty.integer_range() else { return Value::Int(value) };
         if (low..=high).contains(&value) {
+            self.digits(text, span, ty);
             return Value::Int(value);
         }
         let modulus = high - low + 1;
@@ -121,6 +123,21 @@ impl Converter<'_> {
             "kept as it is",
         );
         Value::Int(value)
+    }
+
+    /// More hexadecimal digits than the type has: one was doubled, or the type is another.
+    fn digits(&mut self, text: &str, span: Span, ty: Type) {
+        let digits = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
+        let (Some(digits), Some(bits)) = (digits, ty.bits()) else { return };
+        let needed = bits.div_ceil(4) as usize;
+        // Tools write every number with the digits of 32 bits. Who wants to know of these asks for it.
+        let is_usual = matches!(digits.len(), 2 | 4 | 8 | 16) && !self.diagnostics.asks_for(&codes::HEX_DIGITS);
+        if digits.len() > needed && !is_usual && digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
+            let message = format!("`{}` has {} digits, and {ty} has {needed}", brief(text), digits.len());
+            let found = Diagnostic::new(&codes::HEX_DIGITS, span, message).label("the number is used");
+            self.diagnostics
+                .push(found.help("compare it with the manual: a digit was doubled, or the type is a longer one"));
+        }
     }
 
     /// A formula whose results, for the node-IDs 1 to 127, the type may not have.
