@@ -1,6 +1,6 @@
 //! Section 4 of the notes on the AEC Vector Step's manual: each passage that contradicts itself, transcribed as it is printed,
-//! has its finding at its row. The number in a test's name is that of the notes; `cite` has the manual's lines. Items that have
-//! their test in `lints_table` are listed at the end with the others, so that each of the 60 is accounted for.
+//! has its finding at its row. The number in a test's name is that of the notes; `cite` has the manual's lines. `manual_items` is
+//! the overview of all 60 items: those that are here, in `lints_table` and in `import`, and those that only a doubt can tell.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::Level;
@@ -120,6 +120,15 @@ steps = [
     assert_eq!(message(&found, 0), "`mapping`: writes `0x1601:0`, which is ro");
     assert_eq!(message(&found, 1), "`mapping` gives 0x1401 the COB-ID 0x181, which is that of 0x1800");
     assert_eq!(message(&found, 2), "`mapping`: writes 0x604000010 to `0x1601:1`, which is UNSIGNED32");
+}
+
+#[test]
+fn item_01_nine_digits_of_a_default() {
+    let rows = r#"0x1600 = { name = "RxPDO1 mapping", code = "record", cite = 1026 }
+"0x1600:1" = { name = "PDO mapping 1", type = "u32", access = "rw", default = 0x604000010, cite = 559 }
+"#;
+    let found = objects(rows, &[("TAB012", 2, "0x604000010"), ("EDS025", 2, "0x604000010")]);
+    assert_eq!(message(&found, 0), "`0x604000010` has 9 digits, and UNSIGNED32 has 8");
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Lints of register tables. Each fixture is a faithful, uncorrected transcription of a passage that contradicts itself:
-//! the number in a test's name is that of section 4 of the notes on the AEC Vector Step; lines (`cite`) are the manual's.
+//! the number in a test's name is that of section 4 of the notes on the AEC Vector Step; lines (`cite`) are the manual's. More of
+//! them are in `lints_manual`, and `manual_items` lists them all.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::Level;

@@ -709,8 +709,8 @@ codes! {
         "a hexadecimal number doesn't have the digits of its type"
         "A number with more digits than its type has bits for (`0x007FFFFFFF` of 32 bits), one that is filled up with zeros to \
         another length (`0x0000` of 32 bits), or an index without four digits (`0x20A`). A digit was doubled or lost, or the \
-        type is another. Or it begins with `0X`, which is read, and often is a mark of another hand in the manual."
-        type is another. In an EDS, numbers as long as those of a longer type are found only where a level of this code is set."
+        type is another. Or it begins with `0X`, which is read, and often is a mark of another hand in the manual. In an \
+        EDS, numbers as long as those of a longer type are found only where a level of this code is set."
     TAB013 BIT_OUTSIDE_TYPE "bit-outside-type" Lint Warn
         "a bit lies outside of its integer"
         "The integer has fewer bits than the bit field names. Generated code leaves the field out."

@@ -14,6 +14,10 @@ const LETTERS: std::ops::RangeInclusive<usize> = 6..=48;
 /// Of so many names, nine tenths show how a table names its items.
 const CONVENTION: usize = 3;
 
+/// So many names and different words are compared at most: no table of a person has more.
+const MAX_NAMES: usize = 5_000;
+const MAX_WORDS: usize = 50_000;
+
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     let names = Names::new(device);
     if names.like_identifiers.is_empty() || !diagnostics.wants(&codes::MENTIONED_OBJECT) {
@@ -22,6 +26,9 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     let (mut known, mut said) = (BTreeMap::new(), BTreeSet::new());
     for text in texts::all(device) {
         for word in text.words.split(|c: char| !c.is_alphanumeric() && c != '_') {
+            if known.len() > MAX_WORDS {
+                return;
+            }
             let meant = *known.entry(word).or_insert_with(|| names.meant(word));
             let Some(meant) = meant.filter(|_| said.insert((text.span, word))) else { continue };
             let of = if text.of.is_empty() { String::new() } else { format!(" in `{}`", brief(text.of)) };
@@ -51,7 +58,7 @@ impl<'a> Names<'a> {
             |name: &&str| name.len() <= 2 * LETTERS.end() && name.chars().all(|c| c.is_alphanumeric() || c == '_');
         let prefix = prefix(items.clone().filter(single));
         let is_like = |name: &&str| prefix.is_some_and(|own| has_prefix(name, own)) || is_composed(name);
-        let like_identifiers = own().filter(single).filter(is_like).collect();
+        let like_identifiers = own().filter(single).filter(is_like).take(MAX_NAMES).collect();
         Names { all: all.map(str::to_lowercase).collect(), like_identifiers }
     }
 
