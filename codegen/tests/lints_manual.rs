@@ -124,7 +124,7 @@ steps = [
 
 #[test]
 fn item_01_nine_digits_of_a_default() {
-    let rows = r#"0x1600 = { name = "RxPDO1 mapping", code = "record", cite = 1026 }
+    let rows = r#"0x1600 = { name = "RxPDO1 mapping", code = "record", cite = 1026, allow = ["EDS058"] }
 "0x1600:1" = { name = "PDO mapping 1", type = "u32", access = "rw", default = 0x604000010, cite = 559 }
 "#;
     let found = objects(rows, &[("TAB012", 2, "0x604000010"), ("EDS025", 2, "0x604000010")]);
