@@ -142,7 +142,7 @@ fn what_gateways_and_integrations_have() {
          40094,WH,acc32,2,A_SF,Wh,R\n40020,Mn,string,16,,,R\n",
     );
     let scale = item(&sunspec, "A").quantity.as_ref().and_then(|own| own.scale.clone());
-    assert_eq!(scale, Some(Scale::Exponent { exponent: "A_SF".into() }));
+    assert_eq!(scale, Some(Scale::Exponent { exponent: "A_SF".into(), base: 10, fraction: 0 }));
     assert_eq!(item(&sunspec, "Mn").ty, Type::VisibleString(Some(32)));
     let parts = device("Name,Address,Type,Access\na,10.0,bool,ro\nb,10.1,bool,ro\nc,10.2-4,u16,ro\nd,11,u16,ro\n");
     assert_eq!((register(&parts, "b").bit_offset, item(&parts, "c").ty), (Some(1), Type::Unsigned(3)));

@@ -461,7 +461,7 @@ Rstrmodeofoperation = {{ reg = 358, type = "u16", save = true, min = -1, max = 8
         r#"{MODES}{MODE}9 = "cyclic velocity"
 "#
     );
-    let found = objects(&twice, &[("TAB017", "Mode")]);
+    let found = objects(&twice, &[("TAB017", "9")]);
     assert_eq!(message(&found, 0), "`reserved` (8 to 127) and `cyclic velocity` (9) of `Mode` are the same value");
 }
 
@@ -532,7 +532,7 @@ fn item_53_a_pattern_with_a_digit_less() {
     };
     let found = registers(&row("11"), &[("TAB015", r#""2-0""#)]);
     assert_eq!(message(&found, 0), "UNSIGNED3 is never 11 (`free`)");
-    let found = registers(&row("0b11"), &[("TAB017", r#""2-0""#)]);
+    let found = registers(&row("0b11"), &[("TAB017", "0b11")]);
     assert_eq!(message(&found, 0), "`BiSS` (3) and `free` (3) of `Rindoptions encoder` are the same value");
 }
 
@@ -570,8 +570,8 @@ fn bits_of_two_rows_of_one_table_overlap() {
 "5-4" = { name = "sync", number = true }
 "7-3" = { reserved = 0 }
 "#;
-    let found = registers(rows, &[("TAB014", "Event"), ("TAB014", "Event")]);
-    assert_eq!(message(&found, 0), "bit 3 (`AL control`) and bits 7-3 (reserved) of `Event` share bits");
+    let found = registers(rows, &[("TAB014", r#""5-4""#), ("TAB014", r#""7-3""#)]);
+    assert_eq!(message(&found, 1), "bit 3 (`AL control`) and bits 7-3 (reserved) of `Event` share bits");
     // What the firmware or the mode tells apart may.
     let windows = r#"word = { reg = 1, type = "u8", bits = { 2 = [ { name = "old", until = "6" }, { name = "new", since = "6" } ] } }
 "#;
@@ -869,7 +869,7 @@ fn what_a_summary_may_say() {
 "0x6099:0" = { name = "n", type = "u8", access = "ro" }
 "0x6099:1" = { name = "a", type = "u32", access = "rw", pdo = "rx" }
 "0x6099:2" = { name = "b", type = "u16", access = "rw", pdo = "no" }
-"0x1800..0x1803" = { name = "TPDO {n1}", code = "record", summary = { subs = 5 } }
+"0x1800..0x1803" = { name = "TPDO {n+1}", code = "record", summary = { subs = 5 } }
 "0x1800..0x1803:0..1" = { name = "parameter {sub}", type = "u8", access = "ro" }
 "#;
     let codes = ["\"Controlword\"", "\"Interpolation\"", "\"array\"", "\"u32\"", "\"rx\"", "5"];
@@ -883,7 +883,7 @@ fn what_a_summary_may_say() {
     assert!(help(&found, 0).contains("doubt"));
     let rows = r#"0x6040 = { name = "Control word", orig = "Comando", type = "u16", access = "ro",
     summary = [{ name = "Controlword", code = "var" }, { name = "comando" }] }
-"0x1800..0x1803" = { name = "TPDO {n1}", code = "record", summary = { subs = 2, code = "record" } }
+"0x1800..0x1803" = { name = "TPDO {n+1}", code = "record", summary = { subs = 2, code = "record" } }
 "0x1800..0x1803:0..1" = { name = "parameter {sub}", type = "u8", access = "ro" }
 "#;
     objects(rows, &[]);

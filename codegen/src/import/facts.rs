@@ -54,8 +54,14 @@ impl Reader<'_, '_> {
             facts.push(("scale", real(factor)));
         }
         let offset = self.number(record, Field::Offset, &unit).map(Number::real).filter(|offset| *offset != 0.0);
-        if let Some(offset) = offset {
-            facts.push(("offset", real(offset)));
+        match (offset, &reference) {
+            (Some(offset), None) => facts.push(("offset", real(offset))),
+            (Some(_), Some(_)) => {
+                if let Some(cell) = self.cell(record, Field::Offset) {
+                    self.unreadable(cell, "offset beside a factor that another row holds");
+                }
+            }
+            (None, _) => {}
         }
         self.sentinel(record, ty, facts);
         (reference, (factor.unwrap_or(1.0), offset.unwrap_or(0.0)))
@@ -355,7 +361,7 @@ fn truth(text: &str) -> Option<Number> {
 
 /// A name as the format takes it: braces would be filled in.
 pub(super) fn row_name(text: &str) -> String {
-    let text = tidy(text).replace('{', "(").replace('}', ")");
+    let text = unbraced(&tidy(text));
     let text: String = text.chars().filter(|letter| !letter.is_control()).collect();
     if text.chars().count() <= NAME_LETTERS {
         return text;
@@ -365,13 +371,21 @@ pub(super) fn row_name(text: &str) -> String {
     short.trim_end().to_owned()
 }
 
+/// Braces stand for numbers in names of the format.
+fn unbraced(name: &str) -> String {
+    name.replace('{', "(").replace('}', ")")
+}
+
 fn value_entry(entry: &values::Entry) -> (String, String) {
     let key = match entry.last {
         Some(last) => format!("\"{}..{}\"", digits(entry.first, entry.is_hex), digits(last, entry.is_hex)),
         None => digits(entry.first, entry.is_hex),
     };
-    let value =
-        if values::is_reserved(&entry.name) { "{ zone = \"reserved\" }".to_owned() } else { quoted(&entry.name) };
+    let value = if values::is_reserved(&entry.name) {
+        "{ zone = \"reserved\" }".to_owned()
+    } else {
+        quoted(&unbraced(&entry.name))
+    };
     (key, value)
 }
 
@@ -380,6 +394,7 @@ fn bit_entry(entry: &values::Entry) -> (String, String) {
         Some(last) => format!("\"{last}-{}\"", entry.first),
         None => entry.first.to_string(),
     };
-    let value = if values::is_reserved(&entry.name) { "{ reserved = 0 }".to_owned() } else { quoted(&entry.name) };
+    let value =
+        if values::is_reserved(&entry.name) { "{ reserved = 0 }".to_owned() } else { quoted(&unbraced(&entry.name)) };
     (key, value)
 }

@@ -48,6 +48,7 @@ pub(super) fn arrange(list: Rows, diagnostics: &mut Diagnostics) -> Listing {
             let found = table.or_else(by_number).unwrap_or(Table::Holding);
             *table = Some(found);
             row.access = row.access.or(found.is_read_only().then_some("ro"));
+            within_register(row, found, diagnostics);
         }
     }
     let mut spaces: Vec<Space> = Vec::new();
@@ -70,6 +71,21 @@ pub(super) fn arrange(list: Rows, diagnostics: &mut Diagnostics) -> Listing {
         }
     }
     Listing { spaces, chapters, definitions, no_access }
+}
+
+/// Leaves out the part of a register that has no such bits.
+fn within_register(row: &mut Row, table: Table, diagnostics: &mut Diagnostics) {
+    let last = if table.is_bits() { 0 } else { 15 };
+    let is_beyond = |(key, value): &(&'static str, String)| {
+        let high = value.trim_matches('"').split('-').next().and_then(|high| high.parse::<u8>().ok());
+        *key == "part" && high.is_some_and(|high| high > last)
+    };
+    if let Some(at) = row.facts.iter().position(is_beyond) {
+        let (_, value) = row.facts.remove(at);
+        let message = format!("the bits {} are none of one register", value.trim_matches('"'));
+        let found = Diagnostic::new(&codes::CSV_UNREADABLE_CELL, row.span, message);
+        diagnostics.push(found.label("left out; the rest of the row is kept"));
+    }
 }
 
 fn table_of(row: &Row) -> Option<Table> {

@@ -79,9 +79,10 @@ pub(super) fn table(list: &Listing, name: &str, source: &str) -> String {
         comment(&format!("Register table, made of {source} by `lexibus import`. Compare it with the manual."));
     out += "lexibus = 1\n\n[device]\n";
     let _ = writeln!(out, "name = {}", quoted(name));
-    let is_object = |row: &Row| matches!(row.place, Ok(Place::Register { object: Some(_), .. }));
+    let mut places = list.chapters.iter().flat_map(|chapter| &chapter.rows).map(|row| row.place);
+    let is_object = |place| matches!(place, Ok(Place::Object { .. } | Place::Register { object: Some(_), .. }));
     // On which of the other buses the objects are is for a person to say.
-    if !list.spaces.is_empty() && !list.chapters.iter().flat_map(|chapter| &chapter.rows).any(is_object) {
+    if !list.spaces.is_empty() && !places.any(is_object) {
         out += "buses = [\"modbus\"]\n";
     }
     if list.no_access {
@@ -182,9 +183,11 @@ fn rest(row: &Row, list: &Listing) -> Vec<String> {
         _ => None,
     };
     let space = list.spaces.iter().find(|space| Some(space.table) == table);
-    let low_first = row.order.low_first.filter(|&own| own != space.is_some_and(|space| space.low_first));
+    // Only registers have words.
+    let is_register = matches!(row.place, Ok(Place::Register { .. }));
+    let low_first = row.order.low_first.filter(|&own| is_register && own != space.is_some_and(|space| space.low_first));
     rest.extend(low_first.map(|low| format!("order = \"{}\"", if low { "low_first" } else { "high_first" })));
-    let swap = row.order.swap.filter(|&own| own != space.is_some_and(|space| space.swap));
+    let swap = row.order.swap.filter(|&own| is_register && own != space.is_some_and(|space| space.swap));
     rest.extend(swap.map(|swap| format!("swap = {swap}")));
     rest.extend(row.count.map(|count| format!("count = {count}")));
     if let Some(scale) = &row.scale {

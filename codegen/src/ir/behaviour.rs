@@ -291,4 +291,7 @@ pub struct Availability {
     pub replaced_by: Option<CompactString>,
     /// Options that have to be fitted.
     pub options: Vec<CompactString>,
+    /// The only buses on which it exists, by their names in register tables, where its addresses don't tell; empty = all.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub buses: Vec<CompactString>,
 }

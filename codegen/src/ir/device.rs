@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     CodeTable, CompactString, Documentation, Doubt, EtherCatSettings, Extension, Framing, Group, Message, Module,
-    ModuleUse, Procedure, ProcessData, ProfinetSettings, Slot, StateMachine, SubmoduleUse, Texts, TypeDef, Value,
+    ModuleUse, Procedure, ProcessData, ProfinetSettings, RegisterSpace, Slot, StateMachine, SubmoduleUse, Texts,
+    TypeDef, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -29,6 +30,12 @@ pub struct Device {
     pub ethercat: Option<Box<EtherCatSettings>>,
     /// What the device can on PROFINET.
     pub profinet: Option<Box<ProfinetSettings>>,
+    /// What its tables of Modbus take, where the source says so.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub modbus: Vec<ModbusTable>,
+    /// First and last of the numbers that a node, or a server, may have.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub node_ids: Option<(u8, u8)>,
     /// Device profiles that it follows, by number (402 = drives, 5001 = modular device).
     pub profiles: Vec<u32>,
     /// The place of this one device in a network (DCF, XDC).
@@ -114,6 +121,19 @@ pub struct Identity {
     pub serial_number: Option<u32>,
     /// Ident number of a PROFINET device access point, or other identity numbers by name.
     pub others: Vec<(CompactString, u32)>,
+}
+
+/// The requests that a table of Modbus takes.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ModbusTable {
+    /// The table.
+    pub space: RegisterSpace,
+    /// Numbers of the functions; empty = not given.
+    pub functions: Vec<u8>,
+    /// The greatest number of registers, or bits, that one request reads.
+    pub max_read: Option<u16>,
+    /// The greatest number that one request writes.
+    pub max_write: Option<u16>,
 }
 
 /// What a file says about itself (`[FileInfo]` of CiA 306, ISO15745 ProfileHeader). Texts are kept as written.

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
 
 use super::{
-    Access, Availability, Behaviour, Binding, CompactString, Documentation, Doubt, Extension, Limits, Mappable,
-    Quantity, Texts, Type, Value,
+    Access, Availability, Behaviour, Binding, CompactString, Documentation, Doubt, Extension, ItemVariant, Limits,
+    Mappable, Quantity, Texts, Type, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -28,6 +28,9 @@ pub struct Item {
     pub default: Option<Value>,
     /// The values it may have, where the source says so; else all of its type.
     pub limits: Limits,
+    /// What differs between models or buses, in the order of the source.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub variants: Vec<ItemVariant>,
     /// What a DCF or XDC sets for this one device.
     pub configured: Option<Box<Configured>>,
     /// Unit and scale.
@@ -64,6 +67,7 @@ impl Item {
             mappable: Mappable::default(),
             default: None,
             limits: Limits::default(),
+            variants: Vec::new(),
             configured: None,
             quantity: None,
             behaviour: None,
@@ -181,6 +185,12 @@ impl Group {
             origin: Origin::default(),
             name_at: Span::default(),
         }
+    }
+
+    /// The item that is meant by `Group/Item`, where this is the group and it has the item.
+    pub fn by_path(&self, path: &str) -> Option<&Item> {
+        let name = path.strip_prefix(self.name.as_str())?.strip_prefix('/')?;
+        self.items.iter().find(|item| item.name == name)
     }
 
     /// The index, where the group is an object.

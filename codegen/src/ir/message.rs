@@ -181,6 +181,9 @@ pub struct CodeRow {
     pub name: CompactString,
     /// The name in other languages.
     pub names: Texts,
+    /// Models and firmware versions that have it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub availability: Option<Box<Availability>>,
     /// Cause and remedy.
     pub documentation: Option<Box<Documentation>>,
     /// The other columns.

@@ -32,6 +32,7 @@ mod profinet;
 mod shared;
 mod types;
 mod value;
+mod variant;
 
 pub use behaviour::*;
 pub use catalog::*;
@@ -46,5 +47,6 @@ pub use profinet::*;
 pub use shared::*;
 pub use types::*;
 pub use value::*;
+pub use variant::*;
 
 pub use compact_str::CompactString;

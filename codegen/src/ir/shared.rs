@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use smallvec::SmallVec;
 
 use super::{CompactString, LocalText};
-use crate::source::Origin;
+use crate::source::{Origin, Span};
 
 /// A text in further languages. Copies share one list: a device of 50,000 parameters names many of them alike.
 #[derive(Clone, Default, PartialEq, Eq)]
@@ -81,6 +81,16 @@ impl Numbers {
 impl FromIterator<u16> for Numbers {
     fn from_iter<I: IntoIterator<Item = u16>>(list: I) -> Self {
         Numbers(list.into_iter().map(|number| (number, number)).collect())
+    }
+}
+
+/// A place in the source that is no fact: elements that differ in nothing else are equal, and no output has it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Mark(pub Span);
+
+impl PartialEq for Mark {
+    fn eq(&self, _: &Mark) -> bool {
+        true
     }
 }
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Availability, CompactString, Documentation, Texts, Value};
+use super::{Access, Availability, CompactString, Documentation, Mark, Texts, Value};
 use crate::source::Origin;
 
 /// The type of an item: basic, or the position of a [`TypeDef`] in its device.
@@ -268,10 +268,16 @@ pub struct BitFieldEntry {
     pub when: Option<Condition>,
     /// Whether the field acts on an edge, clears itself, or toggles.
     pub trigger: Option<Trigger>,
+    /// Who may do what with the bits, where it isn't what the item says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub access: Option<Access>,
     /// Models and firmware versions in which the bits mean this.
     pub availability: Option<Box<Availability>>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
+    /// Where it stands.
+    #[serde(skip)]
+    pub at: Mark,
 }
 
 /// What the bits of a field mean.
@@ -321,10 +327,16 @@ pub struct EnumValue {
     pub zone: Option<Zone>,
     /// The name in other languages.
     pub names: Texts,
-    /// Models and firmware versions that have it.
+    /// The value of another item with which the device has it (the mode of operation, say).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub when: Option<Condition>,
+    /// Models, firmware versions and buses that have it.
     pub availability: Option<Box<Availability>>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
+    /// Where it stands.
+    #[serde(skip)]
+    pub at: Mark,
 }
 
 /// A zone of an enumeration.
@@ -360,13 +372,24 @@ pub enum Scale {
         /// The name of the base value, a constant of the variant.
         base: CompactString,
     },
-    /// physical = mantissa × 10^exponent, in two items or two halves of one.
+    /// physical = raw / 2^fraction × base^exponent, in two items or two halves of one.
     Exponent {
         /// The item that holds the exponent.
         exponent: CompactString,
+        /// What is raised to it: 10, or 2.
+        base: u8,
+        /// Number of fractional bits of the raw number (15 for Q15); 0 for an integer.
+        fraction: u8,
     },
     /// physical = raw × factor / value of another item.
     ByItem {
+        /// The other item.
+        item: CompactString,
+        /// The constant part.
+        factor: f64,
+    },
+    /// physical = raw × factor × value of another item.
+    TimesItem {
         /// The other item.
         item: CompactString,
         /// The constant part.
@@ -381,4 +404,7 @@ pub struct Condition {
     pub item: CompactString,
     /// Its values.
     pub values: Vec<Value>,
+    /// The bits of the item that are compared with the values; `None` = all.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mask: Option<u64>,
 }

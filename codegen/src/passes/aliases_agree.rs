@@ -62,6 +62,10 @@ fn replacement(items: &Index<'_>, item: &Item, diagnostics: &mut Diagnostics) {
 fn differences(owner: Owner<'_>, one: &Item, other: &Item) -> Vec<String> {
     let mut found = Vec::new();
     let types = (owner.basic(one.ty), owner.basic(other.ty));
+    // A part of a value, such as its lower half, has other limits and names.
+    if types.0.bits().zip(types.1.bits()).is_some_and(|(own, others)| own < others) {
+        return found;
+    }
     if types.0 != types.1 {
         found.push(format!("{} and {}", types.0, types.1));
     }
@@ -208,5 +212,8 @@ mod tests {
             differences(owner, &one, &item(Type::Unsigned(32), 0, 500_000)),
             ["INTEGER32 and UNSIGNED32", "upper limit 200000 and 500000"]
         );
+        let half = item(Type::Unsigned(16), 0, 65_535);
+        assert_eq!(differences(owner, &half, &one), [""; 0]);
+        assert_eq!(differences(owner, &one, &half)[0], "INTEGER32 and UNSIGNED16");
     }
 }

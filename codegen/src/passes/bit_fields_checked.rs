@@ -3,7 +3,7 @@
 use super::firmware_comparable::apart;
 use super::owner::{reserved, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{BitFieldEntry, BitMeaning, Shape, Type, TypeDef, TypeId};
+use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Type, TypeDef, TypeId, Value};
 use crate::text::brief;
 
 /// The widest field of which every value is looked for.
@@ -54,7 +54,7 @@ fn outside(
     };
     let message = format!("{base} has {width} bits, and `{}` names {}{others}", brief(&definition.name), called(first));
     let found = Diagnostic::new(&codes::BIT_OUTSIDE_TYPE, owner.place(id), message);
-    diagnostics.push(found.note_at(definition.origin.span, "the bits are named here"));
+    diagnostics.push(found.note_at(first.at.0.or(definition.origin.span), "the bits are named here"));
 }
 
 fn overlaps(definition: &TypeDef, fields: &[BitFieldEntry], diagnostics: &mut Diagnostics) {
@@ -63,7 +63,7 @@ fn overlaps(definition: &TypeDef, fields: &[BitFieldEntry], diagnostics: &mut Di
             if mask(one) & mask(other) != 0 && !told_apart(one, other) {
                 let message =
                     format!("{} and {} of `{}` share bits", called(one), called(other), brief(&definition.name));
-                let found = Diagnostic::new(&codes::BITS_OVERLAP, definition.origin.span, message);
+                let found = Diagnostic::new(&codes::BITS_OVERLAP, other.at.0.or(definition.origin.span), message);
                 diagnostics
                     .push(found.help("bits of several meanings have a `when`, `since`, `until` or `models` in each"));
             }
@@ -75,12 +75,20 @@ fn overlaps(definition: &TypeDef, fields: &[BitFieldEntry], diagnostics: &mut Di
 pub(super) fn told_apart(one: &BitFieldEntry, other: &BitFieldEntry) -> bool {
     let by_condition = match (&one.when, &other.when) {
         (None, None) => false,
-        (Some(one), Some(other)) => {
-            one.item != other.item || !one.values.iter().any(|value| other.values.contains(value))
-        }
+        (Some(one), Some(other)) => one.item != other.item || !both_hold(one, other),
         _ => true,
     };
     by_condition || apart(one.availability.as_deref(), other.availability.as_deref())
+}
+
+/// Whether one value of the item fulfils both conditions.
+fn both_hold(one: &Condition, other: &Condition) -> bool {
+    let shared = one.mask.unwrap_or(u64::MAX) & other.mask.unwrap_or(u64::MAX);
+    let agree = |left: &Value, right: &Value| match (left.as_int(), right.as_int()) {
+        (Some(left), Some(right)) => (left ^ right) & i128::from(shared) == 0,
+        _ => left == right,
+    };
+    one.values.iter().any(|left| other.values.iter().any(|right| agree(left, right)))
 }
 
 fn unnamed(
@@ -121,7 +129,6 @@ fn unnamed_values(owner: Owner<'_>, definition: &TypeDef, field: &BitFieldEntry,
 mod tests {
     use super::*;
     use crate::diagnostics::{Level, Levels};
-    use crate::ir::{Condition, Value};
 
     fn field(name: &str, offset: u8, bits: u8) -> BitFieldEntry {
         BitFieldEntry {
@@ -132,8 +139,10 @@ mod tests {
             meaning: BitMeaning::Number,
             when: None,
             trigger: None,
+            access: None,
             availability: None,
             documentation: None,
+            at: Default::default(),
         }
     }
 
@@ -170,7 +179,7 @@ mod tests {
 
     #[test]
     fn a_condition_tells_two_meanings_apart() {
-        let when = |mode| Some(Condition { item: "mode".into(), values: vec![Value::Int(mode)] });
+        let when = |mode| Some(Condition { item: "mode".into(), values: vec![Value::Int(mode)], mask: None });
         let one = BitFieldEntry { when: when(1), ..field("all", 0, 8) };
         assert_eq!(found(vec![one.clone(), BitFieldEntry { when: when(2), ..field("part", 0, 1) }]), [""; 0]);
         assert_eq!(found(vec![one.clone(), field("part", 0, 1)]), [""; 0]);

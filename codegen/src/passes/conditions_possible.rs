@@ -1,4 +1,4 @@
-//! After this pass every value by which bits change their meaning, or writing is allowed, was looked up among the
+//! After this pass every value by which bits change their meaning, values exist, or writing is allowed, was looked up among the
 //! values that the other item can have.
 
 use std::collections::HashSet;
@@ -17,6 +17,12 @@ pub(super) fn run(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
         }
     }
     for definition in owner.types {
+        if let Shape::Enumeration { values, .. } = &definition.shape {
+            for value in values {
+                let condition = value.when.iter();
+                condition.for_each(|own| possible(owner, &items, own, value.at.0, diagnostics));
+            }
+        }
         let Shape::BitField { fields, .. } = &definition.shape else { continue };
         let conditions: Vec<&Condition> = fields.iter().filter_map(|field| field.when.as_ref()).collect();
         for condition in &conditions {
@@ -29,6 +35,10 @@ pub(super) fn run(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
 
 fn possible(owner: Owner<'_>, items: &Index<'_>, condition: &Condition, span: Span, diagnostics: &mut Diagnostics) {
     let Some(item) = items.find(&condition.item) else { return };
+    // Some bits of an item have neither its limits nor its names.
+    if condition.mask.is_some() {
+        return;
+    }
     let (low, high) = (item.limits.low.as_ref(), item.limits.high.as_ref());
     for value in condition.values.iter().filter_map(Value::as_int) {
         let below = low.and_then(Value::as_int).is_some_and(|low| value < low);
@@ -64,7 +74,7 @@ fn complete(
     named.sort_unstable();
     for other in named {
         let Some((labels, _)) = items.find(other).and_then(|item| owner.enumeration(item.ty)) else { continue };
-        let own = conditions.iter().filter(|condition| condition.item == other);
+        let own = conditions.iter().filter(|condition| condition.item == other && condition.mask.is_none());
         let values: HashSet<i128> = own.flat_map(|own| &own.values).filter_map(Value::as_int).collect();
         let missing = labels.iter().filter(|label| label.zone.is_none() && label.last.is_none());
         let missing: Vec<String> = missing

@@ -52,7 +52,7 @@ fn compare(one: Option<&str>, other: Option<&str>) -> Option<Ordering> {
 }
 
 /// Whether no model and no firmware has both.
-pub(super) fn apart(one: Option<&Availability>, other: Option<&Availability>) -> bool {
+pub(crate) fn apart(one: Option<&Availability>, other: Option<&Availability>) -> bool {
     let (Some(one), Some(other)) = (one, other) else { return false };
     let before = |first: &Availability, second: &Availability| {
         compare(first.until.as_deref(), second.since.as_deref()).is_some_and(|order| order != Ordering::Greater)

@@ -250,8 +250,10 @@ mod tests {
             last,
             zone,
             names: Default::default(),
+            when: None,
             availability: None,
             documentation: None,
+            at: Default::default(),
         };
         let values = vec![
             value("off", 0, None, None),
@@ -295,8 +297,10 @@ mod tests {
             meaning,
             when: None,
             trigger: None,
+            access: None,
             availability: None,
             documentation: None,
+            at: Default::default(),
         };
         let flags = || Shape::BitField {
             base: Type::Unsigned(16),

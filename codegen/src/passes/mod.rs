@@ -37,6 +37,7 @@ mod values_named_once;
 
 use crate::diagnostics::Diagnostics;
 use crate::ir::{Catalog, Device, Format, Module};
+pub(crate) use firmware_comparable::apart;
 use owner::Owner;
 
 /// Completes and checks every device of `catalog`.

@@ -68,6 +68,7 @@ impl<'a> Owner<'a> {
 pub(super) struct Index<'a> {
     names: HashMap<&'a str, &'a Item>,
     objects: HashMap<(u16, u8), &'a Item>,
+    owner: Owner<'a>,
 }
 
 impl<'a> Index<'a> {
@@ -81,13 +82,15 @@ impl<'a> Index<'a> {
             names.entry(name).or_insert(item);
         }
         let objects = owner.items().filter_map(|item| Some((item.object()?, item))).collect();
-        Index { names, objects }
+        Index { names, objects, owner }
     }
 
-    /// The item that goes by this name, or is at this place: `0x6040`, `0x1018:1`.
+    /// The item that goes by this name, is at this place (`0x6040`, `0x1018:1`), or is in this chapter (`Chapter/Item`).
     pub fn find(&self, name: &str) -> Option<&'a Item> {
         let by_name = || self.names.get(name).copied();
-        by_name().or_else(|| self.objects.get(&object(name)?).copied())
+        let mut groups = self.owner.groups.iter().flat_map(|groups| groups.iter());
+        let by_object = || self.objects.get(&object(name)?).copied();
+        by_name().or_else(by_object).or_else(|| groups.find_map(|group| group.by_path(name)))
     }
 
     /// Whether there is an object with this index.

@@ -27,8 +27,16 @@ struct Owner<'o> {
 
 impl<'o> Owner<'o> {
     fn item(&self, entry: &PdoEntry) -> Option<&'o Item> {
-        let position = self.groups.binary_search_by_key(&Some(entry.index), Group::index).ok()?;
-        self.groups.get(position)?.sub(entry.sub_index)
+        match self.groups.binary_search_by_key(&Some(entry.index), Group::index) {
+            Ok(position) => self.groups.get(position)?.sub(entry.sub_index),
+            // Registers that are objects too stand in chapters, in front of the objects.
+            Err(_) => {
+                let mut chapters = self.groups.iter().take_while(|group| group.index().is_none());
+                chapters.find_map(|group| {
+                    group.items.iter().find(|item| item.object() == Some((entry.index, entry.sub_index)))
+                })
+            }
+        }
     }
 
     /// Length in bits, where fixed.

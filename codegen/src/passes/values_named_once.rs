@@ -19,7 +19,7 @@ pub(super) fn run(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
         let range = |value: &EnumValue| (value.value, value.last.unwrap_or(value.value));
         if let Some((one, other)) = overlap(&sorted, range, told_apart) {
             let names = [(one.value, one.last, one.name.as_str()), (other.value, other.last, other.name.as_str())];
-            report(&definition.name, definition.origin.span, names, diagnostics);
+            report(&definition.name, other.at.0.or(definition.origin.span), names, diagnostics);
         }
     }
 }
@@ -84,7 +84,7 @@ fn outside(
     let value = if first.value < low { first.value } else { first.last.unwrap_or(first.value) };
     let message = format!("{base} is never {value} (`{}`{others})", brief(&first.name));
     let found = Diagnostic::new(&codes::NAME_OUTSIDE_TYPE, owner.place(id), message);
-    diagnostics.push(found.note_at(definition.origin.span, "the values are named here"));
+    diagnostics.push(found.note_at(first.at.0.or(definition.origin.span), "the values are named here"));
 }
 
 #[cfg(test)]
@@ -98,8 +98,10 @@ mod tests {
             last,
             zone: None,
             names: Default::default(),
+            when: None,
             availability: None,
             documentation: None,
+            at: Default::default(),
         }
     }
 

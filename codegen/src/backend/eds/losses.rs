@@ -93,7 +93,8 @@ pub(super) fn of_item(item: &Item, notes: &mut Notes) {
     notes.add_many(NoteKind::Language, item.names.len(), place);
     notes.add_many(NoteKind::Quantity, usize::from(item.quantity.is_some()), place);
     notes.add_many(NoteKind::Behaviour, usize::from(item.behaviour.is_some()), place);
-    notes.add_many(NoteKind::Availability, usize::from(item.availability.is_some()), place);
+    let variants = item.variants.len();
+    notes.add_many(NoteKind::Availability, usize::from(item.availability.is_some()) + variants, place);
     notes.add_many(NoteKind::Documentation, usize::from(item.documentation.is_some()), place);
     notes.add_many(NoteKind::Doubt, item.doubts.len(), place);
     notes.add_many(NoteKind::AllowedValues, usize::from(!item.limits.allowed.is_empty()), place);

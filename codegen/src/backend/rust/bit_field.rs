@@ -149,16 +149,21 @@ fn view(scope: &Scope<'_>, condition: &Condition) -> View {
         let number = value.as_int()?;
         values.iter().find(|own| own.value == number && own.last.is_none()).map(|own| own.name.to_string())
     };
-    let names: Option<Vec<String>> = condition.values.iter().map(named).collect();
+    // Names are those of whole values.
+    let names: Option<Vec<String>> =
+        condition.values.iter().map(named).collect::<Option<_>>().filter(|_| condition.mask.is_none());
     let numbers = condition.values.iter().map(Value::to_string).collect::<Vec<_>>().join(" or ");
     let words = match &names {
         Some(names) => format!("in {}", names.join(" or ")),
-        None => format!("in {} {numbers}", condition.item),
+        None => match condition.mask {
+            Some(mask) => format!("in {} {mask:x} {numbers}", condition.item),
+            None => format!("in {} {numbers}", condition.item),
+        },
     };
     let what = docs::escape(&condition.item);
     let title = match &names {
         Some(names) => format!("while {what} is {} ({numbers})", docs::escape(&names.join(" or "))),
-        None => format!("while {what} is {}", docs::escape(&numbers)),
+        None => format!("while {}", docs::holds(condition)),
     };
     View { condition: condition.clone(), words, title }
 }
@@ -421,6 +426,9 @@ impl Context<'_, '_> {
         });
         sentences.extend(trigger.map(str::to_owned));
         docs::words(entry.documentation.as_deref(), &mut sentences);
+        if let Some(access) = entry.access {
+            sentences.push(format!("Access {}.", access.name()));
+        }
         if let Some(availability) = &entry.availability {
             sentences.push(manual::availability(availability));
         }

@@ -1,7 +1,9 @@
 //! Tables of codes: alarms, emergency codes, abort codes.
 
+use super::bus_facts;
 use super::docs;
 use super::literal;
+use super::manual;
 use crate::ir::{CodeRow, CodeTable, Value};
 use crate::passes::names_unique::{self, Case, Wish};
 
@@ -18,7 +20,7 @@ pub(super) fn models(tables: &[CodeTable]) -> Vec<CodeTableModel> {
         Wish { name: &table.name, fallback: format!("codes {number}"), suffix: format!("{number}") }
     };
     let wishes: Vec<Wish<'_>> = tables.iter().enumerate().map(wish).collect();
-    let names = names_unique::unique(&wishes, &[], Case::Snake);
+    let names = names_unique::unique(&wishes, &bus_facts::RESERVED, Case::Snake);
     let tables = tables.iter().zip(names).filter(|(table, _)| !table.rows.is_empty());
     tables.map(|(table, name)| model(table, name.to_ascii_uppercase())).collect()
 }
@@ -37,11 +39,14 @@ fn model(table: &CodeTable, name: String) -> CodeTableModel {
 fn row(row: &CodeRow, columns: usize) -> Option<String> {
     let (first, last) = (i64::try_from(row.code).ok()?, i64::try_from(row.last.unwrap_or(row.code)).ok()?);
     let code = |code: i64| if code > 9 { format!("{code:#X}").replacen("0X", "0x", 1) } else { code.to_string() };
-    let text = row.documentation.as_ref().map_or("", |documentation| documentation.text.as_str());
+    let mut text = row.documentation.as_ref().map_or_else(String::new, |documentation| documentation.text.clone());
+    if let Some(availability) = &row.availability {
+        text = format!("{text} {}", manual::availability(availability)).trim_start().to_owned();
+    }
     let mut cells: Vec<String> = row.cells.iter().take(columns.max(row.cells.len())).map(cell).collect();
     cells.resize(columns.max(cells.len()), "rt::codes::Cell::Empty".to_owned());
     let cells = if cells.is_empty() { "&[]".to_owned() } else { format!("&[«{}»]", cells.join("¦ ")) };
-    let (name, text) = (literal::string(&row.name), literal::string(text));
+    let (name, text) = (literal::string(&row.name), literal::string(&text));
     Some(format!("rt::codes::Code::new(«{}¦ {}¦ {name}¦ {text}¦ {cells}»)", code(first), code(last)))
 }
 

@@ -8,7 +8,8 @@ use super::place::Place;
 use super::quantity;
 use super::scope::Scope;
 use super::value_type;
-use crate::ir::{Behaviour, Documentation, Item, Limits, Storage, Type, TypeDef, Value};
+use super::variant;
+use crate::ir::{Behaviour, Condition, Documentation, Item, Limits, Storage, Type, TypeDef, Value};
 
 /// Text as one line of Markdown without any markup.
 pub(super) fn escape(text: &str) -> String {
@@ -55,6 +56,7 @@ pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope
     if let Some(behaviour) = &item.behaviour {
         self::behaviour(behaviour, &mut paragraphs);
     }
+    paragraphs.extend(variant::sentences(item));
     if let Some(availability) = &item.availability {
         paragraphs.push(manual::availability(availability));
     }
@@ -84,8 +86,7 @@ fn behaviour(behaviour: &Behaviour, paragraphs: &mut Vec<String>) {
         sentences.push(format!("Takes effect at: {}", sentence(&escape(effective))));
     }
     for condition in &behaviour.write_when {
-        let values = list(&condition.values);
-        sentences.push(format!("Can be written only while {} is {values}.", escape(&condition.item)));
+        sentences.push(format!("Can be written only while {}.", holds(condition)));
     }
     if !behaviour.writable_values.is_empty() {
         sentences.push(format!("Only {} can be written.", list(&behaviour.writable_values)));
@@ -98,6 +99,12 @@ fn behaviour(behaviour: &Behaviour, paragraphs: &mut Vec<String>) {
     }
     sentences.extend(behaviour.side_effects.iter().map(|effect| sentence(&escape(effect))));
     paragraphs.push(sentences.join(" "));
+}
+
+/// `Mode is 1 or 2`, `Status & 0x4 is 0`.
+pub(super) fn holds(condition: &Condition) -> String {
+    let mask = condition.mask.map(|mask| format!(" \\& {mask:#X}").replacen("0X", "0x", 1)).unwrap_or_default();
+    format!("{}{mask} is {}", escape(&condition.item), list(&condition.values))
 }
 
 fn list(values: &[Value]) -> String {
@@ -169,7 +176,7 @@ pub(super) fn value(value: &Value) -> String {
     }
 }
 
-fn limits(limits: &Limits) -> Option<String> {
+pub(super) fn limits(limits: &Limits) -> Option<String> {
     let depends = [&limits.low, &limits.high].into_iter().any(|limit| matches!(limit, Some(Value::NodeId(_))));
     let text = match (&limits.low, &limits.high) {
         (Some(low), Some(high)) => Some(format!("range {} to {}", value(low), value(high))),

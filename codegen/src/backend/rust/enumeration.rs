@@ -116,6 +116,9 @@ fn about(value: &EnumValue, manual: &Manual) -> Vec<String> {
         None => {}
     }
     docs::words(value.documentation.as_deref(), &mut sentences);
+    if let Some(condition) = &value.when {
+        sentences.push(format!("Only while {}.", docs::holds(condition)));
+    }
     if let Some(availability) = &value.availability {
         sentences.push(manual::availability(availability));
     }

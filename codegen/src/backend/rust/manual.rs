@@ -67,6 +67,9 @@ pub(super) fn availability(availability: &Availability) -> String {
     if let Some(other) = &availability.replaced_by {
         sentences.push(format!("Replaced by {}.", docs::escape(other)));
     }
+    if !availability.buses.is_empty() {
+        sentences.push(format!("Only on {}.", list(&availability.buses)));
+    }
     if !availability.options.is_empty() {
         sentences.push(format!("Needs {}.", list(&availability.options)));
     }

@@ -6,6 +6,7 @@
 
 mod axes;
 mod bit_field;
+mod bus_facts;
 mod catalog;
 mod code_table;
 mod data;
@@ -26,6 +27,7 @@ mod profinet;
 mod quantity;
 mod scope;
 mod value_type;
+mod variant;
 
 pub use options::{Presence, RustOptions};
 

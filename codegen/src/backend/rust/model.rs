@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::axes::{self, AxesModel};
+use super::bus_facts::{self, FactModel};
 use super::code_table::{self, CodeTableModel};
 use super::docs;
 use super::ethercat::{self, EtherCatModel, ModulePaths};
@@ -14,6 +15,7 @@ use super::place::{Buses, Place as Address};
 use super::quantity;
 use super::scope::{ObjectBus, Scope};
 use super::value_type::ValueType;
+use super::variant;
 use super::INTERFACE_VERSION;
 use crate::ir::{Access, Device, FileInfo, Group, GroupKind, Item, Module, ObjectCode, Type, Value};
 use crate::passes::names_unique::{self, Case, Wish};
@@ -47,6 +49,8 @@ pub(super) struct Model<'a> {
     pub code_tables: Vec<CodeTableModel>,
     pub axes: Option<AxesModel>,
     pub node_id: Option<u8>,
+    /// What is known of Modbus and of numbers of nodes.
+    pub bus_facts: Vec<FactModel>,
     pub accessor_derives: Vec<String>,
     /// Lints that a name of the dictionary would trip over.
     pub method_allow: Option<String>,
@@ -193,6 +197,7 @@ impl<'a> Model<'a> {
         model.ethercat = EtherCatModel::new(device, &model.pdos, &place.modules, place.nest);
         model.code_tables = code_table::models(&device.code_tables);
         model.axes = axes::model(device, place.nest);
+        model.bus_facts = bus_facts::models(device);
         model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);
         model
     }
@@ -227,6 +232,7 @@ impl<'a> Model<'a> {
             code_tables: Vec::new(),
             axes: None,
             node_id: None,
+            bus_facts: Vec::new(),
             accessor_derives: options.derives(false),
             method_allow: method_allow(objects.iter().map(|object| object.name.as_str())),
             ethercat: None,
@@ -538,7 +544,7 @@ fn constructor(address: &Address<'_>, item: &Item, ty: ValueType, name: &str, na
         Some(path) => format!("{path}::from_raw(«{literal}»)"),
         None => literal,
     };
-    let (range, flags) = (ty.range_as(&item.limits, &wrap), flags(item));
+    let (range, flags) = (ty.range_as(&variant::widest(item), &wrap), flags(item));
     // A truth value is the number of an enumeration.
     let number = item.default.as_ref().filter(|_| named.is_some()).and_then(Value::as_int).map(Value::Int);
     let default = number.as_ref().or(item.default.as_ref());
@@ -616,6 +622,7 @@ fn entry(scope: &Scope<'_>, item: &Item, name: &str) -> EntryModel {
     let (index, sub_index) = item.object().unwrap_or((0, 0));
     let (base, ty) = (scope.base(item.ty), scope.value_type(item.ty));
     let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
+    let limits = variant::widest(item);
     EntryModel {
         index,
         sub_index,
@@ -629,8 +636,8 @@ fn entry(scope: &Scope<'_>, item: &Item, name: &str) -> EntryModel {
         },
         flags: flags(item),
         initial: raw_initial(item, base, ty),
-        low: bound(item.limits.low.as_ref(), base),
-        high: bound(item.limits.high.as_ref(), base),
+        low: bound(limits.low.as_ref(), base),
+        high: bound(limits.high.as_ref(), base),
         unit: literal::string(unit),
     }
 }

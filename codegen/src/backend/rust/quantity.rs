@@ -16,6 +16,9 @@ pub(super) struct QuantityType {
 /// nothing that fractions of integers express.
 pub(super) fn of(scope: &Scope<'_>, item: &Item) -> Option<QuantityType> {
     let quantity = item.quantity.as_ref()?;
+    if item.variants.iter().any(|variant| variant.scale.is_some()) {
+        return None;
+    }
     let ty = scope.value_type(item.ty);
     if !ty.is_real() {
         ty.number()?;
@@ -31,6 +34,9 @@ pub(super) fn of(scope: &Scope<'_>, item: &Item) -> Option<QuantityType> {
         Some(Scale::Fraction { bits, .. }) => {
             QuantityType { path: format!("rt::Fraction<«{base}¦ {bits}»>"), word: format!("Fraction{bits}Of{word}") }
         }
+        // What models differ in, and what no type of the runtime computes, is left to the caller.
+        Some(Scale::TimesItem { .. }) => return None,
+        Some(Scale::Exponent { base, fraction, .. }) if (*base, *fraction) != (10, 0) => return None,
         Some(Scale::Exponent { .. }) => {
             QuantityType { path: format!("rt::Exponential<«{base}»>"), word: format!("Exponential{word}") }
         }
@@ -144,19 +150,33 @@ pub(super) fn facts(quantity: &Quantity) -> String {
     match &quantity.scale {
         None if unit.is_empty() => String::new(),
         None => format!(", in {unit}"),
-        Some(Scale::Linear { factor, offset }) if *offset == 0.0 => format!(", in {factor}{behind}"),
-        Some(Scale::Linear { factor, offset }) => {
+        Some(scale) => scaled(scale, &behind),
+    }
+}
+
+/// The same for a scale, with the unit behind it.
+pub(super) fn scaled(scale: &Scale, behind: &str) -> String {
+    match scale {
+        Scale::Linear { factor, offset } if *offset == 0.0 => format!(", in {factor}{behind}"),
+        Scale::Linear { factor, offset } => {
             let sign = if *offset < 0.0 { '−' } else { '+' };
             format!(", stands for raw × {factor} {sign} {}{behind}", offset.abs())
         }
-        Some(Scale::Reciprocal { numerator }) => format!(", stands for {numerator} / raw{behind}"),
-        Some(Scale::Fraction { bits, base }) => {
+        Scale::Reciprocal { numerator } => format!(", stands for {numerator} / raw{behind}"),
+        Scale::Fraction { bits, base } => {
             format!(", stands for raw / 2^{bits} × {}{behind}", docs::escape(base))
         }
-        Some(Scale::Exponent { exponent }) => format!(", stands for raw × 10^{}{behind}", docs::escape(exponent)),
-        Some(Scale::ByItem { item, factor }) => {
+        Scale::Exponent { exponent, base, fraction } => {
+            let part = if *fraction == 0 { String::new() } else { format!(" / 2^{fraction}") };
+            format!(", stands for raw{part} × {base}^{}{behind}", docs::escape(exponent))
+        }
+        Scale::ByItem { item, factor } => {
             let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
             format!(", stands for raw{factor} / {}{behind}", docs::escape(item))
+        }
+        Scale::TimesItem { item, factor } => {
+            let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
+            format!(", stands for raw{factor} × {}{behind}", docs::escape(item))
         }
     }
 }

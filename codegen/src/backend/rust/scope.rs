@@ -95,14 +95,16 @@ impl<'a> Scope<'a> {
         self.named.iter().find(|(own, _)| *own == position).map(|(_, named)| named)
     }
 
-    /// The item that other elements of the description call so: by its name, its object's name, or its address.
+    /// The item that other elements of the description call so: by its name, its object's name, its address, or the names
+    /// of its chapter and its own (`Chapter/Item`).
     pub fn item(&self, name: &str) -> Option<&'a Item> {
         let mut items = self.groups.iter().flat_map(|group| &group.items);
         let by_group = || self.groups.iter().find(|group| group.name == name && group.index().is_some());
-        items.find(|item| item.name == name).or_else(|| by_group()?.items.first()).or_else(|| {
+        let found = items.find(|item| item.name == name).or_else(|| by_group()?.items.first()).or_else(|| {
             let (index, sub) = name.split_once(':').unwrap_or((name, "0"));
             let index = u16::from_str_radix(index.trim().strip_prefix("0x")?, 16).ok()?;
             self.object(index)?.sub(sub.trim().parse().ok()?)
-        })
+        });
+        found.or_else(|| self.groups.iter().find_map(|group| group.by_path(name)))
     }
 }

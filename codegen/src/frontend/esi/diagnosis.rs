@@ -36,6 +36,7 @@ pub(super) fn read<'a>(
                 last: None,
                 name: value.name,
                 names: value.names,
+                availability: None,
                 documentation: value.documentation,
                 cells: Vec::new(),
             }));
@@ -88,7 +89,7 @@ fn message<'a>(
     }
     let cells = cells.into_iter().map(Value::Text).collect();
     let (name, names) = (names.name(), names.others());
-    Ok(Some(CodeRow { code, last: None, name, names, documentation, cells }))
+    Ok(Some(CodeRow { code, last: None, name, names, availability: None, documentation, cells }))
 }
 
 fn cause<'a>(

@@ -572,8 +572,10 @@ fn bit_array(width: u8) -> Shape {
         meaning: BitMeaning::Flag { inverted: false },
         when: None,
         trigger: None,
+        access: None,
         availability: None,
         documentation: None,
+        at: Default::default(),
     };
     Shape::BitField { base: Type::Unsigned(width), fields: (0..width).map(bit).collect() }
 }

@@ -333,6 +333,7 @@ fn empty_row(code: i128) -> CodeRow {
         last: None,
         name: CompactString::default(),
         names: Default::default(),
+        availability: None,
         documentation: None,
         cells: Vec::new(),
     }

@@ -196,8 +196,10 @@ impl<'a> Reader<'a, '_> {
             last,
             zone: None,
             names: Texts::default(),
+            when: None,
             availability: None,
             documentation: None,
+            at: Default::default(),
         });
         Ok(())
     }

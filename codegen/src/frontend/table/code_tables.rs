@@ -5,7 +5,7 @@ use super::format::{CodeTableRow, CodesTable};
 use super::tree::{cited, Reader};
 use super::{place, value};
 use crate::diagnostics::codes;
-use crate::ir::{CodeRow, CodeTable, Device, Type, Value};
+use crate::ir::{Availability, CodeRow, CodeTable, Device, Type, Value};
 use crate::text::brief;
 
 /// A table of codes.
@@ -30,6 +30,7 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
             last: (last > first).then_some(last),
             name: name.unwrap_or_default().into(),
             names: reader.original(row.orig.as_deref()),
+            availability: availability(row),
             documentation: reader.documentation(row.doc.as_deref(), cite),
             cells: row.cells.iter().map(cell).collect(),
         });
@@ -40,4 +41,15 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
         rows,
         origin: reader.origin(name),
     });
+}
+
+/// Models and firmware that have a code.
+fn availability(row: &CodeTableRow) -> Option<Box<Availability>> {
+    let own = Availability {
+        models: row.models.iter().flatten().map(|model| model.value.as_str().into()).collect(),
+        since: row.since.as_deref().map(Into::into),
+        until: row.until.as_deref().map(Into::into),
+        ..Availability::default()
+    };
+    (own != Availability::default()).then(|| Box::new(own))
 }

@@ -4,17 +4,15 @@ use std::collections::HashMap;
 
 use compact_str::{format_compact, CompactString};
 
-use super::at::{At, Entries, OneOrMany, TextOr};
-use super::format::{
-    BitEntries, BitTable, BitsTable, EnumTable, NumberOrText, Scaling, UnitTable, ValueEntries, ValueTable,
-};
+use super::at::{At, OneOrMany, TextOr};
+use super::conditions::Window;
+use super::format::{BitEntries, BitTable, BitsTable, EnumTable, NumberOrText, UnitTable, ValueEntries, ValueTable};
+use super::references::References;
+use super::rows::ACCESSES;
 use super::tree::{cited, Reader};
-use super::{place, types, value};
+use super::{place, types};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{
-    Availability, BitFieldEntry, BitMeaning, Condition, Doubt, EnumValue, Scale, Shape, Trigger, Type, TypeDef, TypeId,
-    Zone,
-};
+use crate::ir::{BitFieldEntry, BitMeaning, Doubt, EnumValue, Mark, Shape, Trigger, Type, TypeDef, TypeId, Zone};
 use crate::source::Origin;
 use crate::text::brief;
 
@@ -36,8 +34,8 @@ pub(super) struct Definitions {
     /// Contradictions of definitions.
     pub doubts: Vec<Doubt>,
     pub made: HashMap<(Kind, String, Type), TypeId>,
-    /// Names of items that conditions refer to, with their places.
-    pub mentioned: Vec<At<String>>,
+    /// Names that definitions refer to, with their places.
+    pub mentioned: References,
 }
 
 /// What is said of a definition as a whole.
@@ -186,6 +184,7 @@ impl Definitions {
             let cite = more.cite.as_ref().map(cited);
             let origin = reader.origin(key);
             self.doubts.extend(reader.doubts([more.doubt.as_ref(), more.doubts.as_ref()], origin, cite.as_deref()));
+            unfilled(reader, key, name);
             let name = name.filter(|name| !nameless(reader, name, key, &about.name, "value"));
             let unnamed = || zone.map_or_else(|| format_compact!("value {first}"), |zone| zone_name(zone).into());
             values.push(EnumValue {
@@ -194,8 +193,10 @@ impl Definitions {
                 last: (last > first).then_some(last),
                 zone,
                 names: reader.original(more.orig.as_deref()),
-                availability: availability(&more.models, &more.since, &more.until),
+                when: self.condition(reader, more.when.as_ref()),
+                availability: self.availability(reader, window(more)),
                 documentation: reader.documentation(more.doc.as_deref(), cite),
+                at: Mark(reader.span(key)),
             });
         }
         self.push(reader, about, base, Shape::Enumeration { base, values, closed })
@@ -215,6 +216,14 @@ impl Definitions {
                     TextOr::Text(name) => (Some(name.as_str()), &plain),
                     TextOr::Table(table) => (table.name.as_deref(), &**table),
                 };
+                if name.is_some_and(|name| name.contains("{n")) && bits > 1 {
+                    for number in 0..bits {
+                        let name = name.map(|name| place::filled(name, number.into(), None));
+                        let place = (offset.saturating_add(number), 1);
+                        fields.push(self.field(reader, (&about.name, key), place, name.as_deref(), table));
+                    }
+                    continue;
+                }
                 fields.push(self.field(reader, (&about.name, key), (offset, bits), name, table));
             }
         }
@@ -231,8 +240,10 @@ impl Definitions {
         table: &BitTable,
     ) -> BitFieldEntry {
         let (origin, cite) = (reader.origin(key), table.cite.as_ref().map(cited));
+        unfilled(reader, key, name);
         self.doubts.extend(reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()));
         let name = name.filter(|name| table.reserved.is_some() || !nameless(reader, name, key, owner, "bit"));
+        let is_named = name.is_some();
         let name = name.map_or_else(|| format_compact!("bit {}", key.value), CompactString::from);
         let meaning = self.meaning(reader, (owner, &name, key), bits, table);
         let triggers = [
@@ -242,15 +253,29 @@ impl Definitions {
             ("self_clearing", Trigger::SelfClearing),
         ];
         BitFieldEntry {
-            name: if matches!(meaning, BitMeaning::Reserved { .. }) { CompactString::default() } else { name },
+            name: if matches!(meaning, BitMeaning::Reserved { .. }) && !is_named {
+                CompactString::default()
+            } else {
+                name
+            },
             names: reader.original(table.orig.as_deref()),
             offset,
             bits,
             meaning,
             when: self.condition(reader, table.when.as_ref()),
             trigger: table.trigger.as_ref().and_then(|trigger| reader.word(trigger, "trigger", &triggers)),
-            availability: availability(&table.models, &table.since, &table.until),
+            access: table.access.as_ref().and_then(|access| reader.word(access, "access", &ACCESSES)),
+            availability: self.availability(
+                reader,
+                Window {
+                    models: table.models.as_ref(),
+                    versions: [table.since.as_deref(), table.until.as_deref()],
+                    replaced_by: table.replaced_by.as_deref(),
+                    buses: None,
+                },
+            ),
             documentation: reader.documentation(table.doc.as_deref(), cite),
+            at: Mark(reader.span(key)),
         }
     }
 
@@ -291,22 +316,14 @@ impl Definitions {
             _ => BitMeaning::Number,
         }
     }
+}
 
-    /// "While the item has one of these values."
-    pub fn condition(
-        &mut self,
-        reader: &mut Reader<'_, '_>,
-        when: Option<&Entries<OneOrMany<super::at::Literal>>>,
-    ) -> Option<Condition> {
-        let (item, values) = when?.0.first()?;
-        if let Some((second, _)) = when?.0.get(1) {
-            let message = "bits depend on one other item at most";
-            reader.report(&codes::TABLE_VALUE, reader.span(second), message);
-        }
-        self.mentioned.push(item.clone());
-        let values = values.value.0.iter();
-        let values = values.filter_map(|literal| value::convert(literal, Type::Opaque(None), false)).collect();
-        Some(Condition { item: item.value.as_str().into(), values })
+fn window(value: &ValueTable) -> Window<'_> {
+    Window {
+        models: value.models.as_ref(),
+        versions: [value.since.as_deref(), value.until.as_deref()],
+        replaced_by: value.replaced_by.as_deref(),
+        buses: value.buses.as_ref(),
     }
 }
 
@@ -329,21 +346,13 @@ fn zone_name(zone: Zone) -> &'static str {
     }
 }
 
-/// Models and firmware.
-pub(super) fn availability(
-    models: &Option<Vec<String>>,
-    since: &Option<String>,
-    until: &Option<String>,
-) -> Option<Box<Availability>> {
-    if models.is_none() && since.is_none() && until.is_none() {
-        return None;
+/// Reports a name with a place for a number that nothing fills.
+pub(super) fn unfilled(reader: &mut Reader<'_, '_>, key: &At<String>, name: Option<&str>) {
+    if let Some(name) = name.filter(|name| name.contains('{')) {
+        let message = format!("nothing fills `{{` of the name `{}`", brief(name));
+        let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), message);
+        reader.diagnostics.push(found.help("`{n}` needs several bits, or a `count`; `{sub}` needs objects"));
     }
-    Some(Box::new(Availability {
-        models: models.iter().flatten().map(|model| model.as_str().into()).collect(),
-        since: since.as_deref().map(CompactString::from),
-        until: until.as_deref().map(CompactString::from),
-        ..Availability::default()
-    }))
 }
 
 /// An integer type by its name; anything else is reported.
@@ -355,29 +364,4 @@ pub(super) fn integer(reader: &mut Reader<'_, '_>, name: &At<String>) -> Option<
         reader.report(&codes::TABLE_VALUE, reader.span(name), message);
     }
     integer
-}
-
-/// How a raw number relates to a physical one; `None` where the two are the same.
-pub(super) fn scale(scaling: Option<&Scaling>, offset: Option<f64>) -> Option<Scale> {
-    let linear =
-        |factor: f64, offset: f64| (factor != 1.0 || offset != 0.0).then_some(Scale::Linear { factor, offset });
-    let offset = offset.unwrap_or(0.0);
-    let rule = match scaling {
-        None => return linear(1.0, offset),
-        Some(Scaling::Factor(factor)) => return linear(*factor, offset),
-        Some(Scaling::Rule(rule)) => rule,
-    };
-    if let Some(numerator) = rule.reciprocal {
-        return Some(Scale::Reciprocal { numerator });
-    }
-    if let (Some(bits), Some(base)) = (rule.fraction, &rule.of) {
-        return Some(Scale::Fraction { bits, base: base.as_str().into() });
-    }
-    if let Some(exponent) = &rule.exponent {
-        return Some(Scale::Exponent { exponent: exponent.as_str().into() });
-    }
-    if let Some(item) = &rule.by {
-        return Some(Scale::ByItem { item: item.as_str().into(), factor: rule.factor.unwrap_or(1.0) });
-    }
-    linear(rule.factor.unwrap_or(1.0), rule.offset.unwrap_or(offset))
 }

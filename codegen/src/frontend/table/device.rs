@@ -31,6 +31,7 @@ pub(super) fn head(reader: &mut Reader<'_, '_>, table: &At<DeviceTable>, device:
         ..Identity::default()
     };
     device.profiles.clone_from(&own.profiles);
+    device.node_ids = own.node_ids.as_ref().and_then(|given| node_ids(reader, given));
     let cite = own.cite.as_ref().map(cited);
     device.documentation = reader.documentation(own.doc.as_deref(), cite.clone());
     device.doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], device.origin, cite.as_deref());
@@ -51,15 +52,32 @@ pub(super) fn head(reader: &mut Reader<'_, '_>, table: &At<DeviceTable>, device:
     buses
 }
 
+/// First and last of the numbers that a node may have.
+fn node_ids(reader: &mut Reader<'_, '_>, given: &At<NumberOrText>) -> Option<(u8, u8)> {
+    let range = match &given.value {
+        NumberOrText::Number(number) => Some((i128::from(*number), i128::from(*number))),
+        NumberOrText::Text(text) => place::range(text),
+    };
+    let number = |number: i128| u8::try_from(number).ok().filter(|&number| number > 0);
+    let found = range.and_then(|(first, last)| Some((number(first)?, number(last)?)));
+    let found = found.filter(|(first, last)| first <= last);
+    if found.is_none() {
+        reader.report(&codes::TABLE_VALUE, reader.span(given), "numbers of nodes go from 1 to 255: write `\"1..127\"`");
+    }
+    found
+}
+
 /// The buses of a list of names.
 pub(super) fn buses(reader: &mut Reader<'_, '_>, list: &[At<String>]) -> Buses {
-    let words = [("canopen", 0), ("ethercat", 1), ("modbus", 2), ("profinet", 3), ("serial", 3)];
-    let mut buses = Buses { canopen: false, ethercat: false, modbus: false };
+    let words = [("canopen", 0), ("ethercat", 1), ("modbus", 2), ("profinet", 3), ("serial", 4)];
+    let mut buses = Buses::NONE;
     for name in list {
         match reader.word(name, "bus", &words) {
             Some(0) => buses.canopen = true,
             Some(1) => buses.ethercat = true,
             Some(2) => buses.modbus = true,
+            Some(3) => buses.profinet = true,
+            Some(4) => buses.serial = true,
             _ => {}
         }
     }
@@ -143,6 +161,6 @@ pub(super) fn axes(reader: &mut Reader<'_, '_>, table: &At<AxesTable>, device: &
             }
         }
     }
-    let models = own.models.iter().flatten().map(|model| model.as_str().into()).collect();
+    let models = own.models.iter().flatten().map(|model| model.value.as_str().into()).collect();
     device.axes = Some(AxisRule { axes: own.count, models, rules });
 }

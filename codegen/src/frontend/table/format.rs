@@ -5,6 +5,7 @@ use std::fmt;
 
 use serde::Deserialize;
 
+use super::alternatives::ConditionValues;
 use super::at::{At, Entries, FlagOr, Literal, OneOrMany, TextOr};
 #[cfg(feature = "cli")]
 use super::schema;
@@ -22,6 +23,9 @@ macro_rules! tables {
         )*
     };
 }
+
+/// Values of other items that have to be there, by the items' names.
+pub type Conditions = Entries<ConditionValues>;
 
 /// A text that may be a list.
 pub type Words = OneOrMany<String>;
@@ -64,14 +68,13 @@ pub enum FlagOrText {
 }
 
 /// A number, or how the number is found.
-#[derive(Clone, Debug, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
-#[serde(untagged, expecting = "a factor, or a table with `factor`, `by`, `reciprocal`, `fraction` or `exponent`")]
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema), schemars(untagged))]
 pub enum Scaling {
     /// physical = raw × factor.
     Factor(f64),
     /// Anything else.
-    Rule(ScaleRule),
+    Rule(Box<ScaleRule>),
 }
 
 tables! {
@@ -82,15 +85,19 @@ tables! {
         /// The physical value of raw 0.
         pub offset: Option<f64>,
         /// The item whose value divides.
-        pub by: Option<String>,
+        pub by: Option<At<String>>,
+        /// The item whose value multiplies.
+        pub times: Option<At<String>>,
         /// physical = this / raw.
         pub reciprocal: Option<f64>,
         /// Number of fractional bits.
         pub fraction: Option<u8>,
         /// The constant of the model that a fraction is one of.
-        pub of: Option<String>,
-        /// The item that holds the exponent of ten.
-        pub exponent: Option<String>,
+        pub of: Option<At<String>>,
+        /// The item that holds the exponent.
+        pub exponent: Option<At<String>>,
+        /// What is raised to it: 10 where nothing else is said, or 2.
+        pub base: Option<u8>,
     }
 
     /// A contradiction of the source, and what was made of it.
@@ -183,6 +190,9 @@ tables! {
         pub buses: Option<Vec<At<String>>>,
         /// Numbers of device profiles that it follows.
         pub profiles: Vec<u32>,
+        /// The numbers that a node, or server, may have (`"1..90"`).
+        #[cfg_attr(feature = "cli", schemars(transform = schema::place("#(\\.\\.=?#)?")))]
+        pub node_ids: Option<At<NumberOrText>>,
         /// CANopen bit rates in kbit/s.
         pub bit_rates: Vec<u16>,
         /// Number of RPDOs.
@@ -297,7 +307,7 @@ tables! {
     pub struct SpaceTable {
         /// What it is, in your own words.
         pub doc: Option<String>,
-        /// Number of bits that one number holds: 16 where nothing else is said.
+        /// Number of bits that one number holds: 16 where nothing else is said, 1 of coils and discrete inputs.
         pub bits: Option<u8>,
         /// Where its registers are on Modbus.
         pub modbus: Option<ModbusRule>,
@@ -339,6 +349,12 @@ tables! {
         pub order: Option<At<String>>,
         /// Whether the bytes of a word are swapped.
         pub swap: bool,
+        /// Numbers of the functions that the device takes (`[3, 6, 16]`).
+        pub functions: Option<At<Vec<u8>>>,
+        /// The greatest number of registers, or bits, that one request reads.
+        pub max_read: Option<At<u16>>,
+        /// The greatest number that one request writes.
+        pub max_write: Option<At<u16>>,
     }
 
     /// Which object a register is.
@@ -352,13 +368,13 @@ tables! {
     /// How a value is reached through other items.
     pub struct IndirectRule {
         /// The item that takes the number.
-        pub write_address: Option<String>,
+        pub write_address: Option<At<String>>,
         /// The item through which the value is read.
-        pub read: Option<String>,
+        pub read: Option<At<String>>,
         /// The item through which the value is written.
-        pub write: Option<String>,
+        pub write: Option<At<String>>,
         /// The procedure that says in which order.
-        pub procedure: Option<String>,
+        pub procedure: Option<At<String>>,
     }
 
     /// Rows that belong together.
@@ -432,7 +448,7 @@ tables! {
         pub default: Option<At<OneOrMany<Literal>>>,
         /// The only value.
         pub fixed: Option<At<Literal>>,
-        /// The only values.
+        /// The only values, and ranges of them (`"3..7"`).
         pub allowed: Option<At<Vec<Literal>>>,
         /// A symbol, or a name of `[units]`.
         pub unit: Option<At<String>>,
@@ -443,14 +459,16 @@ tables! {
         /// Raw values that are no numbers, with their meaning.
         pub na: Option<Entries<String>>,
         /// The device rounds to steps of so many counts.
-        pub step: Option<Literal>,
+        pub step: Option<At<Literal>>,
+        /// What differs between models or buses.
+        pub variants: Option<Vec<At<VariantTable>>>,
         /// Kept over power-off: at once, not at all, or by this command.
         pub save: Option<FlagOrText>,
         /// When a write takes effect, where not at once.
         pub effective: Option<String>,
         /// Writing is allowed while these items have one of these values.
-        pub when: Option<Entries<OneOrMany<Literal>>>,
-        /// The only values that may be written.
+        pub when: Option<Conditions>,
+        /// The only values that may be written, and ranges of them (`"3..7"`).
         pub writable: Option<At<Vec<Literal>>>,
         /// The device clears it by itself.
         pub clears: Option<bool>,
@@ -517,6 +535,37 @@ tables! {
         pub remove: Option<bool>,
     }
 
+    /// What differs on some models or buses; what isn't given is as the row says.
+    pub struct VariantTable {
+        /// The models; `*` stands for any letters.
+        pub models: Option<Vec<At<String>>>,
+        /// The buses.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        pub buses: Option<Vec<At<String>>>,
+        /// The value before anybody wrote it.
+        pub default: Option<At<Literal>>,
+        /// The smallest value, raw.
+        pub min: Option<At<Literal>>,
+        /// The greatest value, raw.
+        pub max: Option<At<Literal>>,
+        /// The device rounds to steps of so many counts.
+        pub step: Option<At<Literal>>,
+        /// physical = raw × scale; or how the factor is found.
+        pub scale: Option<At<Scaling>>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+    }
+
+    /// The value of another item, or of some of its bits.
+    pub struct ConditionTable {
+        /// The bits that are compared.
+        pub mask: Option<u64>,
+        /// The value that they have; a list where there are several.
+        pub value: Option<OneOrMany<Literal>>,
+    }
+
     /// What another place of the manual says of a row: an overview, a table of contents, the prose.
     pub struct SummaryTable {
         /// The type that it says.
@@ -551,7 +600,7 @@ tables! {
         /// The physical unit.
         pub symbol: Option<String>,
         /// physical = raw × scale + offset.
-        pub scale: Option<Scaling>,
+        pub scale: Option<At<Scaling>>,
         /// The physical value of raw 0.
         pub offset: Option<f64>,
         /// How the manual writes it.
@@ -598,11 +647,18 @@ tables! {
         /// Page or line of the manual.
         pub cite: Option<OneOrMany<NumberOrText>>,
         /// Models that have it; `*` stands for any letters.
-        pub models: Option<Vec<String>>,
+        pub models: Option<Vec<At<String>>>,
+        /// The only buses on which it exists.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        pub buses: Option<Vec<At<String>>>,
+        /// It exists while this item has one of these values.
+        pub when: Option<Conditions>,
         /// First firmware that has it.
         pub since: Option<String>,
         /// First firmware that doesn't have it any more.
         pub until: Option<String>,
+        /// What replaces it from then on, in words.
+        pub replaced_by: Option<String>,
         /// A contradiction of the manual, and what was made of it.
         pub doubt: Option<OneOrMany<DoubtTable>>,
         /// Several contradictions.
@@ -650,8 +706,11 @@ tables! {
         /// `rising`, `falling`, `toggle` or `self_clearing`.
         #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::TRIGGERS)))]
         pub trigger: Option<At<String>>,
-        /// The bits mean this while these items have one of these values.
-        pub when: Option<Entries<OneOrMany<Literal>>>,
+        /// The bits mean this while this item has one of these values.
+        pub when: Option<Conditions>,
+        /// `ro`, `rw` or `wo`, where it isn't as the row says.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["ro", "rw", "wo", "const", "rwr", "rww"])))]
+        pub access: Option<At<String>>,
         /// Its name or label in the manual's language.
         pub orig: Option<String>,
         /// What it is, in your own words.
@@ -662,8 +721,10 @@ tables! {
         pub since: Option<String>,
         /// First firmware that doesn't have it any more.
         pub until: Option<String>,
+        /// What replaces it from then on, in words.
+        pub replaced_by: Option<String>,
         /// Models that have it; `*` stands for any letters.
-        pub models: Option<Vec<String>>,
+        pub models: Option<Vec<At<String>>>,
         /// A contradiction of the manual, and what was made of it.
         pub doubt: Option<OneOrMany<DoubtTable>>,
         /// Several contradictions.
@@ -675,7 +736,7 @@ tables! {
         /// Number of axes.
         pub count: u8,
         /// The models that have so many; `*` stands for any letters.
-        pub models: Option<Vec<String>>,
+        pub models: Option<Vec<At<String>>>,
         /// The first rule that contains an object holds.
         pub rules: Vec<At<AxisRuleTable>>,
         /// What it is, in your own words.
@@ -815,6 +876,12 @@ tables! {
         pub name: Option<String>,
         /// The other columns.
         pub cells: Vec<Literal>,
+        /// Models that have it; `*` stands for any letters.
+        pub models: Option<Vec<At<String>>>,
+        /// First firmware that has it.
+        pub since: Option<String>,
+        /// First firmware that doesn't have it any more.
+        pub until: Option<String>,
         /// Its name or label in the manual's language.
         pub orig: Option<String>,
         /// What it is, in your own words.
@@ -968,7 +1035,7 @@ tables! {
         /// The states in which the device takes it.
         pub accepted_in: Vec<At<String>>,
         /// Items that have to have one of these values.
-        pub when: Option<Entries<OneOrMany<Literal>>>,
+        pub when: Option<Conditions>,
         /// The reply has this form after that message.
         pub after: Option<At<String>>,
         /// The message that comes where the device refuses.

@@ -106,23 +106,25 @@ fn elements(
 fn allowed(reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row, base: Type, own: &mut Limits) {
     let Some(given) = &row.allowed else { return };
     let span = reader.span(given);
-    let one = |literal: &Literal| value::convert(literal, base, false).unwrap_or(Value::Raw("".into()));
-    let values: Vec<Value> = given.value.iter().map(one).collect();
-    for value in &values {
-        lints::range(reader, value, base, span);
+    let ranges = value::ranges(reader, (&given.value, span), base);
+    for (first, last) in &ranges {
+        lints::range(reader, first, base, span);
+        if last != first {
+            lints::range(reader, last, base, span);
+        }
     }
-    let mut beyond = values.iter().filter_map(|value| Some((value, excluded(own, value)?)));
-    if let Some((value, reason)) = beyond.next() {
-        let message = format!("the allowed value {value} is {reason}");
+    let wrong = |value: &Value| Some(format!("the allowed value {value} is {}", excluded(own, value)?));
+    if let Some(message) = ranges.iter().find_map(|(first, last)| wrong(first).or_else(|| wrong(last))) {
         exclude(reader, span, message);
     }
-    own.allowed = values.into_iter().map(|value| (value.clone(), value)).collect();
+    own.allowed = ranges;
     item.limits.allowed.clone_from(&own.allowed);
 }
 
 /// The values that may be written are among those that there are.
 fn writable(reader: &mut Reader<'_, '_>, row: &Row, base: Type, limits: &Limits) {
     let Some(given) = &row.writable else { return };
+    // What is no value is reported where the item gets them.
     for value in given.value.iter().filter_map(|literal| value::convert(literal, base, false)) {
         lints::range(reader, &value, base, reader.span(given));
         if let Some(reason) = excluded(limits, &value) {

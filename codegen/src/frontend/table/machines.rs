@@ -2,15 +2,13 @@
 
 use super::at::{At, Entries};
 use super::format::{MachineTable, PatternTable, ProcedureTable, StepTable, TransitionTable};
+use super::references::References;
 use super::tree::{cited, Reader};
 use super::{lints, process, value};
 use crate::diagnostics::codes;
 use crate::ir::{CompactString, Device, Pattern, Procedure, StateMachine, Step, Transition, Type, Value};
 use crate::source::Span;
 use crate::text::brief;
-
-/// Names that have to exist, and what each of them is.
-pub(super) type References = Vec<(At<String>, &'static str)>;
 
 fn text(at: &At<String>) -> CompactString {
     at.value.as_str().into()

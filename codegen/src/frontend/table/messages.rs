@@ -2,13 +2,13 @@
 
 use super::at::{At, FlagOr, TextOr};
 use super::format::{CompletionTable, FieldTable, FramingTable, MessageTable, Row, SpaceTable};
-use super::machines::References;
+use super::references::{References, ITEM_OR_FIELD};
 use super::rows::{Named, Rows};
 use super::tree::{cited, Reader};
 use super::{place, types, value};
 use crate::diagnostics::codes;
 use crate::ir::{
-    Access, Availability, Binding, CompactString, Completion, Condition, Device, Framing, Item, Message, MessageField,
+    Access, Availability, Binding, CompactString, Completion, Device, Framing, Item, Message, MessageField,
     MessageValue, ParameterSpace, Type,
 };
 use crate::text::brief;
@@ -102,7 +102,7 @@ pub(super) fn message(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<M
         after: own.after.as_ref().map(text),
         error: own.error.as_ref().map(text),
         side_effects: effects.map(|effect| effect.as_str().into()).collect(),
-        accepted_when: conditions(reader, rows, own),
+        accepted_when: own.when.as_ref().map(|when| rows.definitions.conditions(reader, when)).unwrap_or_default(),
         names: reader.original(own.orig.as_deref()),
         availability: (availability != Availability::default()).then(|| Box::new(availability)),
         accepted_in: own.accepted_in.iter().map(text).collect(),
@@ -130,13 +130,6 @@ fn references(own: &MessageTable, all: &mut References) {
     all.extend(own.accepted_in.iter().map(|name| (name.clone(), "state")));
 }
 
-fn conditions(reader: &mut Reader<'_, '_>, rows: &mut Rows, own: &MessageTable) -> Vec<Condition> {
-    let entries = own.when.iter().flat_map(|when| when.iter());
-    let one = |(name, values): &(At<String>, At<_>)| super::at::Entries(vec![(name.clone(), values.clone())]);
-    let each: Vec<_> = entries.map(one).collect();
-    each.iter().filter_map(|entry| rows.definitions.condition(reader, Some(entry))).collect()
-}
-
 fn completion(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,
@@ -156,7 +149,7 @@ fn completion(
                 let whole = item.value.split('.').next().unwrap_or_default();
                 if !replies.iter().any(|own| own == whole) {
                     let name = At { value: whole.to_owned(), start: item.start, end: item.end };
-                    rows.references.push((name, "item or field"));
+                    rows.references.push((name, ITEM_OR_FIELD));
                 }
                 let value = table.value.as_ref().and_then(|own| value::convert(own, Type::Opaque(None), false));
                 Some(Completion::Polled { item: text(item), mask: table.mask, value })

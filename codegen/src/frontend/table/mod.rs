@@ -2,13 +2,17 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | `format`, `at` | the tables of the format, as `serde` reads them; the pieces they are made of |
+//! | `format`, `at`, `alternatives` | the tables of the format, as `serde` reads them; the pieces they are made of |
 //! | `tree` | from the text to those tables, with every error at its place; options |
 //! | `place`, `types`, `value`, `units` | numbers and places, names of types, literals, symbols of units |
 //! | `definitions` | units, enumerations, bit fields |
+//! | `scale` | how raw numbers become physical ones |
+//! | `conditions`, `variants` | when something exists; what differs between models and buses |
+//! | `references`, `numbered` | names that lead to something else, and numbers in their place |
 //! | `taken` | names and addresses that are in use |
 //! | `spaces` | what the number of a register means on each bus |
-//! | `rows`, `limits`, `objects` | rows to items and objects; default, limits and only values of a row |
+//! | `rows`, `bindings`, `limits`, `objects` | rows to items and objects; their addresses; default, limits and only values |
+//! | `defaults`, `misplaced` | what rows inherit; keys that say nothing where they stand |
 //! | `device` | the head: device, models, axes |
 //! | `process`, `images` | process data: PDOs, fixed process images |
 //! | `code_tables`, `machines`, `messages` | codes; state machines and procedures; messages and their frames |
@@ -16,8 +20,12 @@
 //! | `lints`, `summary` | what needs the table as it is written; what another place of the manual says |
 //! | `schema` | the JSON Schema of the format |
 
+mod alternatives;
 mod at;
+mod bindings;
 mod code_tables;
+mod conditions;
+mod defaults;
 mod definitions;
 mod device;
 pub mod format;
@@ -26,12 +34,15 @@ mod limits;
 mod lints;
 mod machines;
 mod messages;
+mod misplaced;
 mod numbered;
 mod objects;
 pub mod overlay;
 mod place;
 mod process;
+mod references;
 mod rows;
+mod scale;
 #[cfg(feature = "cli")]
 pub mod schema;
 mod spaces;
@@ -41,13 +52,14 @@ mod tree;
 mod types;
 mod units;
 mod value;
+mod variants;
 
 use compact_str::CompactString;
 use serde::de::DeserializeOwned;
 use toml::de::DeValue;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Catalog, Device, Group, GroupKind, ObjectCode, Shape};
+use crate::ir::{Catalog, Device, Group, GroupKind, ObjectCode};
 use crate::source::{FileId, Source, Span};
 use at::{At, Entries};
 use definitions::Definitions;
@@ -126,6 +138,7 @@ pub fn read(
         device::model(&mut reader, &model, &mut device);
     }
     let mut rows = table.rows(&mut reader, buses);
+    device.modbus = std::mem::take(&mut rows.modbus);
     let mut dictionary = Dictionary::new();
     let mut taken = Taken::default();
     for chapter in table.nodes(&mut reader, "chapters") {
@@ -256,9 +269,10 @@ impl<'a> Table<'a> {
         Rows {
             definitions,
             spaces: spaces::read(reader, &spaces),
+            modbus: spaces::modbus_tables(reader, &spaces),
             buses,
-            defaults: self.take::<Row>(reader, "defaults").map(|row| row.value),
-            references: Vec::new(),
+            defaults: self.node("defaults").and_then(|node| defaults::read(reader, node)),
+            references: spaces::references(&spaces),
             numbered: Vec::new(),
             allowed: Vec::new(),
             summaries: Vec::new(),
@@ -282,13 +296,20 @@ impl<'a> Table<'a> {
 
     /// What doesn't hold items: axes, PDOs, codes, sequences.
     fn rest(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
-        if let Some(axes) = self.take(reader, "axes") {
+        if let Some(axes) = self.take::<format::AxesTable>(reader, "axes") {
+            let models = axes.value.models.iter().flatten();
+            rows.references.extend(models.map(|model| (model.clone(), "model")));
             device::axes(reader, &axes, device);
         }
         for pdo in self.list(reader, "pdos") {
             process::pdo(reader, &pdo, device);
         }
-        for (name, table) in self.named(reader, "codes") {
+        for (name, table) in self.named::<format::CodesTable>(reader, "codes") {
+            let models = table.rows.iter().filter_map(|(_, row)| match &row.value {
+                at::TextOr::Table(row) => row.models.as_ref(),
+                at::TextOr::Text(_) => None,
+            });
+            rows.references.extend(models.flatten().map(|model| (model.clone(), "model")));
             code_tables::table(reader, &name, &table, device);
         }
         for (name, table) in self.named(reader, "machines") {
@@ -318,7 +339,8 @@ fn chapter<'a>(
     node: Node<'a>,
 ) -> Option<Group> {
     let (start, end) = (node.span().start as u32, node.span().end as u32);
-    let (registers, objects, node) = divide(reader, node)?;
+    let (registers, objects, mut node) = divide(reader, node)?;
+    defaults::of_chapter(reader, &mut node);
     let own: ChapterTable = reader.piece(node)?;
     let at = At { value: (), start, end };
     let space = match &own.space {
@@ -344,13 +366,15 @@ fn chapter<'a>(
     lints::series(reader, &registers, space.and_then(|at| rows.spaces.get(at)));
     lints::unprinted(reader, &registers, space.and_then(|at| rows.spaces.get(at)));
     for (key, row) in registers {
+        misplaced::register(reader, &key, &row);
         let items = rows.registers(reader, space, (&key, &row), defaults);
         let part = row.value.part.as_ref().and_then(|part| place::bits(&part.value.to_string()));
-        items.iter().for_each(|item| taken.register(reader, item, part));
+        items.iter().for_each(|item| taken.register(reader, &group.name, item, part));
         group.items.extend(items);
     }
     for (key, row) in objects {
-        objects::add(reader, rows, dictionary, (&key, &row), defaults);
+        misplaced::object(reader, &key, &row);
+        objects::add(reader, rows, dictionary, (&key, &row), (space, defaults));
     }
     (!group.items.is_empty() || !group.doubts.is_empty()).then_some(group)
 }
@@ -383,45 +407,8 @@ fn divide<'a>(reader: &mut Reader<'a, '_>, node: Node<'a>) -> Option<(RowList, R
     Some((registers, objects, node))
 }
 
-/// The states of a device: those of its machines, and the names in its enumerations, as a state may be told by one.
-fn states(device: &Device) -> impl Iterator<Item = &str> {
-    let machines = device.machines.iter().flat_map(|machine| machine.states.iter().map(|state| state.name.as_str()));
-    let values = device.types.iter().flat_map(|own| match &own.shape {
-        Shape::Enumeration { values, .. } => values.as_slice(),
-        _ => &[],
-    });
-    machines.chain(values.map(|value| value.name.as_str()))
-}
-
 /// Reports names that rows and sequences refer to and that don't exist.
 fn resolve(reader: &mut Reader<'_, '_>, rows: &Rows, device: &Device) {
-    let items = || device.groups.iter().flat_map(|group| group.items.iter().map(|item| item.name.as_str()));
-    let groups = || device.groups.iter().map(|group| group.name.as_str());
-    let by_place = |name: &str| {
-        let found = place::objects(name).filter(|own| own.indices.0 == own.indices.1);
-        found.is_some_and(|own| device.entry(own.indices.0, own.subs.map_or(0, |(first, _)| first)).is_some())
-    };
-    let mentioned = rows.definitions.mentioned.iter().map(|name| (name, "item"));
-    for (name, what) in rows.references.iter().map(|(name, what)| (name, *what)).chain(mentioned) {
-        let text = name.value.as_str();
-        let span = reader.span(name);
-        let exists = match what {
-            "model" => {
-                device.variants.is_empty() || device.variants.iter().any(|own| crate::selection::glob(text, &own.name))
-            }
-            "message" => device.messages.iter().any(|message| message.name == text),
-            "state" => states(device).any(|state| state == text),
-            _ => items().any(|own| own == text) || groups().any(|own| own == text) || by_place(text),
-        };
-        if exists {
-            continue;
-        }
-        match what {
-            "model" => reader.unresolved(what, text, span, device.variants.iter().map(|own| own.name.as_str())),
-            "message" => reader.unresolved(what, text, span, device.messages.iter().map(|own| own.name.as_str())),
-            "state" => reader.unresolved(what, text, span, states(device)),
-            _ if numbered::report(reader, &rows.numbered, text, span) => {}
-            _ => reader.unresolved(what, text, span, items()),
-        }
-    }
+    let all = rows.references.iter().chain(&rows.definitions.mentioned);
+    references::resolve(reader, all.map(|(name, what)| (name, *what)), device, &rows.numbered);
 }

@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use super::at::At;
+use super::bindings::Repeat;
 use super::format::Row;
 use super::place::{self, Objects};
 use super::rows::{Named, Rows};
 use super::tree::{cited, Reader};
 use crate::diagnostics::codes;
-use crate::ir::{Access, Binding, Group, Item, ObjectBuses, ObjectCode, Type};
+use crate::ir::{Access, Binding, Group, Item, ObjectCode, Type};
 use crate::text::brief;
 
 /// The words for object codes.
@@ -28,7 +29,7 @@ pub(super) fn add(
     rows: &mut Rows,
     dictionary: &mut Dictionary,
     (key, row): (&At<String>, &At<Row>),
-    chapter: Option<&Row>,
+    (space, chapter): (Option<usize>, Option<&Row>),
 ) {
     let Some(objects) = place::objects(&key.value) else {
         let message =
@@ -43,11 +44,13 @@ pub(super) fn add(
         None if row.value.ty.is_none() && has_no_value(&row.value) => row.value.clone(),
         _ => rows.complete(&row.value, chapter),
     };
+    let count = u32::from(objects.indices.1 - objects.indices.0) + 1;
+    rows.each_has_one(reader, key, &complete, count);
     for index in objects.indices.0..=objects.indices.1 {
         let number = u32::from(index - objects.indices.0);
         match objects.subs {
-            None => head(reader, rows, dictionary, (key, row, &complete), (index, number)),
-            Some(_) => subs(reader, rows, dictionary, (key, row, &complete), (objects, index, number)),
+            None => head(reader, rows, dictionary, (key, row, &complete), (index, number), space),
+            Some(_) => subs(reader, rows, dictionary, (key, row, &complete), (objects, index, number), space),
         }
     }
 }
@@ -65,10 +68,12 @@ fn head(
     dictionary: &mut Dictionary,
     (key, row, complete): Given<'_>,
     (index, number): (u16, u32),
+    space: Option<usize>,
 ) {
     let code = complete.code.as_ref().and_then(|code| reader.word(code, "object code", &CODES));
     let mut group = Group::object(index, code.unwrap_or(ObjectCode::Var));
     group.origin = reader.origin(key);
+    unfilled_name(reader, complete, number, None);
     if let Some(name) = &complete.name {
         (group.name, group.name_at) = (place::filled(&name.value, number, None).into(), reader.span(name));
     }
@@ -82,7 +87,7 @@ fn head(
     } else {
         let name = group.name.to_string();
         let named = Named { name: &name, key, number, end: row.end };
-        let item = item(reader, rows, named, complete, (index, 0));
+        let item = item(reader, rows, named, complete, (index, 0), space);
         group.items.push(item);
     }
     if let Some(first) = dictionary.get(&index) {
@@ -97,12 +102,20 @@ fn head(
     dictionary.insert(index, group);
 }
 
+/// Reports what no number of an object fills in its name.
+fn unfilled_name(reader: &mut Reader<'_, '_>, row: &Row, number: u32, sub: Option<u8>) {
+    if let Some(name) = row.name.as_ref().filter(|_| number == 0) {
+        super::definitions::unfilled(reader, name, Some(&place::filled(&name.value, number, sub)));
+    }
+}
+
 fn subs(
     reader: &mut Reader<'_, '_>,
     rows: &mut Rows,
     dictionary: &mut Dictionary,
     (key, row, complete): Given<'_>,
     (objects, index, number): (Objects, u16, u32),
+    space: Option<usize>,
 ) {
     dictionary.entry(index).or_insert_with(|| {
         let message = format!("object 0x{index:04X} has no row of its own above its sub-entries");
@@ -110,11 +123,12 @@ fn subs(
         Group { origin: reader.origin(key), ..Group::object(index, ObjectCode::Record) }
     });
     let (first, last) = objects.subs.unwrap_or((0, 0));
+    unfilled_name(reader, complete, number, Some(first));
     for sub_index in first..=last {
         let name = complete.name.as_ref().map_or("", |name| name.value.as_str());
         let name = place::filled(name, number, Some(sub_index));
         let named = Named { name: &name, key, number, end: row.end };
-        let item = item(reader, rows, named, complete, (index, sub_index));
+        let item = item(reader, rows, named, complete, (index, sub_index), space);
         let Some(group) = dictionary.get_mut(&index) else { continue };
         if group.object_code() == Some(ObjectCode::Var) {
             let message = format!("object 0x{index:04X} is one value: give it a `code` such as \"record\"");
@@ -140,18 +154,52 @@ fn item(
     named: Named<'_>,
     row: &Row,
     (index, sub_index): (u16, u8),
+    space: Option<usize>,
 ) -> Item {
-    let buses = rows.buses_of(reader, row);
-    let buses = ObjectBuses { canopen: buses.canopen || !buses.ethercat, coe: buses.ethercat };
+    let buses = rows.object_buses(reader, row, named.key);
     let mut item = Item::new(Binding::Object { buses, index, sub_index });
     let ty = match row.reserved {
         Some(true) if row.ty.is_none() => Some(Type::Opaque(None)),
         _ => rows.ty(reader, named, row),
     };
+    beside(reader, rows, (space, &mut item), named, row, ty);
     rows.fill(reader, &mut item, named, row, ty);
     if row.access.is_none() && row.reserved != Some(true) {
         rows.no_access(reader, named);
         item.access = Access::ReadOnly;
     }
     item
+}
+
+/// The addresses that a row gives an object beside its own: those of its register, and of other protocols.
+fn beside(
+    reader: &mut Reader<'_, '_>,
+    rows: &mut Rows,
+    (space, item): (Option<usize>, &mut Item),
+    named: Named<'_>,
+    row: &Row,
+    ty: Option<Type>,
+) {
+    let is_single = place::objects(&named.key.value)
+        .is_none_or(|own| own.indices.0 == own.indices.1 && own.subs.is_none_or(|(first, last)| first == last));
+    let has_number = row.reg.is_some() || row.esc.is_some() || row.param.is_some();
+    if has_number && !is_single {
+        let message = "`reg`, `esc` and `param` are one item's, and the row stands for several objects";
+        let found = crate::diagnostics::Diagnostic::new(&codes::TABLE_PLACE, reader.span(named.key), message);
+        reader.diagnostics.push(found.help("give each object a row of its own"));
+        return;
+    }
+    let own = item.object();
+    if row.reg.is_some() {
+        let found = rows.bindings(
+            reader,
+            space,
+            named,
+            &Row { ascii: None, esc: None, param: None, ..row.clone() },
+            (Repeat::ONCE, ty),
+        );
+        item.bindings.extend(found.into_iter().filter(|binding| !matches!(binding, Binding::Object { .. })));
+    }
+    let bits = ty.and_then(|ty| rows.bits(ty));
+    rows.other_addresses(reader, (named, own.map(|(_, sub)| sub)), row, (0, bits), &mut item.bindings);
 }

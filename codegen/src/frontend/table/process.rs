@@ -71,13 +71,20 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, device: &Device) -> Opt
     }
     let by_name = || {
         let mut items = device.groups.iter().flat_map(|group| &group.items);
-        items.find(|item| item.name == what).and_then(Item::object)
+        let found = items.find(|item| item.name == what);
+        found.or_else(|| device.groups.iter().find_map(|group| group.by_path(what)))
     };
     let by_place = || {
         let found = place::objects(what).filter(|own| own.indices.0 == own.indices.1)?;
         Some((found.indices.0, found.subs.map_or(0, |(first, _)| first)))
     };
-    let Some((index, sub_index)) = by_place().or_else(by_name) else {
+    let Some((index, sub_index)) = by_place().or_else(|| by_name().and_then(Item::object)) else {
+        if by_name().is_some() {
+            let message = format!("`{}` is no object, and PDOs map objects", brief(what));
+            let found = crate::diagnostics::Diagnostic::new(&codes::UNRESOLVED_NAME, reader.span(text), message);
+            reader.diagnostics.push(found.help("give it an `obj`, or its space a rule for CANopen or EtherCAT"));
+            return None;
+        }
         let names = device.groups.iter().flat_map(|group| &group.items).map(|item| item.name.as_str());
         reader.unresolved("object", what, reader.span(text), names);
         return None;

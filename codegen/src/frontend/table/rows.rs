@@ -1,25 +1,23 @@
 //! Rows to items.
 
 use compact_str::CompactString;
-use smallvec::SmallVec;
 
 use super::at::{At, Entries, Literal, OneOrMany, TextOr};
-use super::definitions::{self, Definitions, Kind};
+use super::bindings::{read_only_table, words_without_register};
+use super::definitions::{unfilled, Definitions, Kind};
 use super::format::{FlagOrText, NumberOrText, Row};
 use super::numbered::Numbered;
-use super::spaces::{self, Buses, Numbers, Space};
+use super::references::{References, ITEM};
+use super::spaces::{Buses, Space};
 use super::tree::{cited, Reader};
-use super::{lints, place, types, value};
+use super::{place, scale, types, value};
 use crate::diagnostics::{codes, Code, Diagnostic};
 use crate::ir::{
-    Access, Availability, Behaviour, Binding, Extension, Item, Mappable, ObjectBuses, Quantity, Shape, Storage, Type,
-    TypeDef, TypeId,
+    Access, Availability, Behaviour, Extension, Item, Mappable, ModbusTable, Quantity, Shape, Storage, Type, TypeDef,
+    TypeId,
 };
 use crate::source::Span;
 use crate::text::brief;
-
-/// The greatest number of items that one row may stand for.
-const MAX_REPEAT: u32 = 0x1_0000;
 
 /// The words of `access`.
 pub(super) const ACCESSES: [(&str, Access); 6] = [
@@ -43,10 +41,12 @@ pub(super) const DIRECTIONS: [(&str, Mappable); 4] = [
 pub(super) struct Rows {
     pub definitions: Definitions,
     pub spaces: Vec<Space>,
+    /// What spaces say of the requests of Modbus.
+    pub modbus: Vec<ModbusTable>,
     pub buses: Buses,
     pub defaults: Option<Row>,
     /// Names that rows refer to, and what for.
-    pub references: Vec<(At<String>, &'static str)>,
+    pub references: References,
     /// The items that have numbers of registers.
     pub numbered: Vec<Numbered>,
     /// Findings that a row takes upon itself.
@@ -63,17 +63,6 @@ pub(super) struct Named<'k> {
     pub number: u32,
     /// The end of the row.
     pub end: u32,
-}
-
-impl Row {
-    /// The row with what `defaults` say where it says nothing.
-    pub(super) fn or(mut self, defaults: &Row) -> Row {
-        macro_rules! fill {
-            ($($field:ident)*) => { $( if self.$field.is_none() { self.$field.clone_from(&defaults.$field); } )* };
-        }
-        fill!(ty access pdo unit scale offset na save effective models since until needs buses per_axis hidden order swap length);
-        self
-    }
 }
 
 impl Rows {
@@ -94,22 +83,31 @@ impl Rows {
     ) -> Vec<Item> {
         let complete = self.complete(&row.value, chapter);
         self.allow(reader, key, row);
-        let (count, step) = self.repetition(reader, &complete, space);
-        let mut items = Vec::new();
-        for number in 0..count {
+        let repeat = self.repetition(reader, &complete, space);
+        if row.value.count.is_none() && key.value.contains("{n") {
+            let message = format!("`{}` needs a `count`: nothing says how many `{{n}}` counts", brief(&key.value));
+            reader.report(&codes::TABLE_VALUE, reader.span(key), message);
+        }
+        self.each_has_one(reader, key, &complete, repeat.count);
+        let mut items: Vec<Item> = Vec::new();
+        for number in 0..repeat.count {
             let name = place::filled(&key.value, number, None);
+            if number == 0 {
+                unfilled(reader, key, Some(&name));
+            }
+            if items.first().is_some_and(|first| first.name == name) {
+                break;
+            }
             let named = Named { name: &name, key, number, end: row.end };
             let ty = self.ty(reader, named, &complete);
             let before = reader.diagnostics.list().len();
-            let bindings = self.bindings(reader, space, named, &complete, (number * step, ty));
+            let bindings = self.bindings(reader, space, named, &complete, (repeat, ty));
             if bindings.is_empty() {
                 // What is wrong with the address that it has was told.
                 if reader.diagnostics.list().len() > before {
                     break;
                 }
-                let message =
-                    format!("`{}` has no address: `reg`, `obj`, `param`, `esc` or `ascii`", brief(&key.value));
-                reader.report(&codes::ROW_WITHOUT_ADDRESS, reader.span(key), message);
+                self.no_address(reader, space, named, &complete);
                 break;
             }
             let mut item = Item::new(bindings[0].clone());
@@ -118,8 +116,10 @@ impl Rows {
             if complete.access.is_none() && complete.fixed.is_none() {
                 self.no_access(reader, named);
             }
+            read_only_table(reader, &item);
             items.push(item);
         }
+        words_without_register(reader, &row.value, &items);
         items
     }
 
@@ -154,25 +154,6 @@ impl Rows {
                 }
             }
         }
-    }
-
-    /// How many items the row stands for, and how many numbers lie between two.
-    fn repetition(&mut self, reader: &mut Reader<'_, '_>, row: &Row, space: Option<usize>) -> (u32, u32) {
-        let Some(count) = &row.count else { return (1, 0) };
-        let given = match &count.value {
-            NumberOrText::Number(count) => u32::try_from(*count).ok(),
-            NumberOrText::Text(item) => {
-                self.references.push((At { value: item.clone(), start: count.start, end: count.end }, "item"));
-                Some(row.max_count.unwrap_or(1))
-            }
-        };
-        let Some(number) = given.filter(|&number| (1..=MAX_REPEAT).contains(&number)) else {
-            reader.report(&codes::TABLE_VALUE, reader.span(count), format!("`count` goes from 1 to {MAX_REPEAT}"));
-            return (1, 0);
-        };
-        let unit = space.and_then(|at| self.spaces.get(at)).map_or(16, |space| u32::from(space.bits));
-        let bits = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).and_then(|named| named.ty.bits());
-        (number, row.stride.unwrap_or_else(|| bits.unwrap_or(unit).div_ceil(unit)))
     }
 
     /// Reports that nothing says how an item may be accessed.
@@ -225,6 +206,10 @@ impl Rows {
     /// The bit field or enumeration of a row over its integer.
     pub fn meaning(&mut self, reader: &mut Reader<'_, '_>, named: Named<'_>, row: &Row, base: Type) -> Option<Type> {
         let origin = reader.origin(named.key);
+        if let (Some(_), Some(values)) = (&row.bits, &row.values) {
+            let message = "`bits` and `enum` stand in one row: the value is one or the other";
+            reader.report(&codes::TABLE_VALUE, reader.span(values), message);
+        }
         if let Some(bits) = &row.bits {
             return match &bits.value {
                 TextOr::Text(name) => {
@@ -272,170 +257,13 @@ impl Rows {
         ty
     }
 
-    pub fn bits(&self, ty: Type) -> Option<u32> {
+    pub(super) fn bits(&self, ty: Type) -> Option<u32> {
         match ty {
             Type::Named(TypeId(id)) => self.definitions.types.get(id as usize).and_then(|def| def.bits),
             ty => match ty {
                 Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),
                 ty => ty.bits(),
             },
-        }
-    }
-
-    /// Every address of a row.
-    fn bindings(
-        &mut self,
-        reader: &mut Reader<'_, '_>,
-        space: Option<usize>,
-        named: Named<'_>,
-        row: &Row,
-        (shift, ty): (u32, Option<Type>),
-    ) -> SmallVec<[Binding; 1]> {
-        let buses = self.buses_of(reader, row);
-        let mut bindings = SmallVec::new();
-        let bits = ty.and_then(|ty| self.bits(ty));
-        let mut by_rule = None;
-        if let Some(reg) = &row.reg {
-            match self.numbers(reader, reg, row, bits, space) {
-                Some(mut numbers) => {
-                    numbers.first = numbers.first.saturating_add(shift);
-                    let span = reader.span(reg);
-                    let found = space.and_then(|at| self.spaces.get(at));
-                    by_rule = found.and_then(|space| space.object(numbers.first));
-                    let unit = found.map_or(16, |space| u32::from(space.bits)).max(1);
-                    let last = numbers.first.saturating_add(bits.unwrap_or(unit).div_ceil(unit).saturating_sub(1));
-                    self.numbered.push(Numbered { first: numbers.first, last, name: named.name.into() });
-                    match found {
-                        Some(space) => bindings.extend(space.bindings(reader, numbers, buses, span)),
-                        None => reader.report(&codes::UNRESOLVED_NAME, span, "there is no `[spaces]` for this number"),
-                    }
-                }
-                None => return bindings,
-            }
-        }
-        if let Some(object) = &row.obj {
-            self.explicit_object(reader, object, (by_rule, shift), buses, &mut bindings);
-        }
-        if let Some(address) = &row.esc {
-            let length = row.length.as_ref().map(|length| length.value);
-            let length = length.unwrap_or_else(|| bits.map_or(1, |bits| bits.div_ceil(8) as u16));
-            bindings.push(Binding::EscMemory { address: address.value, length });
-        }
-        if let Some(name) = &row.ascii {
-            bindings.push(Binding::Ascii(place::filled(name, named.number, None).into()));
-        }
-        if let Some(code) = &row.param {
-            bindings.push(Binding::Parameter { space: "parameter".into(), code: code.value.saturating_add(shift) });
-        }
-        bindings
-    }
-
-    fn numbers(
-        &mut self,
-        reader: &mut Reader<'_, '_>,
-        reg: &At<NumberOrText>,
-        row: &Row,
-        bits: Option<u32>,
-        space: Option<usize>,
-    ) -> Option<Numbers> {
-        let (first, last) = match &reg.value {
-            NumberOrText::Number(number) => match u32::try_from(*number) {
-                Ok(number) => (number, None),
-                Err(_) => {
-                    let message = format!("`{number}` is no number of a register: they go from 0 to {}", u32::MAX);
-                    reader.report(&codes::TABLE_PLACE, reader.span(reg), message);
-                    return None;
-                }
-            },
-            NumberOrText::Text(text) => match place::registers(text) {
-                Some((first, last)) => (first, Some(last)),
-                None => {
-                    let message = format!("`{}` is no number of a register: write `63` or `\"63-64\"`", brief(text));
-                    reader.report(&codes::TABLE_PLACE, reader.span(reg), message);
-                    return None;
-                }
-            },
-        };
-        let unit = space.and_then(|at| self.spaces.get(at)).map_or(16, |space| u32::from(space.bits));
-        if let (Some(last), Some(bits)) = (last, bits) {
-            let (printed, needed) = (last - first + 1, bits.div_ceil(unit));
-            if printed != needed {
-                let message = format!("{printed} numbers of {unit} bits, and the type takes {needed}");
-                reader
-                    .diagnostics
-                    .push(Diagnostic::new(&codes::REGISTER_SPAN, reader.span(reg), message).label("the type is used"));
-            }
-        }
-        let bit_offset = row.part.as_ref().and_then(|part| self.part(reader, part, bits));
-        Some(Numbers {
-            first,
-            bits,
-            low_word_first: row.order.as_ref().and_then(|order| spaces::word_order(reader, order)),
-            bytes_swapped: row.swap,
-            bit_offset,
-        })
-    }
-
-    /// The first bit of a part of a register.
-    fn part(&self, reader: &mut Reader<'_, '_>, part: &At<NumberOrText>, bits: Option<u32>) -> Option<u8> {
-        let text = part.value.to_string();
-        let Some((offset, count)) = place::bits(&text) else {
-            let message = format!("`{}` are no bits: write `7` or `\"7-0\"`", brief(&text));
-            reader.report(&codes::TABLE_PLACE, reader.span(part), message);
-            return None;
-        };
-        if bits.is_some_and(|bits| bits != u32::from(count)) {
-            let message = format!("the part has {count} bits, and the type {}", bits.unwrap_or(0));
-            reader.report(&codes::REGISTER_SPAN, reader.span(part), message);
-        }
-        Some(offset)
-    }
-
-    fn explicit_object(
-        &self,
-        reader: &mut Reader<'_, '_>,
-        object: &At<NumberOrText>,
-        (by_rule, shift): (Option<(u16, u8)>, u32),
-        buses: Buses,
-        bindings: &mut SmallVec<[Binding; 1]>,
-    ) {
-        lints::index(reader, object);
-        let text = match &object.value {
-            NumberOrText::Number(number) => format!("{number:#06x}"),
-            NumberOrText::Text(text) => text.clone(),
-        };
-        let found = place::objects(&text).filter(|found| found.indices.0 == found.indices.1);
-        let index = found.and_then(|found| u16::try_from(u32::from(found.indices.0) + shift).ok());
-        let (Some(found), Some(index)) = (found, index) else {
-            let message = format!("`{}` is no object: write `0x6040` or `\"0x2000:1\"`", brief(&text));
-            reader.report(&codes::TABLE_PLACE, reader.span(object), message);
-            return;
-        };
-        let sub_index = found.subs.map(|(first, _)| first);
-        if let Some((ruled, ruled_sub)) = by_rule {
-            if ruled != index || sub_index.is_some_and(|sub| sub != ruled_sub) {
-                let message =
-                    format!("the row says object {text}, and the rule of its space 0x{ruled:04X}:{ruled_sub}");
-                reader.diagnostics.push(
-                    Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(object), message)
-                        .label("what the row says is used"),
-                );
-            }
-            bindings.retain(|binding| !matches!(binding, Binding::Object { .. }));
-        }
-        let sub_index = sub_index.or(by_rule.map(|(_, sub)| sub)).unwrap_or(0);
-        let buses = ObjectBuses { canopen: buses.canopen, coe: buses.ethercat };
-        bindings.insert(0, Binding::Object { buses, index, sub_index });
-    }
-
-    /// The buses on which a row exists.
-    pub fn buses_of(&self, reader: &mut Reader<'_, '_>, row: &Row) -> Buses {
-        let Some(list) = &row.buses else { return self.buses };
-        let named = super::device::buses(reader, list);
-        Buses {
-            canopen: self.buses.canopen && named.canopen,
-            ethercat: self.buses.ethercat && named.ethercat,
-            modbus: self.buses.modbus && named.modbus,
         }
     }
 
@@ -459,6 +287,7 @@ impl Rows {
         self.values(reader, item, named, row);
         self.length(reader, item, named, row);
         self.quantity(reader, item, row);
+        self.variants(reader, item, row);
         self.behaviour(reader, item, row);
         self.availability(reader, item, row);
         self.words(reader, item, row);
@@ -526,21 +355,16 @@ impl Rows {
         }
         let (scale, offset) = match &own {
             Some(table) if row.scale.is_none() => (table.scale.as_ref(), row.offset.or(table.offset)),
-            _ => (row.scale.as_ref().map(|scale| &scale.value), row.offset),
+            _ => (row.scale.as_ref(), row.offset),
         };
         if own.is_some() || row.scale.is_some() || row.offset.is_some() {
-            quantity.scale = definitions::scale(scale, offset);
-        }
-        if let Some(crate::ir::Scale::ByItem { item, .. }) = &quantity.scale {
-            let at = row.scale.as_ref().map_or(0..0, |scale| scale.start as usize..scale.end as usize);
-            let name = At { value: item.to_string(), start: at.start as u32, end: at.end as u32 };
-            self.references.push((name, "item"));
+            quantity.scale = scale::read(reader, scale, offset, &mut self.references);
         }
         for (key, meaning) in row.na.iter().flat_map(|na| na.iter()) {
             let literal = At { value: Literal::Text(key.value.clone()), start: key.start, end: key.end };
             quantity.sentinels.push((value::value(reader, &literal, base), meaning.value.as_str().into()));
         }
-        quantity.step = row.step.as_ref().and_then(|step| value::convert(step, base, false)).or(quantity.step);
+        quantity.step = row.step.as_ref().map(|step| value::value(reader, step, base)).or(quantity.step);
         item.quantity = Some(Box::new(quantity));
     }
 
@@ -557,17 +381,10 @@ impl Rows {
             behaviour.effective = Some(effective.as_str().into());
         }
         if let Some(when) = &row.when {
-            behaviour.write_when = when
-                .iter()
-                .filter_map(|(name, values)| {
-                    let one = super::at::Entries(vec![(name.clone(), values.clone())]);
-                    self.definitions.condition(reader, Some(&one))
-                })
-                .collect();
+            behaviour.write_when = self.definitions.conditions(reader, when);
         }
         if let Some(values) = &row.writable {
-            behaviour.writable_values =
-                values.value.iter().filter_map(|value| value::convert(value, base, false)).collect();
+            behaviour.writable_values = value::listed(reader, (&values.value, reader.span(values)), base);
         }
         behaviour.self_clearing = row.clears.unwrap_or(behaviour.self_clearing);
         behaviour.write_once = row.once.unwrap_or(behaviour.write_once);
@@ -591,14 +408,20 @@ impl Rows {
         (own.since, own.until) = (text(&row.since, own.since), text(&row.until, own.until));
         if let Some(replaced) = &row.replaced_by {
             own.replaced_by = Some(replaced.value.as_str().into());
-            self.references.push((replaced.clone(), "item"));
+            self.references.push((replaced.clone(), ITEM));
+        }
+        // Of other buses, the addresses tell.
+        let untold =
+            |list: &&Vec<At<String>>| list.iter().any(|bus| matches!(bus.value.as_str(), "profinet" | "serial"));
+        if let Some(buses) = row.buses.as_ref().filter(untold) {
+            own.buses = buses.iter().map(|bus| bus.value.as_str().into()).collect();
         }
         if let Some(OneOrMany(needs)) = &row.needs {
             own.options = needs.iter().map(|need| need.as_str().into()).collect();
         }
         item.availability = (own != Availability::default()).then(|| Box::new(own));
         if let Some(same) = &row.same_as {
-            self.references.push((same.clone(), "item"));
+            self.references.push((same.clone(), ITEM));
             item.extensions.push(extension("same_as", &same.value, reader.span(same)));
         }
     }

@@ -2,9 +2,10 @@
 
 use super::at::{At, Entries, FlagOr};
 use super::format::{ModbusRule, ObjectRule, SpaceTable};
+use super::references::{References, ITEM};
 use super::tree::Reader;
 use crate::diagnostics::codes;
-use crate::ir::{Binding, IndirectBinding, ObjectBuses, RegisterBinding, RegisterSpace, Value};
+use crate::ir::{Binding, IndirectBinding, ModbusTable, ObjectBuses, RegisterBinding, RegisterSpace, Value};
 use crate::source::Span;
 
 /// Bits of a number where the space doesn't say.
@@ -56,10 +57,35 @@ pub(super) struct Buses {
     pub canopen: bool,
     pub ethercat: bool,
     pub modbus: bool,
+    pub profinet: bool,
+    pub serial: bool,
 }
 
 impl Buses {
-    pub const ALL: Buses = Buses { canopen: true, ethercat: true, modbus: true };
+    pub const ALL: Buses = Buses { canopen: true, ethercat: true, modbus: true, profinet: true, serial: true };
+    pub const NONE: Buses = Buses { canopen: false, ethercat: false, modbus: false, profinet: false, serial: false };
+
+    /// Those that are in one of both.
+    pub fn or(self, other: Buses) -> Buses {
+        Buses {
+            canopen: self.canopen || other.canopen,
+            ethercat: self.ethercat || other.ethercat,
+            modbus: self.modbus || other.modbus,
+            profinet: self.profinet || other.profinet,
+            serial: self.serial || other.serial,
+        }
+    }
+
+    /// Those that are in both.
+    pub fn and(self, other: Buses) -> Buses {
+        Buses {
+            canopen: self.canopen && other.canopen,
+            ethercat: self.ethercat && other.ethercat,
+            modbus: self.modbus && other.modbus,
+            profinet: self.profinet && other.profinet,
+            serial: self.serial && other.serial,
+        }
+    }
 }
 
 /// Reads the spaces of a table.
@@ -67,17 +93,70 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) ->
     tables.iter().map(|(name, table)| space(reader, name, &table.value)).collect()
 }
 
+/// The items and procedures that spaces name.
+pub(super) fn references(tables: &Entries<SpaceTable>) -> References {
+    let mut found = References::new();
+    for rule in tables.iter().filter_map(|(_, table)| table.value.indirect.as_ref()) {
+        let items = [&rule.write_address, &rule.read, &rule.write].into_iter().flatten();
+        found.extend(items.map(|name| (name.clone(), ITEM)));
+        found.extend(rule.procedure.iter().map(|name| (name.clone(), "procedure")));
+    }
+    found
+}
+
 fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> Space {
+    let modbus = table.modbus.as_ref().map(|rule| modbus(reader, rule));
+    // A number of a table of bits is one bit.
+    let is_bit = modbus.is_some_and(|own| matches!(own.space, RegisterSpace::Coil | RegisterSpace::DiscreteInput));
+    indirect(reader, name, table);
     Space {
         name: name.value.clone(),
-        bits: table.bits.filter(|&bits| bits > 0).unwrap_or(REGISTER_BITS),
-        modbus: table.modbus.as_ref().map(|rule| modbus(reader, rule)),
+        bits: table.bits.filter(|&bits| bits > 0).unwrap_or(if is_bit { 1 } else { REGISTER_BITS }),
+        modbus,
         canopen: table.canopen.as_ref().map(objects),
         ethercat: table.ethercat.as_ref().map(objects),
         parameter: table.parameter.as_ref().is_some_and(|rule| !matches!(rule, FlagOr::Flag(false))),
         esc: table.esc,
         indirect: table.indirect.clone(),
     }
+}
+
+/// A window has an item that takes the number, and one for the value.
+fn indirect(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) {
+    let Some(rule) = &table.indirect else { return };
+    if rule.write_address.is_none() || (rule.read.is_none() && rule.write.is_none()) {
+        let message =
+            "`indirect` says which item takes the number (`write_address`), and which has the value (`read`, `write`)";
+        reader.report(&codes::TABLE_VALUE, reader.span(name), message);
+    }
+}
+
+/// What `[spaces]` say of the requests that the device takes.
+pub(super) fn modbus_tables(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) -> Vec<ModbusTable> {
+    let mut found: Vec<ModbusTable> = Vec::new();
+    for (name, rule) in tables.iter().filter_map(|(name, table)| Some((name, table.value.modbus.as_ref()?))) {
+        if rule.functions.is_none() && rule.max_read.is_none() && rule.max_write.is_none() {
+            continue;
+        }
+        for given in [&rule.max_read, &rule.max_write].into_iter().flatten().filter(|given| given.value == 0) {
+            reader.report(&codes::TABLE_VALUE, reader.span(given), "a request is about one register at least");
+        }
+        let own = ModbusTable {
+            space: modbus(reader, rule).space,
+            functions: rule.functions.iter().flat_map(|list| list.value.iter().copied()).collect(),
+            max_read: rule.max_read.as_ref().map(|own| own.value),
+            max_write: rule.max_write.as_ref().map(|own| own.value),
+        };
+        match found.iter().find(|other| other.space == own.space) {
+            Some(other) if *other != own => {
+                let message = "another space says otherwise which requests the same table of Modbus takes";
+                reader.report(&codes::TABLE_VALUE, reader.span(name), message);
+            }
+            Some(_) => {}
+            None => found.push(own),
+        }
+    }
+    found
 }
 
 fn modbus(reader: &mut Reader<'_, '_>, rule: &ModbusRule) -> Modbus {
@@ -131,12 +210,13 @@ impl Space {
             }
         }
         if let Some(rule) = &self.indirect {
+            let name = |given: &Option<At<String>>| given.as_ref().map(|own| own.value.as_str().into());
             bindings.push(Binding::Indirect(Box::new(IndirectBinding {
-                address_item: rule.write_address.as_deref().unwrap_or_default().into(),
+                address_item: name(&rule.write_address).unwrap_or_default(),
                 address: Value::Int(numbers.first.into()),
-                read_item: rule.read.as_deref().map(Into::into),
-                write_item: rule.write.as_deref().map(Into::into),
-                procedure: rule.procedure.as_deref().map(Into::into),
+                read_item: name(&rule.read),
+                write_item: name(&rule.write),
+                procedure: name(&rule.procedure),
             })));
         }
         bindings

@@ -7,19 +7,39 @@ use compact_str::{format_compact, CompactString};
 
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Binding, Item, RegisterBinding, RegisterSpace};
+use crate::ir::{Availability, Binding, Item, ObjectBuses, RegisterBinding, RegisterSpace};
+use crate::passes::apart;
 use crate::source::Span;
 use crate::text::brief;
 
 /// What is in use so far, and where.
 #[derive(Default)]
 pub(super) struct Taken {
-    names: HashMap<CompactString, Span>,
-    addresses: HashMap<CompactString, Span>,
+    /// Names by their chapter.
+    names: HashMap<(CompactString, CompactString), Span>,
+    addresses: HashMap<CompactString, Vec<Holder>>,
     /// Registers by their first number.
     registers: BTreeMap<(&'static str, u32), Stretch>,
     /// Parts of an address.
     parts: HashMap<CompactString, Vec<Part>>,
+}
+
+/// An item at an address.
+struct Holder {
+    span: Span,
+    availability: Option<Box<Availability>>,
+    buses: Option<ObjectBuses>,
+}
+
+impl Holder {
+    /// Whether no device has both on one bus.
+    fn is_apart(&self, other: &Holder) -> bool {
+        let by_bus = self
+            .buses
+            .zip(other.buses)
+            .is_some_and(|(one, other)| !(one.canopen && other.canopen) && !(one.coe && other.coe));
+        by_bus || apart(self.availability.as_deref(), other.availability.as_deref())
+    }
 }
 
 /// Registers of one item.
@@ -27,6 +47,7 @@ struct Stretch {
     last: u32,
     name: CompactString,
     span: Span,
+    availability: Option<Box<Availability>>,
 }
 
 /// First bit and number of bits.
@@ -36,26 +57,45 @@ struct Part {
     bits: Bits,
     name: CompactString,
     span: Span,
+    availability: Option<Box<Availability>>,
 }
 
 impl Taken {
-    /// Takes name and addresses of a register's item; `part` are the bits that it is about, where it isn't all of it.
-    pub fn register(&mut self, reader: &mut Reader<'_, '_>, item: &Item, part: Option<Bits>) {
-        note(&mut self.names, reader, item.name.clone(), &format!("the name `{}`", brief(&item.name)), item.at.name);
+    /// Takes name and addresses of a register's item; `part` are the bits that it is about, where it isn't all of it. A name is
+    /// an item's own in its chapter.
+    pub fn register(&mut self, reader: &mut Reader<'_, '_>, chapter: &CompactString, item: &Item, part: Option<Bits>) {
+        match self.names.entry((chapter.clone(), item.name.clone())) {
+            Entry::Vacant(free) => {
+                free.insert(item.at.name);
+            }
+            Entry::Occupied(first) => {
+                let help = "chapters tell rows of one name apart: give each a `title` of its own";
+                twice(reader, &format!("the name `{}`", brief(&item.name)), item, *first.get(), Some(help));
+            }
+        }
         match part {
             Some(bits) => self.part(reader, item, bits),
             None => self.place(reader, item),
         }
     }
 
-    /// Takes the addresses of an item.
+    /// Takes the addresses of an item. Of two items at one, no model and no firmware may have both.
     pub fn place(&mut self, reader: &mut Reader<'_, '_>, item: &Item) {
         for binding in &item.bindings {
             let Some(address) = address(binding) else { continue };
-            if !note(&mut self.addresses, reader, address.clone(), &address, item.at.name) {
+            let buses = match binding {
+                Binding::Object { buses, .. } => Some(*buses),
+                _ => None,
+            };
+            let holder = Holder { span: item.at.name, availability: item.availability.clone(), buses };
+            let holders = self.addresses.entry(address.clone()).or_default();
+            if let Some(first) = holders.iter().find(|other| !other.is_apart(&holder)) {
+                twice(reader, &address, item, first.span, None);
                 continue;
             }
-            if let Binding::Register(own) = binding {
+            let is_first = holders.is_empty();
+            holders.push(holder);
+            if let (Binding::Register(own), true) = (binding, is_first) {
                 self.stretch(reader, item, own);
             }
         }
@@ -68,6 +108,7 @@ impl Taken {
         let before = self.registers.range((space, 0)..(space, first)).next_back();
         let before = before.filter(|(_, other)| other.last >= first);
         let other = before.or_else(|| self.registers.range((space, first)..=(space, last)).next());
+        let other = other.filter(|(_, other)| !apart(other.availability.as_deref(), item.availability.as_deref()));
         if let Some(((_, start), other)) = other {
             let message = format!(
                 "`{}` takes {space} register {}, and `{}` takes {}",
@@ -80,7 +121,9 @@ impl Taken {
             let found = found.note_at(other.span, "the other one is here");
             reader.diagnostics.push(found.help("one of the two has the wrong number, or a type that is too long"));
         }
-        self.registers.insert((space, first), Stretch { last, name: item.name.clone(), span: item.at.name });
+        let availability = item.availability.clone();
+        let own = Stretch { last, name: item.name.clone(), span: item.at.name, availability };
+        self.registers.insert((space, first), own);
     }
 
     /// Parts of one register share an address, and no bits.
@@ -89,7 +132,9 @@ impl Taken {
         let parts = self.parts.entry(address.clone()).or_default();
         let shares = |other: &&Part| {
             let end = |(offset, count): Bits| u16::from(offset) + u16::from(count);
-            u16::from(bits.0) < end(other.bits) && u16::from(other.bits.0) < end(bits)
+            u16::from(bits.0) < end(other.bits)
+                && u16::from(other.bits.0) < end(bits)
+                && !apart(other.availability.as_deref(), item.availability.as_deref())
         };
         if let Some(other) = parts.iter().find(shares) {
             let (own, its) = (brief(&item.name), brief(&other.name));
@@ -97,29 +142,19 @@ impl Taken {
             let found = Diagnostic::new(&codes::REGISTERS_SHARED, item.at.name, message);
             reader.diagnostics.push(found.note_at(other.span, "the other one is here"));
         }
-        parts.push(Part { bits, name: item.name.clone(), span: item.at.name });
+        let availability = item.availability.clone();
+        parts.push(Part { bits, name: item.name.clone(), span: item.at.name, availability });
     }
 }
 
-/// Reports the second use of a name.
-fn note(
-    seen: &mut HashMap<CompactString, Span>,
-    reader: &mut Reader<'_, '_>,
-    key: CompactString,
-    what: &str,
-    span: Span,
-) -> bool {
-    match seen.entry(key) {
-        Entry::Vacant(free) => {
-            free.insert(span);
-            true
-        }
-        Entry::Occupied(first) => {
-            let diagnostic = Diagnostic::new(&codes::TABLE_DUPLICATE, span, format!("{what} occurs twice"));
-            reader.diagnostics.push(diagnostic.note_at(*first.get(), "the first is here"));
-            false
-        }
-    }
+/// Reports the second use of a name or an address.
+fn twice(reader: &mut Reader<'_, '_>, what: &str, item: &Item, first: Span, help: Option<&'static str>) {
+    let found = Diagnostic::new(&codes::TABLE_DUPLICATE, item.at.name, format!("{what} occurs twice"));
+    let found = found.note_at(first, "the first is here");
+    reader.diagnostics.push(match help {
+        Some(help) => found.help(help),
+        None => found,
+    });
 }
 
 fn numbers(first: u32, last: u32) -> String {

@@ -126,7 +126,7 @@ impl<'a> Reader<'a, '_> {
     pub fn unresolved<'n>(&mut self, what: &str, name: &str, span: Span, known: impl Iterator<Item = &'n str>) {
         let message = format!("there is no {what} called `{}`", brief(name));
         let diagnostic = Diagnostic::new(&codes::UNRESOLVED_NAME, span, message);
-        let known: Vec<&str> = known.collect();
+        let known: Vec<&str> = known.filter(|known| !known.trim().is_empty()).collect();
         self.diagnostics.push(match similar(name, known.iter().copied()) {
             Some(name) => diagnostic.help(format!("did you mean `{name}`?")),
             None if (1..=MAX_LISTED).contains(&known.len()) => {

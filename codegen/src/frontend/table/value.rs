@@ -5,6 +5,7 @@ use super::place;
 use super::tree::{text_of, Reader};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Type, Value};
+use crate::source::Span;
 use crate::text::brief;
 
 /// The value of a literal, for a type that is no alias; a literal that can't be one is reported and kept as text.
@@ -28,6 +29,59 @@ pub(super) fn value(reader: &mut Reader<'_, '_>, given: &At<Literal>, ty: Type) 
             Value::Raw(text.into())
         }
     }
+}
+
+/// The greatest number of values that a range stands for where single values are meant.
+const MAX_LISTED: i128 = 1024;
+
+/// The values of a list, and first and last of its ranges (`"3..7"`).
+pub(super) fn ranges(reader: &mut Reader<'_, '_>, (given, span): (&[Literal], Span), ty: Type) -> Vec<(Value, Value)> {
+    let mut found = Vec::with_capacity(given.len());
+    for literal in given {
+        let range = match literal {
+            Literal::Text(text) if has_numbers(ty) => {
+                place::range(text).filter(|(first, last)| first <= last).map(|(first, last)| {
+                    let is_pattern = text.contains("0x") || text.contains("0b");
+                    let one = |number| convert(&Literal::Int(number), ty, is_pattern).unwrap_or(Value::Int(number));
+                    (one(first), one(last))
+                })
+            }
+            other => convert(other, ty, false).map(|value| (value.clone(), value)),
+        };
+        match range {
+            Some(range) => found.push(range),
+            None => {
+                let what = if matches!(ty, Type::Opaque(_)) { "number".to_owned() } else { format!("value of {ty}") };
+                let message = format!("`{}` is no {what}, and no range of them", brief(&text_of(literal)));
+                let diagnostic = Diagnostic::new(&codes::TABLE_VALUE, span, message);
+                reader.diagnostics.push(diagnostic.help("write `3`, or `\"3..7\"` for a range"));
+            }
+        }
+    }
+    found
+}
+
+/// Whether values of this type are numbers; of a type that isn't known they are.
+fn has_numbers(ty: Type) -> bool {
+    matches!(ty, Type::Integer(_) | Type::Unsigned(_) | Type::Opaque(_) | Type::Boolean)
+}
+
+/// The same, each value of a range by itself.
+pub(super) fn listed(reader: &mut Reader<'_, '_>, (given, span): (&[Literal], Span), ty: Type) -> Vec<Value> {
+    let mut values = Vec::new();
+    for (first, last) in ranges(reader, (given, span), ty) {
+        match (first.as_int(), last.as_int()) {
+            (Some(low), Some(high)) if low < high && high - low < MAX_LISTED => {
+                values.extend((low..=high).map(Value::Int));
+            }
+            (Some(low), Some(high)) if low < high => {
+                let message = format!("{low} to {high} are more than {MAX_LISTED} values");
+                reader.report(&codes::TABLE_VALUE, span, message);
+            }
+            _ => values.push(first),
+        }
+    }
+    values
 }
 
 /// The value of a literal; `is_pattern` where its digits are bits, of which the first is the sign.

@@ -201,7 +201,17 @@ fn enumeration<'a>(
 pub(super) fn enum_value(value: i128, texts: &Texts) -> EnumValue {
     let name = texts.label();
     let (names, documentation) = (texts.names(&name), texts.documentation());
-    EnumValue { name, value, last: None, zone: None, names, availability: None, documentation }
+    EnumValue {
+        name,
+        value,
+        last: None,
+        zone: None,
+        names,
+        when: None,
+        availability: None,
+        documentation,
+        at: Default::default(),
+    }
 }
 
 fn derived<'a>(

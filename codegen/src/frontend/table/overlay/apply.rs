@@ -168,7 +168,7 @@ impl<'o> Applied<'o> {
         let made = place.types.len();
         self.rows.definitions.types = std::mem::take(place.types);
         self.rows.definitions.made.clear();
-        self.rows.buses = Buses { canopen: place.buses.canopen, ethercat: place.buses.coe, modbus: false };
+        self.rows.buses = Buses { canopen: place.buses.canopen, ethercat: place.buses.coe, ..Buses::ALL };
         let overlay = self.overlay;
         for (position, row) in overlay.patch.rows.iter().enumerate() {
             self.rows.allow(reader, &row.key, &row.row);

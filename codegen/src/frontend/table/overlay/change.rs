@@ -145,6 +145,7 @@ impl Applied<'_> {
         let text = name.as_deref().unwrap_or(&before.name);
         let named = Named { name: text, key: &row.key, number, end: row.row.end };
         let ty = self.new_type(reader, named, own, item.ty);
+        self.further_addresses(reader, item, named, own);
         self.rows.fill(reader, item, named, own, ty);
         // The item stands where it stood; only what is said anew stands here.
         item.origin = before.origin;
@@ -160,6 +161,15 @@ impl Applied<'_> {
         let (why, span) = (self.why(own).to_owned(), reader.span(&row.key));
         explain("Changed", &why, span, &mut item.documentation, &mut item.extensions);
         true
+    }
+
+    /// Addresses in other protocols that the description lacks.
+    fn further_addresses(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, named: Named<'_>, row: &Row) {
+        let mut found = smallvec::SmallVec::new();
+        let (bits, sub) = (self.rows.bits(item.ty), item.object().map(|(_, sub)| sub));
+        self.rows.other_addresses(reader, (named, sub), row, (0, bits), &mut found);
+        let new: Vec<_> = found.into_iter().filter(|binding| !item.bindings.contains(binding)).collect();
+        item.bindings.extend(new);
     }
 
     /// The type that a row gives an item that has one.
@@ -291,7 +301,7 @@ impl Applied<'_> {
         for group in place.groups.extract_if(.., |group| is_meant(group)) {
             dictionary.insert(group.index().unwrap_or_default(), group);
         }
-        objects::add(reader, &mut self.rows, &mut dictionary, (&row.key, &row.row), None);
+        objects::add(reader, &mut self.rows, &mut dictionary, (&row.key, &row.row), (None, None));
         let (why, span) = (self.why(&row.row.value).to_owned(), reader.span(&row.key));
         let is_new = |origin: Span| (origin.file, origin.start) == (span.file, span.start);
         for group in dictionary.values_mut() {

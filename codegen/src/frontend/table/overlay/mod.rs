@@ -105,6 +105,7 @@ impl Patch {
         Rows {
             definitions: self.definitions.clone(),
             spaces: Vec::new(),
+            modbus: Vec::new(),
             buses: Buses::ALL,
             defaults: None,
             references: Vec::new(),
@@ -119,8 +120,12 @@ impl Patch {
 fn rows<'a>(reader: &mut Reader<'a, '_>, table: &mut Table<'a>) -> Vec<PatchRow> {
     let mut rows = Vec::new();
     for node in table.nodes(reader, "chapters") {
-        let Some((registers, objects, node)) = super::divide(reader, node) else { continue };
+        let Some((registers, objects, mut node)) = super::divide(reader, node) else { continue };
+        super::defaults::of_chapter(reader, &mut node);
         let Some(chapter) = reader.piece::<ChapterTable>(node) else { continue };
+        for (key, row) in registers.iter().chain(&objects) {
+            super::misplaced::overlay(reader, key, row);
+        }
         let defaults = chapter.defaults.as_ref().map(|defaults| &defaults.value);
         let complete = |row: At<Row>| At {
             value: defaults.map_or(row.value.clone(), |defaults| row.value.or(defaults)),
@@ -246,11 +251,19 @@ fn item_name(groups: &[Group], name: &CompactString) -> CompactString {
     }
 }
 
-/// Names that conditions of bits give as objects become those of the items there.
+/// Names that conditions of bits and values give as objects become those of the items there.
 fn name_conditions(groups: &[Group], types: &mut [crate::ir::TypeDef]) {
     for definition in types {
-        let crate::ir::Shape::BitField { fields, .. } = &mut definition.shape else { continue };
-        for when in fields.iter_mut().filter_map(|field| field.when.as_mut()) {
+        let conditions: Vec<_> = match &mut definition.shape {
+            crate::ir::Shape::BitField { fields, .. } => {
+                fields.iter_mut().filter_map(|own| own.when.as_mut()).collect()
+            }
+            crate::ir::Shape::Enumeration { values, .. } => {
+                values.iter_mut().filter_map(|own| own.when.as_mut()).collect()
+            }
+            _ => continue,
+        };
+        for when in conditions {
             when.item = item_name(groups, &when.item);
         }
     }

@@ -1,0 +1,330 @@
+//! The addresses of a row: its numbers in a space, its objects, and those of other protocols.
+
+use smallvec::SmallVec;
+
+use super::at::At;
+use super::format::{NumberOrText, Row};
+use super::numbered::Numbered;
+use super::references::ITEM;
+use super::rows::{Named, Rows};
+use super::spaces::{self, Buses, Numbers};
+use super::tree::Reader;
+use super::{lints, place, types};
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{Binding, Item, ObjectBuses, RegisterSpace, Type};
+use crate::text::brief;
+
+/// The greatest number of items that one row may stand for.
+const MAX_REPEAT: u32 = 0x1_0000;
+
+/// How many items a row stands for, and how many numbers lie between two.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Repeat {
+    pub count: u32,
+    pub step: u32,
+}
+
+impl Repeat {
+    pub const ONCE: Repeat = Repeat { count: 1, step: 0 };
+}
+
+impl Rows {
+    pub(super) fn repetition(&mut self, reader: &mut Reader<'_, '_>, row: &Row, space: Option<usize>) -> Repeat {
+        let Some(count) = &row.count else { return Repeat::ONCE };
+        let given = match &count.value {
+            NumberOrText::Number(count) => u32::try_from(*count).ok(),
+            NumberOrText::Text(item) => {
+                self.references.push((At { value: item.clone(), start: count.start, end: count.end }, ITEM));
+                if row.max_count.is_none() {
+                    let message = "an item holds how many are valid, and nothing says how many rows there are";
+                    let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(count), message);
+                    reader.diagnostics.push(found.help("say it with `max_count`"));
+                }
+                Some(row.max_count.unwrap_or(1))
+            }
+        };
+        let Some(count) = given.filter(|&number| (1..=MAX_REPEAT).contains(&number)) else {
+            reader.report(&codes::TABLE_VALUE, reader.span(count), format!("`count` goes from 1 to {MAX_REPEAT}"));
+            return Repeat::ONCE;
+        };
+        let unit = self.unit(space);
+        let bits = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).and_then(|named| named.ty.bits());
+        let of_type = || if row.reg.is_some() { bits.unwrap_or(unit).div_ceil(unit) } else { 1 };
+        Repeat { count, step: row.stride.unwrap_or_else(of_type) }
+    }
+
+    /// Reports more defaults than a row has items, and several items of one name.
+    pub(super) fn each_has_one(&self, reader: &mut Reader<'_, '_>, key: &At<String>, row: &Row, count: u32) {
+        // An array has a default for each of its elements.
+        let is_array = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).is_some_and(|ty| ty.elements.is_some());
+        if let Some(given) = row.default.as_ref().filter(|given| given.value.0.len() > 1 && !is_array) {
+            let defaults = given.value.0.len();
+            if defaults > count as usize {
+                let message = format!("the list has {defaults} defaults, and the row stands for {count} items");
+                reader.report(&codes::TABLE_VALUE, reader.span(given), message);
+            }
+        }
+        if row.count.is_some() && count > 1 && !key.value.contains("{n") {
+            let message = format!("`{}` is the name of {count} items", brief(&key.value));
+            let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(key), message);
+            reader.diagnostics.push(found.help("put `{n}`, which counts from 0, or `{n+1}` into it"));
+        }
+    }
+
+    /// Bits of one number of the space.
+    fn unit(&self, space: Option<usize>) -> u32 {
+        space.and_then(|at| self.spaces.get(at)).map_or(16, |space| u32::from(space.bits))
+    }
+
+    /// Every address of a row.
+    pub(super) fn bindings(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        space: Option<usize>,
+        named: Named<'_>,
+        row: &Row,
+        (repeat, ty): (Repeat, Option<Type>),
+    ) -> SmallVec<[Binding; 1]> {
+        let buses = self.buses_of(reader, row);
+        let shift = named.number.saturating_mul(repeat.step);
+        let mut bindings = SmallVec::new();
+        let bits = ty.and_then(|ty| self.bits(ty));
+        let mut by_rule = None;
+        if let Some(reg) = &row.reg {
+            match self.numbers(reader, reg, row, (bits, named.number, repeat), space) {
+                Some(mut numbers) => {
+                    numbers.first = numbers.first.saturating_add(shift);
+                    let span = reader.span(reg);
+                    let found = space.and_then(|at| self.spaces.get(at));
+                    by_rule = found.and_then(|space| space.object(numbers.first));
+                    let unit = self.unit(space).max(1);
+                    let last = numbers.first.saturating_add(bits.unwrap_or(unit).div_ceil(unit).saturating_sub(1));
+                    self.numbered.push(Numbered { first: numbers.first, last, name: named.name.into() });
+                    match found {
+                        Some(space) => bindings.extend(space.bindings(reader, numbers, buses, span)),
+                        None => reader.report(&codes::UNRESOLVED_NAME, span, "there is no `[spaces]` for this number"),
+                    }
+                }
+                None => return bindings,
+            }
+        }
+        if let Some(object) = &row.obj {
+            let buses = self.object_buses(reader, row, object);
+            self.explicit_object(reader, object, (by_rule, shift), buses, &mut bindings);
+        }
+        self.other_addresses(reader, (named, None), row, (shift, bits), &mut bindings);
+        let is_register = bindings.iter().any(|own| matches!(own, Binding::Register(_)));
+        if let Some(part) = row.part.as_ref().filter(|_| row.reg.is_some() && !is_register && named.number == 0) {
+            let message = "a `part` is one of a register on Modbus, and the row has none";
+            reader.report(&codes::TABLE_PLACE, reader.span(part), message);
+        }
+        bindings
+    }
+
+    /// Addresses that follow from no space.
+    pub(super) fn other_addresses(
+        &self,
+        reader: &mut Reader<'_, '_>,
+        (named, sub_index): (Named<'_>, Option<u8>),
+        row: &Row,
+        (shift, bits): (u32, Option<u32>),
+        bindings: &mut SmallVec<[Binding; 1]>,
+    ) {
+        if let Some(given) = &row.esc {
+            let length = row.length.as_ref().map(|length| length.value);
+            let length = length.unwrap_or_else(|| bits.map_or(1, |bits| bits.div_ceil(8) as u16));
+            // The memory counts bytes.
+            let shift = named.number.saturating_mul(row.stride.unwrap_or(length.into()));
+            match u16::try_from(u32::from(given.value).saturating_add(shift)) {
+                Ok(address) => bindings.push(Binding::EscMemory { address, length }),
+                Err(_) => {
+                    let message = format!("number {} of `{}` lies beyond 0xFFFF", named.number + 1, brief(named.name));
+                    reader.report(&codes::TABLE_PLACE, reader.span(given), message);
+                }
+            }
+        }
+        if let Some(name) = &row.ascii {
+            bindings.push(Binding::Ascii(place::filled(name, named.number, sub_index).into()));
+        }
+        if let Some(code) = &row.param {
+            bindings.push(Binding::Parameter { space: "parameter".into(), code: code.value.saturating_add(shift) });
+        }
+    }
+
+    /// Reports that a row has no address, or none on the buses that it names.
+    pub(super) fn no_address(&self, reader: &mut Reader<'_, '_>, space: Option<usize>, named: Named<'_>, row: &Row) {
+        let key = brief(&named.key.value);
+        let message = match (&row.reg, &row.buses, space.and_then(|at| self.spaces.get(at))) {
+            (Some(_), Some(buses), Some(space)) => {
+                let buses: Vec<&str> = buses.iter().map(|bus| brief(&bus.value)).collect();
+                format!("`{key}` has no address on {}: the space `{}` gives none there", buses.join(", "), space.name)
+            }
+            (Some(_), None, Some(space)) => {
+                format!("`{key}` has no address: the space `{}` gives none on the device's buses", space.name)
+            }
+            _ => format!("`{key}` has no address: `reg`, `obj`, `param`, `esc` or `ascii`"),
+        };
+        reader.report(&codes::ROW_WITHOUT_ADDRESS, reader.span(named.key), message);
+    }
+
+    fn numbers(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        reg: &At<NumberOrText>,
+        row: &Row,
+        (bits, number, repeat): (Option<u32>, u32, Repeat),
+        space: Option<usize>,
+    ) -> Option<Numbers> {
+        let (first, last) = match &reg.value {
+            NumberOrText::Number(number) => match u32::try_from(*number) {
+                Ok(number) => (number, None),
+                Err(_) => {
+                    let message = format!("`{number}` is no number of a register: they go from 0 to {}", u32::MAX);
+                    reader.report(&codes::TABLE_PLACE, reader.span(reg), message);
+                    return None;
+                }
+            },
+            NumberOrText::Text(text) => match place::registers(text) {
+                Some((first, last)) => (first, Some(last)),
+                None => {
+                    let message = format!("`{}` is no number of a register: write `63` or `\"63-64\"`", brief(text));
+                    reader.report(&codes::TABLE_PLACE, reader.span(reg), message);
+                    return None;
+                }
+            },
+        };
+        let unit = self.unit(space);
+        if let (Some(last), Some(bits), 0) = (last, bits, number) {
+            let (printed, needed) = ((last - first).saturating_add(1), bits.div_ceil(unit));
+            // The printed range may be that of the first of several, or of all of them.
+            let all = repeat.step.saturating_mul(repeat.count - 1).saturating_add(needed);
+            if ![needed, all, repeat.step.saturating_mul(repeat.count)].contains(&printed) {
+                let of_all = if repeat.count > 1 { format!(", or {all} for all") } else { String::new() };
+                let numbers = if printed == 1 { "number" } else { "numbers" };
+                let message = format!("{printed} {numbers} of {unit} bits, and the type takes {needed}{of_all}");
+                reader
+                    .diagnostics
+                    .push(Diagnostic::new(&codes::REGISTER_SPAN, reader.span(reg), message).label("the type is used"));
+            }
+        }
+        let bit_offset = row.part.as_ref().and_then(|part| self.part(reader, part, (bits, unit)));
+        Some(Numbers {
+            first,
+            bits,
+            low_word_first: row.order.as_ref().and_then(|order| spaces::word_order(reader, order)),
+            bytes_swapped: row.swap,
+            bit_offset,
+        })
+    }
+
+    /// The first bit of a part of a register.
+    fn part(
+        &self,
+        reader: &mut Reader<'_, '_>,
+        part: &At<NumberOrText>,
+        (bits, unit): (Option<u32>, u32),
+    ) -> Option<u8> {
+        let text = part.value.to_string();
+        let Some((offset, count)) = place::bits(&text) else {
+            let message = format!("`{}` are no bits: write `7` or `\"7-0\"`", brief(&text));
+            reader.report(&codes::TABLE_PLACE, reader.span(part), message);
+            return None;
+        };
+        if bits.is_some_and(|bits| bits != u32::from(count)) {
+            let message = format!("the part has {count} bits, and the type {}", bits.unwrap_or(0));
+            reader.report(&codes::REGISTER_SPAN, reader.span(part), message);
+        }
+        if u32::from(offset) + u32::from(count) > unit {
+            let message = format!("the part ends at bit {}, and a register has {unit} bits", offset + count - 1);
+            reader.report(&codes::TABLE_PLACE, reader.span(part), message);
+            return None;
+        }
+        Some(offset)
+    }
+
+    fn explicit_object(
+        &self,
+        reader: &mut Reader<'_, '_>,
+        object: &At<NumberOrText>,
+        (by_rule, shift): (Option<(u16, u8)>, u32),
+        buses: ObjectBuses,
+        bindings: &mut SmallVec<[Binding; 1]>,
+    ) {
+        lints::index(reader, object);
+        let text = match &object.value {
+            NumberOrText::Number(number) => format!("{number:#06x}"),
+            NumberOrText::Text(text) => text.clone(),
+        };
+        let found = place::objects(&text).filter(|found| found.indices.0 == found.indices.1);
+        let index = found.and_then(|found| u16::try_from(u32::from(found.indices.0) + shift).ok());
+        let (Some(found), Some(index)) = (found, index) else {
+            let message = format!("`{}` is no object: write `0x6040` or `\"0x2000:1\"`", brief(&text));
+            reader.report(&codes::TABLE_PLACE, reader.span(object), message);
+            return;
+        };
+        let sub_index = found.subs.map(|(first, _)| first);
+        if let Some((ruled, ruled_sub)) = by_rule {
+            if ruled != index || sub_index.is_some_and(|sub| sub != ruled_sub) {
+                let message =
+                    format!("the row says object {text}, and the rule of its space 0x{ruled:04X}:{ruled_sub}");
+                reader.diagnostics.push(
+                    Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(object), message)
+                        .label("what the row says is used"),
+                );
+            }
+            bindings.retain(|binding| !matches!(binding, Binding::Object { .. }));
+        }
+        let sub_index = sub_index.or(by_rule.map(|(_, sub)| sub)).unwrap_or(0);
+        bindings.insert(0, Binding::Object { buses, index, sub_index });
+    }
+
+    /// The buses on which a row exists.
+    pub(super) fn buses_of(&self, reader: &mut Reader<'_, '_>, row: &Row) -> Buses {
+        let Some(list) = &row.buses else { return self.buses };
+        let mut found = Buses::NONE;
+        for name in list {
+            let own = super::device::buses(reader, std::slice::from_ref(name));
+            if own != Buses::NONE && own.and(self.buses) == Buses::NONE {
+                let message = format!("the device isn't on {}", brief(&name.value));
+                let wrong = Diagnostic::new(&codes::TABLE_VALUE, reader.span(name), message);
+                reader.diagnostics.push(wrong.help("`buses` of `[device]` has those that it is on"));
+            }
+            found = found.or(own);
+        }
+        found.and(self.buses)
+    }
+
+    /// The buses of the object of a row, on one of which it has to be.
+    pub(super) fn object_buses(&self, reader: &mut Reader<'_, '_>, row: &Row, at: &At<impl Clone>) -> ObjectBuses {
+        let buses = self.buses_of(reader, row);
+        if !buses.canopen && !buses.ethercat {
+            let message = "objects are found on CANopen and EtherCAT, and the row is on neither";
+            let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(at), message);
+            reader.diagnostics.push(found.help("`buses` of the row, its defaults or the device leaves both out"));
+        }
+        ObjectBuses { canopen: buses.canopen || !buses.ethercat, coe: buses.ethercat }
+    }
+}
+
+/// Reports an item that can be written by its row, and not by its table of Modbus, which is the only place it has.
+pub(super) fn read_only_table(reader: &mut Reader<'_, '_>, item: &Item) {
+    let is_input = |binding: &Binding| match binding {
+        Binding::Register(own) => matches!(own.space, RegisterSpace::Input | RegisterSpace::DiscreteInput),
+        _ => false,
+    };
+    if item.access.writable() && item.bindings.iter().all(is_input) {
+        let message =
+            format!("`{}` is {}, and inputs of Modbus can only be read", brief(&item.name), item.access.name());
+        reader.report(&codes::ACCESS_CONFLICT, item.at.access.or(item.at.name), message);
+    }
+}
+
+/// Reports the order of words of a row that says it, and whose space gives no register on Modbus.
+pub(super) fn words_without_register(reader: &mut Reader<'_, '_>, row: &Row, items: &[Item]) {
+    let Some(item) = items.first() else { return };
+    let has_register = item.bindings.iter().any(|binding| matches!(binding, Binding::Register(_)));
+    if row.reg.is_some() && !has_register && (row.order.is_some() || row.swap.is_some()) {
+        let message = format!("`order` and `swap` are about registers on Modbus, and `{}` is none", brief(&item.name));
+        reader.report(&codes::TABLE_VALUE, item.at.name, message);
+    }
+}

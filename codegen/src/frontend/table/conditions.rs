@@ -1,0 +1,76 @@
+//! When something exists or is allowed: values of other items, models, firmware, buses.
+
+use compact_str::CompactString;
+
+use super::alternatives::ConditionValues;
+use super::at::{At, OneOrMany};
+use super::definitions::Definitions;
+use super::device;
+use super::format::Conditions;
+use super::references::ITEM;
+use super::tree::Reader;
+use super::value;
+use crate::diagnostics::codes;
+use crate::ir::{Availability, Condition, Type};
+
+/// Who has an element, as a table says it.
+pub(super) struct Window<'t> {
+    pub models: Option<&'t Vec<At<String>>>,
+    /// The first firmware that has it, and the first that doesn't.
+    pub versions: [Option<&'t str>; 2],
+    pub replaced_by: Option<&'t str>,
+    pub buses: Option<&'t Vec<At<String>>>,
+}
+
+impl Definitions {
+    /// "While the item has one of these values", for what depends on one item at most.
+    pub fn condition(&mut self, reader: &mut Reader<'_, '_>, when: Option<&Conditions>) -> Option<Condition> {
+        let given = when?;
+        if let Some((second, _)) = given.0.get(1) {
+            let message = "bits and values depend on one other item at most";
+            reader.report(&codes::TABLE_VALUE, reader.span(second), message);
+        }
+        self.conditions(reader, given).into_iter().next()
+    }
+
+    /// The same, for several items.
+    pub fn conditions(&mut self, reader: &mut Reader<'_, '_>, when: &Conditions) -> Vec<Condition> {
+        let mut conditions = Vec::new();
+        for (item, given) in when.iter() {
+            self.mentioned.push((item.clone(), ITEM));
+            let (mask, literals) = match &given.value {
+                ConditionValues::Values(OneOrMany(values)) => (None, values.as_slice()),
+                ConditionValues::Bits(bits) => (bits.mask, bits.value.as_ref().map_or(&[][..], |own| own.0.as_slice())),
+            };
+            let span = reader.span(given);
+            let values = value::listed(reader, (literals, span), Type::Opaque(None));
+            let outside =
+                |mask: u64| values.iter().filter_map(|own| own.as_int()).any(|own| own & !i128::from(mask) != 0);
+            if literals.is_empty() || mask.is_some_and(outside) || mask == Some(0) {
+                let message = "the condition never holds: it has no value, or one with bits outside of its `mask`";
+                reader.report(&codes::TABLE_VALUE, span, message);
+            }
+            conditions.push(Condition { item: item.value.as_str().into(), values, mask });
+        }
+        conditions
+    }
+
+    /// Models, firmware and buses; `None` where all have it.
+    pub fn availability(&mut self, reader: &mut Reader<'_, '_>, given: Window<'_>) -> Option<Box<Availability>> {
+        let models = given.models.into_iter().flatten();
+        self.mentioned.extend(models.clone().map(|model| (model.clone(), "model")));
+        if let Some(buses) = given.buses {
+            device::buses(reader, buses);
+        }
+        let [since, until] = given.versions;
+        let own = Availability {
+            models: models.map(|model| model.value.as_str().into()).collect(),
+            since: since.map(CompactString::from),
+            until: until.map(CompactString::from),
+            replaced_by: given.replaced_by.map(CompactString::from),
+            buses: given.buses.into_iter().flatten().map(|bus| bus.value.as_str().into()).collect(),
+            ..Availability::default()
+        };
+        (own != Availability::default()).then(|| Box::new(own))
+    }
+}

@@ -1,0 +1,121 @@
+//! Names that lead to something else in the table: items, models, constants, messages, procedures.
+
+use std::collections::{HashMap, HashSet};
+
+use super::at::At;
+use super::numbered::{self, Numbered};
+use super::place;
+use super::tree::Reader;
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{Device, GroupKind, Shape};
+use crate::selection::glob;
+use crate::text::brief;
+
+/// Names with their places, and what they lead to: an `item`, a `model`, a `constant`, a `message`, a `procedure`.
+pub(super) type References = Vec<(At<String>, &'static str)>;
+
+/// The kind of most names.
+pub(super) const ITEM: &str = "item";
+
+/// What tells that a message is carried out: an item, or a field of replies.
+pub(super) const ITEM_OR_FIELD: &str = "item or field";
+
+/// Reports names that don't exist, and those that several chapters have.
+pub(super) fn resolve<'r>(
+    reader: &mut Reader<'_, '_>,
+    references: impl Iterator<Item = (&'r At<String>, &'static str)>,
+    device: &Device,
+    numbered: &[Numbered],
+) {
+    let known = Known::new(device);
+    let mut seen = HashSet::new();
+    for (name, kind) in references {
+        // What a unit or a space says is said of each row that uses it.
+        if !seen.insert((name.start, name.value.as_str(), kind)) {
+            continue;
+        }
+        let text = name.value.as_str();
+        if !known.has(kind, text) {
+            if matches!(kind, ITEM | ITEM_OR_FIELD) && numbered::report(reader, numbered, text, reader.span(name)) {
+                continue;
+            }
+            reader.unresolved(kind, text, reader.span(name), known.names(kind).into_iter());
+        } else if kind == ITEM {
+            ambiguous(reader, &known, name);
+        }
+    }
+}
+
+fn ambiguous(reader: &mut Reader<'_, '_>, known: &Known<'_>, name: &At<String>) {
+    let Some([first, second, ..]) = known.chapters.get(name.value.as_str()).map(Vec::as_slice) else { return };
+    let text = brief(&name.value);
+    let message = format!("several chapters have `{text}`: `{}` and `{}`, for instance", brief(first), brief(second));
+    let found = Diagnostic::new(&codes::UNRESOLVED_NAME, reader.span(name), message);
+    reader.diagnostics.push(found.help(format!("write `\"{}/{text}\"`", brief(first))));
+}
+
+struct Known<'d> {
+    device: &'d Device,
+    items: HashSet<&'d str>,
+    /// The chapters that have a name.
+    chapters: HashMap<&'d str, Vec<&'d str>>,
+}
+
+impl<'d> Known<'d> {
+    fn new(device: &'d Device) -> Self {
+        let all = device.groups.iter().flat_map(|group| &group.items).map(|item| item.name.as_str());
+        let groups = device.groups.iter().map(|group| group.name.as_str());
+        let mut chapters: HashMap<&str, Vec<&str>> = HashMap::new();
+        for group in device.groups.iter().filter(|group| group.kind == GroupKind::Chapter) {
+            for item in &group.items {
+                chapters.entry(&item.name).or_default().push(&group.name);
+            }
+        }
+        Known { device, items: all.chain(groups).collect(), chapters }
+    }
+
+    fn has(&self, kind: &str, text: &str) -> bool {
+        let device = self.device;
+        match kind {
+            "model" => device.variants.is_empty() || device.variants.iter().any(|own| glob(text, &own.name)),
+            "constant" => device.variants.iter().any(|own| own.constants.iter().any(|(name, _)| name == text)),
+            "message" => device.messages.iter().any(|message| message.name == text),
+            "procedure" => device.procedures.iter().any(|procedure| procedure.name == text),
+            "state" => states(device).any(|state| state == text),
+            _ => self.items.contains(text) || self.by_place(text) || self.by_path(text),
+        }
+    }
+
+    fn by_place(&self, name: &str) -> bool {
+        let found = place::objects(name).filter(|own| own.indices.0 == own.indices.1);
+        found.is_some_and(|own| self.device.entry(own.indices.0, own.subs.map_or(0, |(first, _)| first)).is_some())
+    }
+
+    fn by_path(&self, name: &str) -> bool {
+        name.contains('/') && self.device.groups.iter().any(|group| group.by_path(name).is_some())
+    }
+
+    fn names(&self, kind: &str) -> Vec<&'d str> {
+        let device = self.device;
+        match kind {
+            "model" => device.variants.iter().map(|own| own.name.as_str()).collect(),
+            "constant" => {
+                device.variants.iter().flat_map(|own| &own.constants).map(|(name, _)| name.as_str()).collect()
+            }
+            "message" => device.messages.iter().map(|own| own.name.as_str()).collect(),
+            "procedure" => device.procedures.iter().map(|own| own.name.as_str()).collect(),
+            "state" => states(device).collect(),
+            _ => device.groups.iter().flat_map(|group| &group.items).map(|own| own.name.as_str()).collect(),
+        }
+    }
+}
+
+/// The states of a device: those of its machines, and the names in its enumerations, as a state may be told by one.
+fn states(device: &Device) -> impl Iterator<Item = &str> {
+    let machines = device.machines.iter().flat_map(|machine| machine.states.iter().map(|state| state.name.as_str()));
+    let values = device.types.iter().flat_map(|own| match &own.shape {
+        Shape::Enumeration { values, .. } => values.as_slice(),
+        _ => &[],
+    });
+    machines.chain(values.map(|value| value.name.as_str()))
+}

@@ -1,0 +1,27 @@
+//! What differs of an item between models, or between buses.
+
+use serde::{Deserialize, Serialize};
+
+use super::{CompactString, Documentation, Limits, Scale, Value};
+use crate::source::Span;
+
+/// Facts of an item that hold on some models or buses only; those that aren't given are the item's.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ItemVariant {
+    /// The models, in which `*` stands for any letters; empty = all.
+    pub models: Vec<CompactString>,
+    /// The buses by their names in register tables; empty = all.
+    pub buses: Vec<CompactString>,
+    /// The value before anybody wrote it.
+    pub default: Option<Value>,
+    /// The least and the greatest value.
+    pub limits: Limits,
+    /// Number of raw steps in which the device rounds.
+    pub step: Option<Value>,
+    /// How the raw number relates to the physical one.
+    pub scale: Option<Scale>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+    /// Where it is declared.
+    pub at: Span,
+}

@@ -1,0 +1,367 @@
+//! Rows of register tables: what differs between models, scales, conditions, addresses, and what of them is an error.
+
+use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::ir::{Binding, Item, Scale, Value};
+use lexibus_codegen::source::Source;
+use lexibus_codegen::RustOptions;
+
+const HEAD: &str = "lexibus = 1\n[device]\nname = \"Pump\"\n[[models]]\nname = \"SM137\"\nconstants = { base = 2.5 }\n\
+                    [[models]]\nname = \"SM140\"\n[spaces.register]\nmodbus = { table = \"holding\" }\n";
+
+fn read(text: &str) -> Compilation {
+    check(Source::new("t.toml", text.into()), &Options::default())
+}
+
+/// The findings, each with its code and line.
+fn said(text: &str) -> Vec<String> {
+    let compilation = read(text);
+    let list = compilation.diagnostics.list();
+    list.iter().map(|own| compilation.one_line(own).trim_start_matches("t.toml:").to_owned()).collect()
+}
+
+/// A table with these rows of registers.
+fn rows(rows: &str) -> String {
+    format!("{HEAD}[[chapters]]\ntitle = \"One\"\n[chapters.registers]\n{rows}\n")
+}
+
+/// A table with one row that says this besides.
+fn a(more: &str) -> String {
+    rows(&format!(
+        "a = {{ reg = 1, type = \"u16\", access = \"rw\"{more} }}\nb = {{ reg = 2, type = \"i16\", access = \"ro\" }}"
+    ))
+}
+
+fn item<'c>(compilation: &'c Compilation, name: &str) -> &'c Item {
+    let items = compilation
+        .catalog
+        .iter()
+        .flat_map(|own| &own.devices)
+        .flat_map(|device| &device.groups)
+        .flat_map(|group| &group.items);
+    items.into_iter().find(|item| item.name == name).unwrap_or_else(|| {
+        let lines: Vec<_> = compilation.diagnostics.list().iter().map(|own| compilation.one_line(own)).collect();
+        panic!("no `{name}`: {lines:#?}")
+    })
+}
+
+fn rust(text: &str) -> String {
+    let compilation = read(text);
+    compilation.rust(&RustOptions::default()).unwrap_or_else(|| panic!("{:#?}", said(text)))
+}
+
+/// That a row is an error, in these words.
+#[track_caller]
+fn is_wrong(more: &str, words: &str) {
+    let found = said(&a(more));
+    assert!(found.iter().any(|line| line.contains(words)), "{more}: {found:#?}");
+}
+
+#[test]
+fn models_and_buses_differ() {
+    let text = a(", default = 1, max = 10, variants = [{ models = [\"SM140\"], default = 2, max = 20 }, \
+                  { buses = [\"modbus\"], scale = 0.1 }]");
+    let compilation = read(&text);
+    assert_eq!(said(&text), [""; 0]);
+    let variants = &item(&compilation, "a").variants;
+    assert_eq!(
+        (variants.len(), &variants[0].default, variants[0].models[0].as_str()),
+        (2, &Some(Value::Int(2)), "SM140")
+    );
+    assert_eq!(variants[1].scale, Some(Scale::Linear { factor: 0.1, offset: 0.0 }));
+    let rust = rust(&text);
+    assert!(rust.contains("Of SM140: default 2, at most 20."), "{rust}");
+    assert!(rust.contains("On modbus: in 0.1."), "{rust}");
+    is_wrong(", variants = [{ default = 2 }]", "neither `models` nor `buses`");
+    is_wrong(", variants = [{ models = [\"SM140\"] }]", "nothing that differs");
+    is_wrong(", variants = [{ models = [\"SM150\"], default = 2 }]", "no model called `SM150`");
+    is_wrong(", variants = [{ buses = [\"can\"], default = 2 }]", "`can` is no bus");
+    is_wrong(", variants = [{ models = [\"SM140\"], default = \"x\" }]", "`x` is no value");
+}
+
+#[test]
+fn scales() {
+    let of = |scale: &str| {
+        let text = a(&format!(", scale = {scale}"));
+        assert_eq!(said(&text), [""; 0], "{scale}");
+        item(&read(&text), "a").quantity.as_ref().and_then(|own| own.scale.clone())
+    };
+    assert_eq!(of("{ by = \"b\", factor = 0.01 }"), Some(Scale::ByItem { item: "b".into(), factor: 0.01 }));
+    assert_eq!(of("{ times = \"b\" }"), Some(Scale::TimesItem { item: "b".into(), factor: 1.0 }));
+    assert_eq!(of("{ factor = 2, offset = 1 }"), Some(Scale::Linear { factor: 2.0, offset: 1.0 }));
+    assert_eq!(of("0.1, offset = 4"), Some(Scale::Linear { factor: 0.1, offset: 4.0 }));
+    assert_eq!(of("{ fraction = 15, of = \"base\" }"), Some(Scale::Fraction { bits: 15, base: "base".into() }));
+    let mantissa = Scale::Exponent { exponent: "b".into(), base: 2, fraction: 15 };
+    assert_eq!(of("{ exponent = \"b\", base = 2, fraction = 15 }"), Some(mantissa));
+    assert!(rust(&a(", scale = { exponent = \"b\", base = 2, fraction = 15 }")).contains("stands for raw / 2^15 × 2^b"));
+    assert!(rust(&a(", scale = { times = \"b\" }")).contains("stands for raw × b"));
+    for (scale, words) in [
+        ("0", "the scale is 0"),
+        ("nan", "the scale is NaN"),
+        ("{}", "the rule is empty"),
+        ("{ by = \"b\", offset = 1 }", "`offset` doesn't go with `by`"),
+        ("{ by = \"b\" }, offset = 1", "`offset` doesn't go with `by`"),
+        ("{ exponent = \"b\", factor = 2 }", "`factor` doesn't go with `exponent`"),
+        ("{ reciprocal = 2, by = \"b\" }", "`by` doesn't go with `reciprocal`"),
+        ("{ fraction = 15 }", "say `of` what"),
+        ("{ of = \"base\" }", "there is no `fraction`"),
+        ("{ base = 2 }", "there is no `exponent`"),
+        ("{ exponent = \"b\", base = 3 }", "`base` is 10 or 2"),
+        ("{ factor = 2, offset = 1 }, offset = 1", "write one of them"),
+        ("{ faktor = 2 }", "no key `faktor`"),
+        ("{ exponent = \"x\" }", "no item called `x`"),
+        ("{ times = \"x\" }", "no item called `x`"),
+        ("{ fraction = 15, of = \"x\" }", "no constant called `x`"),
+    ] {
+        is_wrong(&format!(", scale = {scale}"), words);
+    }
+}
+
+#[test]
+fn a_scale_of_a_unit_is_found_at_its_place() {
+    let text = a(", unit = \"speed\"") + "[units]\nspeed = { symbol = \"rpm\", scale = { by = \"nothing\" } }\n";
+    let found = said(&text);
+    assert!(found.len() == 1 && found[0].starts_with("17:42: there is no item"), "{found:?}");
+}
+
+#[test]
+fn names_lead_somewhere() {
+    let bits = |models: &str| {
+        a(", bits = \"B\"") + &format!("[bits.B.at]\n0 = {{ name = \"on\", models = [\"{models}\"] }}\n")
+    };
+    assert_eq!(said(&bits("SM1*")), [""; 0]);
+    assert!(said(&bits("SM9"))[0].contains("no model called `SM9`"));
+    let values = a(", enum = \"E\"") + "[enums.E.values]\n0 = { name = \"on\", models = [\"SM9\"] }\n";
+    assert!(said(&values)[0].contains("no model called `SM9`"));
+    let axes =
+        a("") + "[axes]\ncount = 2\nmodels = [\"SM9\"]\nrules = [{ objects = \"0x6000..0x67FF\", index = 0x800 }]\n";
+    assert!(said(&axes)[0].contains("no model called `SM9`"));
+    let window = |name: &str| {
+        a("").replace(
+            "[[chapters]]",
+            &format!("[spaces.far]\nindirect = {{ write_address = \"a\", read = \"{name}\" }}\n[[chapters]]"),
+        )
+    };
+    assert_eq!(said(&window("b")), [""; 0]);
+    assert!(said(&window("c"))[0].contains("no item called `c`"));
+}
+
+#[test]
+fn lists_and_ranges_of_values() {
+    let compilation = read(&a(", allowed = [1, \"3..7\"], writable = [\"3..5\"], when = { b = [\"1..3\", 9] }"));
+    let own = item(&compilation, "a");
+    assert_eq!(own.limits.allowed[1], (Value::Int(3), Value::Int(7)));
+    let behaviour = own.behaviour.as_ref().expect("a behaviour");
+    assert_eq!((behaviour.writable_values.len(), behaviour.write_when[0].values.len()), (3, 4));
+    is_wrong(", allowed = [\"low\"]", "`low` is no value of UNSIGNED16, and no range of them");
+    is_wrong(", writable = [0.5]", "`0.5` is no value of UNSIGNED16");
+    is_wrong(", when = { b = \"on\" }", "`on` is no number");
+    is_wrong(", when = { b = \"0..100000\" }", "more than 1024 values");
+    is_wrong(", step = 0.5", "`0.5` is no value of UNSIGNED16");
+}
+
+#[test]
+fn conditions_on_bits() {
+    let text = a(", when = { b = { mask = 4, value = 0 } }");
+    assert_eq!(said(&text), [""; 0]);
+    assert!(rust(&text).contains("Can be written only while b \\& 0x4 is 0."));
+    is_wrong(", when = { b = { mask = 4, value = 1 } }", "never holds");
+    is_wrong(", when = { b = { mask = 4 } }", "never holds");
+    is_wrong(", when = { b = [1, { mask = 4 }] }", "one table of `mask` and `value`");
+    let values = a(", enum = \"E\"")
+        + "[enums.E.values]\n0 = { name = \"off\", buses = [\"canopen\"] }\n1 = { name = \"on\", when = { b = 3 } }\n";
+    assert_eq!(said(&values), [""; 0]);
+    let text = rust(&values);
+    assert!(text.contains("Only on canopen.") && text.contains("Only while b is 3."), "{text}");
+    let never = values.replace("b = 3", "b = { mask = 4, value = 8 }");
+    assert!(said(&never)[0].contains("never holds"));
+    let meanings = |other: &str| {
+        a(", bits = \"B\"")
+            + &format!(
+                "[bits.B.at]\n0 = [{{ name = \"x\", when = {{ b = {{ mask = 4, value = 4 }} }} }}, {{ name = \"y\", when = {{ b = {other} }} }}]\n"
+            )
+    };
+    assert_eq!(said(&meanings("{ mask = 6, value = 2 }")), [""; 0]);
+    assert!(said(&meanings("{ mask = 2, value = 2 }"))[0].contains("share bits"));
+    assert!(rust(&meanings("{ mask = 6, value = 2 }")).contains("while b \\& 0x4 is 4"));
+    let bits = a(", bits = \"B\"")
+        + "[bits.B.at]\n0 = { name = \"kept\", reserved = 1 }\n1 = { name = \"x\", access = \"ro\", replaced_by = \"bit 2\" }\n";
+    assert_eq!(said(&bits), [""; 0]);
+    let codes = a("") + "[codes.alarm.rows]\n1 = { name = \"hot\", models = [\"SM140\"], since = \"2.0\" }\n";
+    assert_eq!(said(&codes), [""; 0]);
+    assert!(said(&codes.replace("SM140\"], since", "SM9\"], since"))[0].contains("no model called `SM9`"));
+}
+
+#[test]
+fn objects_have_other_addresses_beside() {
+    let objects = |row: &str| format!("{HEAD}[[chapters]]\n[chapters.objects]\n{row}\n");
+    let text = objects(
+        "0x3588 = { name = \"Velocity gain\", type = \"u32\", access = \"rw\", ascii = \"VL.KP\", param = 480, reg = \"10-11\", \
+         order = \"low_first\", esc = 0x120 }",
+    );
+    assert_eq!(said(&text), [""; 0]);
+    let bindings = item(&read(&text), "Velocity gain").bindings.clone();
+    assert_eq!(bindings.len(), 5, "{bindings:?}");
+    assert!(matches!(&bindings[1], Binding::Register(own) if own.low_word_first && own.count == 2));
+    assert!(rust(&text).contains("velocity_gain"));
+    for (row, words) in [
+        (
+            "\"0x2000..0x2001\" = { name = \"a\", type = \"u8\", access = \"ro\", param = 1 }",
+            "stands for several objects",
+        ),
+        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", count = 2 }", "`count` can't stand"),
+        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", obj = 0x2001 }", "`obj` can't stand"),
+        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", part = 1 }", "`part` can't stand"),
+        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", swap = true }", "`order` can't stand"),
+        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", why = \"x\" }", "`why` can't stand"),
+        ("0x2000 = { name = \"a {m}\", type = \"u8\", access = \"ro\" }", "nothing fills `{`"),
+        ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", buses = [\"modbus\"] }", "on neither"),
+    ] {
+        let found = said(&objects(row));
+        assert!(found.iter().any(|line| line.contains(words)), "{row}: {found:#?}");
+    }
+}
+
+#[test]
+fn several_of_the_same() {
+    let text = rows(
+        "\"fmmu{n}\" = { esc = 0x600, length = 16, type = \"?\", access = \"rw\", count = 3 }\n\
+                     \"sync{n}\" = { esc = 0x800, type = \"u64\", access = \"rw\", count = 3, stride = 16 }\n\
+                     \"code{n+1}\" = { param = 7, type = \"u32\", access = \"ro\", count = 2 }",
+    );
+    assert_eq!(said(&text), [""; 0]);
+    let compilation = read(&text);
+    let is_at = |name: &str, wanted: u16| matches!(item(&compilation, name).bindings[0], Binding::EscMemory { address, .. } if address == wanted);
+    assert!(is_at("fmmu2", 0x620) && is_at("sync1", 0x810));
+    assert!(matches!(item(&compilation, "code2").bindings[0], Binding::Parameter { code: 8, .. }));
+    let range = rows("\"w{n}\" = { reg = \"66-72\", type = \"u16\", access = \"ro\", count = 7 }");
+    assert_eq!(said(&range), [""; 0]);
+    let short = said(&range.replace("66-72", "66-70"));
+    assert!(short.len() == 1 && short[0].contains("takes 1, or 7 for all"), "{short:?}");
+    let found = |row: &str| said(&rows(row)).join("\n");
+    assert!(found("\"w{n}\" = { reg = 1, type = \"u16\", access = \"ro\" }").contains("needs a `count`"));
+    assert!(found("\"w{m}\" = { reg = 1, type = \"u16\", access = \"ro\" }").contains("nothing fills `{`"));
+    let bits = a(", bits = \"B\"") + "[bits.B.at]\n\"0..15\" = \"input {n+1}\"\n";
+    assert_eq!(said(&bits), [""; 0]);
+    assert!(rust(&bits).contains("input_16"));
+    assert!(said(&bits.replace("0..15", "0"))[0].contains("nothing fills `{`"));
+}
+
+#[test]
+fn keys_where_they_say_nothing() {
+    for (more, words) in [
+        (", name = \"x\"", "`name` can't stand"),
+        (", code = \"var\"", "`code` can't stand"),
+        (", add = true", "`add` can't stand"),
+        (", why = \"x\"", "`why` can't stand"),
+        (", stride = 2", "`stride` can't stand"),
+        (", max_count = 2", "`max_count` can't stand"),
+        (", part = 17", "ends at bit 17"),
+        (", bits = { 0 = \"x\" }, enum = { 0 = \"y\" }", "stand in one row"),
+        (", count = \"b\"", "nothing says how many rows there are"),
+        (", buses = [\"serial\"]", "no address on serial: the space `register` gives none there"),
+    ] {
+        let text = a(more).replace("\"u16\", access = \"rw\", part", "\"bool\", access = \"rw\", part");
+        let found = said(&text);
+        assert!(found.iter().any(|line| line.contains(words)), "{more}: {found:#?}");
+    }
+    let by_object = rows("a = { obj = 0x2000, part = 1, type = \"bool\", access = \"ro\" }");
+    assert!(said(&by_object).iter().any(|line| line.contains("`part` can't stand")));
+    let defaults = a("")
+        .replace("[chapters.registers]", "defaults = { access = \"ro\", doc = \"x\", min = 1 }\n[chapters.registers]");
+    let found = said(&defaults);
+    assert!(found.len() == 2 && found[0].contains("don't inherit `doc`") && found[1].contains("`min`"), "{found:?}");
+    let top = a("") + "[defaults]\nwhen = { b = 1 }\n";
+    assert!(said(&top)[0].contains("don't inherit `when`"));
+}
+
+#[test]
+fn buses_and_tables_of_modbus() {
+    let on = |buses: &str| a("").replace("[device]\n", &format!("[device]\nbuses = [{buses}]\n"));
+    let row = on("\"modbus\"").replace("access = \"rw\"", "access = \"rw\", buses = [\"canopen\"]");
+    assert!(said(&row).iter().any(|line| line.contains("the device isn't on canopen")), "{:?}", said(&row));
+    let serial = on("\"modbus\", \"serial\"").replace("reg = 1,", "param = 1, buses = [\"serial\"],");
+    assert_eq!(said(&serial), [""; 0]);
+    let own = item(&read(&serial), "a").availability.clone().expect("buses");
+    assert_eq!(own.buses, ["serial"]);
+    let facts = a("")
+        .replace("table = \"holding\"", "table = \"holding\", functions = [3, 6, 16], max_read = 125, max_write = 2")
+        .replace("[device]\n", "[device]\nnode_ids = \"1..90\"\n");
+    assert_eq!(said(&facts), [""; 0]);
+    let device = read(&facts).catalog.expect("a catalogue").devices.remove(0);
+    assert_eq!(
+        (device.node_ids, device.modbus[0].max_write, device.modbus[0].functions.len()),
+        (Some((1, 90)), Some(2), 3)
+    );
+    let text = rust(&facts);
+    for line in [
+        "NODE_IDS: core::ops::RangeInclusive<u8> = 1..=90;",
+        "HOLDING_FUNCTIONS: &[u8] = &[3, 6, 16];",
+        "HOLDING_MAX_WRITE: u16 = 2;",
+    ] {
+        assert!(text.contains(line), "{text}");
+    }
+    let other =
+        facts.replace("[[chapters]]", "[spaces.other]\nmodbus = { table = \"holding\", max_read = 9 }\n[[chapters]]");
+    assert!(said(&other)[0].contains("another space says otherwise"));
+    assert!(said(&facts.replace("1..90", "0..300"))[0].contains("numbers of nodes"));
+    let coils = rows("a = { reg = \"1-8\", type = \"u8\", access = \"rw\" }").replace("holding", "coil");
+    assert_eq!(said(&coils), [""; 0]);
+    let inputs = said(&a("").replace("holding", "input"));
+    assert!(inputs.len() == 1 && inputs[0].contains("inputs of Modbus can only be read"), "{inputs:?}");
+}
+
+#[test]
+fn one_address_of_two_models_and_one_name_in_two_chapters() {
+    let two = |one: &str, other: &str| {
+        rows(&format!(
+            "a = {{ reg = 1, type = \"u16\", access = \"ro\"{one} }}\nb = {{ reg = 1, type = \"i16\", access = \"ro\"{other} }}"
+        ))
+    };
+    assert_eq!(said(&two(", models = [\"SM137\"]", ", models = [\"SM140\"]")), [""; 0]);
+    assert!(said(&two(", models = [\"SM137\"]", ", models = [\"SM1*\"]"))[0].contains("occurs twice"));
+    assert!(said(&two("", ""))[0].contains("occurs twice"));
+    let chapter = |when: &str| {
+        a("") + &format!("[[chapters]]\ntitle = \"Two\"\n[chapters.registers]\na = {{ reg = 8, type = \"u16\", access = \"ro\" }}\n\
+                          c = {{ reg = 9, type = \"u16\", access = \"rw\", when = {{ {when} = 1 }} }}\n")
+    };
+    assert_eq!(said(&chapter("\"Two/a\"")), [""; 0]);
+    assert!(rust(&chapter("\"Two/a\"")).contains("only while Two/a is 1"));
+    let found = said(&chapter("a"));
+    assert!(found.len() == 1 && found[0].contains("several chapters have `a`"), "{found:?}");
+    assert!(said(&chapter("\"Three/a\""))[0].contains("no item called `Three/a`"));
+}
+
+#[test]
+fn process_data_map_objects() {
+    let text = a("") + "[[pdos]]\nindex = 0x1A00\ndirection = \"tx\"\nentries = [\"b\"]\n";
+    assert!(said(&text)[0].contains("`b` is no object, and PDOs map objects"));
+}
+
+#[test]
+fn findings_say_what_and_where() {
+    let one = |text: &str, words: &str| {
+        let found = said(text);
+        assert!(found.len() == 1 && found[0].contains(words), "{words}: {found:#?}");
+    };
+    one(&rows("w = { reg = 1, type = \"u16\", access = \"ro\", count = 3 }"), "`w` is the name of 3 items");
+    one(&a(", default = [1, 2]"), "the list has 2 defaults, and the row stands for 1 items");
+    let by_parameter = a("")
+        .replace("modbus = { table = \"holding\" }", "parameter = true")
+        .replace("reg = 1,", "reg = 1, swap = true,");
+    one(&by_parameter, "`a` is none");
+    let bits = a(", bits = \"B\"") + "[bits.B.at]\n0 = \"one\"\n\"1-0\" = \"two\"\n";
+    one(&bits, "18:1: ");
+    let values = a(", enum = \"E\"") + "[enums.E.values]\n0 = \"one\"\n\"0..3\" = \"two\"\n";
+    one(&values, "18:1: ");
+    let half = rows(
+        "whole = { reg = \"1-2\", type = \"i32\", access = \"ro\", min = -5 }\n\
+                     half = { reg = 3, type = \"u16\", access = \"ro\", same_as = \"whole\", min = 0, max = 9 }",
+    );
+    assert_eq!(said(&half), [""; 0]);
+    one(&half.replace("half = { reg = 3, type = \"u16\"", "half = { reg = 3, type = \"u64\""), "the same value as");
+    let mapped = a("")
+        .replace("[device]\n", "[device]\nbuses = [\"ethercat\", \"modbus\"]\n")
+        .replace("reg = 2,", "reg = 2, obj = 0x2002,")
+        + "[[pdos]]\nindex = 0x1A00\ndirection = \"tx\"\nentries = [\"b\"]\n";
+    assert_eq!(said(&mapped), [""; 0]);
+}
