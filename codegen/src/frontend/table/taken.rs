@@ -37,7 +37,7 @@ impl Holder {
         let by_bus = self
             .buses
             .zip(other.buses)
-            .is_some_and(|(one, other)| !(one.canopen && other.canopen) && !(one.coe && other.coe));
+            .is_some_and(|(one, other)| !(one.canopen && other.canopen || one.coe && other.coe));
         by_bus || apart(self.availability.as_deref(), other.availability.as_deref())
     }
 }
