@@ -303,7 +303,7 @@ fn item_35_a_constant_without_a_bit_that_is_marked() {
 16 = { name = "AEC velocity", values = { 1 = "supported" } }
 "#;
     let found = objects(row, &[("TAB018", "0x00010021"), ("TAB021", r#""no""#)]);
-    assert_eq!(message(&found, 0), "the fixed value 0x10021 has 0 in bit 6 (`interpolated`), which has no name");
+    assert_eq!(message(&found, 0), "the fixed value 0x10021 has 0 in bit 6 (`interpolated`), where only 1 is named");
 }
 
 #[test]
@@ -822,6 +822,9 @@ c = { reg = "12-13", type = "u32" }
     let rows = r#"c = { reg = "12-13", type = "u32" }
 d = { reg = 14, type = "u16" }
 b = { reg = 11, type = "u16" }
+"e{n}" = { reg = 40, count = 3, type = "u16[4]" }
+"f{n}" = { reg = 60, count = 3, type = "str(4)" }
+"g{n}" = { reg = 70, count = 2, stride = 3, type = "u32" }
 h = { reg = 30, type = "u8", part = "7-0" }
 i = { reg = 30, type = "u8", part = "15-8" }
 "#;
@@ -941,6 +944,59 @@ fn a_limit_of_all_bits_that_reaches_into_reserved_ones() {
     registers(&row("0x0000000F", bits), &[]);
     registers(&row("0x000000FF", bits), &[("TAB019", "0x000000FF")]);
     registers(&row("0x00FFFFFF", r#"3 = "on", "31-24" = { reserved = 0 }"#), &[]);
+}
+
+// What is said of a finding.
+
+#[test]
+fn rows_of_another_block_break_no_series() {
+    let rows = |number: u32| {
+        REGISTERS.replace("canopen = { index = 0x2000 }\n", "")
+            + &format!(
+                "a = {{ reg = 1, obj = 0x2001, type = \"u16\" }}\nb = {{ reg = {number}, obj = 0x3000, type = \"u16\" }}\n\
+                 c = {{ reg = 4, obj = 0x2004, type = \"u16\" }}\n"
+            )
+    };
+    flags(&rows(100), &[]);
+    let found = flags(&rows(2), &[("TAB001", "0x3000")]);
+    assert!(help(&found, 0).contains("misprinted"));
+}
+
+#[test]
+fn what_is_wrong_with_digits_and_what_to_do() {
+    let rows = r#"a = { reg = 1, type = "u16", enum = { 0x00000002 = "x", 0x01 = "y", "0x0003..0x00004" = "z" } }
+b = { reg = 2, type = "u8", bits = { "1-0" = { name = "f", values = { 0x00 = "a", 0x03 = "b" } } } }
+"#;
+    let found = registers(rows, &[("TAB012", "0x00000002"), ("TAB012", "\"0x0003..0x00004\"")]);
+    assert_eq!(message(&found, 0), "`0x00000002` has 8 digits, and UNSIGNED16 has 4");
+    assert!(help(&found, 0).contains("manual"));
+    let rule = "a = { reg = 11, obj = 0x200c, type = \"u16\" }\n";
+    let found = registers(rule, &[("TAB001", "0x200c")]);
+    assert_eq!(message(&found, 0), "the row says object 0x200C, and the rule of its space 0x200B:0");
+    let axes = format!("{DEVICE}[axes]\ncount = 3\nrules = [ {{ objects = \"0x6000..0x607FF\", index = 0x800 }} ]\n");
+    assert_eq!(help(&flags(&axes, &[("TAB004", "{")]), 0), "the index `0x607FF` has 5 digits, and any has 4");
+    let key = "0x607FF = { name = \"x\", type = \"u16\", access = \"ro\" }\n";
+    assert_eq!(help(&objects(key, &[("TAB006", "0x607FF")]), 0), "the index `0x607FF` has 5 digits, and any has 4");
+}
+
+#[test]
+fn limits_of_the_other_sign_and_versions_in_another_form() {
+    let rows = r#"a = { reg = 1, type = "i16", min = 0, max = 65535 }
+b = { reg = 2, type = "u16", until = "6,15" }
+c = { reg = 3, type = "u16", until = "Fw710" }
+"#;
+    let found = registers(rows, &[("EDS025", "65535"), ("TAB027", "b"), ("TAB027", "c")]);
+    assert_eq!([0, 1].map(|at| help(&found, at)), ["is the type `u16`?", "write `6.15`"]);
+    assert!(help(&found, 2).contains("points"));
+}
+
+#[test]
+fn what_is_mentioned_of_one_value_is_told_once() {
+    let rows = "0x6041 = { name = \"S\", type = \"u16\", access = \"ro\", doc = \"See 0x60D0\" }\n";
+    objects(rows, &[("TAB025", "0x6041")]);
+    let rows = "0x6041 = { name = \"S\", code = \"record\", doc = \"See 0x60D0\" }\n\
+                \"0x6041:1\" = { name = \"a\", type = \"u16\", access = \"ro\" }\n";
+    objects(rows, &[("TAB025", "0x6041")]);
 }
 
 // Items of section 4 that no linter sees, because nothing in a faithful table contradicts anything else:

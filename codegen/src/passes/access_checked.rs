@@ -16,7 +16,15 @@ pub(super) fn run(owner: Owner<'_>, is_table: bool, diagnostics: &mut Diagnostic
                 continue;
             }
             let message = format!("`{}` is {} and {problem}", brief(&item.name), item.access.name());
-            diagnostics.push(Diagnostic::new(code, span.or(item.at.access).or(item.origin.span), message));
+            let found = Diagnostic::new(code, span.or(item.at.access).or(item.origin.span), message);
+            diagnostics.push(match code == &codes::ACCESS_CONFLICT {
+                true => {
+                    found.help("one of the two is misprinted: keep what the manual's text supports, with a `doubt`")
+                }
+                false => {
+                    found.help("if it can be zero, the limit is that of a set-point; if not, the type is unsigned")
+                }
+            });
         }
     }
 }

@@ -54,7 +54,8 @@ fn outside(
     };
     let message = format!("{base} has {width} bits, and `{}` names {}{others}", brief(&definition.name), called(first));
     let found = Diagnostic::new(&codes::BIT_OUTSIDE_TYPE, owner.place(id), message);
-    diagnostics.push(found.note_at(first.at.0.or(definition.origin.span), "the bits are named here"));
+    let found = found.note_at(first.at.0.or(definition.origin.span), "the bits are named here");
+    diagnostics.push(found.help("the type is too short, or the bits are counted from 1"));
 }
 
 fn overlaps(definition: &TypeDef, fields: &[BitFieldEntry], diagnostics: &mut Diagnostics) {

@@ -54,7 +54,8 @@ fn possible(owner: Owner<'_>, items: &Index<'_>, condition: &Condition, span: Sp
         };
         let message = format!("the condition `{}` = {value} never holds: {value} {why}", brief(&condition.item));
         let found = Diagnostic::new(&codes::UNNAMED_VALUE, span, message);
-        diagnostics.push(found.note_at(item.origin.span, "the other item"));
+        let found = found.note_at(item.origin.span, "the other item");
+        diagnostics.push(found.help("correct the value, or name it there, if the manual does"));
     }
 }
 

@@ -47,6 +47,14 @@ pub(super) fn version(text: &str) -> Option<Vec<u32>> {
     Some(numbers)
 }
 
+/// The version that a text in another form stands for: `6,15`, `v6.15`, `6-15`.
+fn meant(text: &str) -> Option<String> {
+    let text = text.trim().trim_start_matches(|c: char| c.is_ascii_alphabetic() || c == '.' || c == ' ');
+    let text = text.replace([',', '-', '_'], ".");
+    // `Fw710` is 7.10 or 710.
+    (text.contains('.') && version(&text).is_some()).then_some(text)
+}
+
 fn compare(one: Option<&str>, other: Option<&str>) -> Option<Ordering> {
     Some(version(one?)?.cmp(&version(other?)?))
 }
@@ -66,7 +74,11 @@ fn window(what: &str, own: &Availability, span: Span, diagnostics: &mut Diagnost
     for text in [&own.since, &own.until].into_iter().flatten() {
         if version(text).is_none() {
             let message = format!("{what} has the firmware version `{}`, which isn't numbers and points", brief(text));
-            diagnostics.push(Diagnostic::new(&codes::VERSION_FORM, span, message).label("not compared"));
+            let found = Diagnostic::new(&codes::VERSION_FORM, span, message).label("not compared");
+            diagnostics.push(found.help(match meant(text) {
+                Some(meant) => format!("write `{meant}`"),
+                None => "write the numbers of the version with points between them, such as `6.15`".to_owned(),
+            }));
         }
     }
     let order = compare(own.since.as_deref(), own.until.as_deref());

@@ -8,6 +8,9 @@ use crate::ir::{BitFieldEntry, BitMeaning, EnumValue, Item, Shape, Type, TypeDef
 use crate::source::Span;
 use crate::text::brief;
 
+/// So many values are listed in a message.
+const MAX_LISTED: usize = 6;
+
 pub(super) fn run(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
     for item in owner.items() {
         // What a profile says fits more devices than this one.
@@ -48,7 +51,12 @@ type Number = (&'static str, i128, Span);
 impl Check<'_, '_> {
     fn report(&mut self, code: &'static Code, span: Span, message: String) {
         let found = Diagnostic::new(code, span.or(self.item.origin.span), message);
-        self.diagnostics.push(found.note_at(self.definition.origin.span, "the names are given here"));
+        let found = found.note_at(self.definition.origin.span, "the names are given here");
+        self.diagnostics.push(found.help(match code.id {
+            "TAB016" => "widen the limit, or give the item an enumeration or bits of its own",
+            "TAB018" => "name the value, if the manual does, or correct the number",
+            _ => "correct the number, or name the bits, if the manual does",
+        }));
     }
 
     /// The default, and what is set for one device.
@@ -185,7 +193,11 @@ impl Check<'_, '_> {
             let Some((values, _)) = self.owner.enumeration(Type::Named(id)) else { continue };
             let value = i128::from((bits & mask(field)).checked_shr(field.offset.into()).unwrap_or(0));
             if !values.is_empty() && reserved(values, value) != Some(false) {
-                let message = format!("the {what} {bits:#X} has {value} in {}, which has no name", called(field));
+                let what = format!("the {what} {bits:#X} has {value} in {}", called(field));
+                let message = match reserved(values, value) {
+                    Some(_) => format!("{what}, which is reserved"),
+                    None => format!("{what}, where only {} named", listed(values)),
+                };
                 self.report(&codes::UNNAMED_VALUE, span, message);
             }
         }
@@ -204,6 +216,24 @@ impl Check<'_, '_> {
         };
         let message = format!("{} can't be set below the upper limit {limit}{others}", called(first));
         self.report(&codes::NAME_OUTSIDE_LIMITS, span, message);
+    }
+}
+
+/// The values that have names: `1 is`, `0, 1 and 3 are`.
+fn listed(values: &[EnumValue]) -> String {
+    let named: Vec<String> = values.iter().filter(|value| value.zone.is_none()).map(range).collect();
+    match named.as_slice() {
+        [] => "reserved values are".to_owned(),
+        [one] => format!("{one} is"),
+        [.., _] if named.len() > MAX_LISTED => format!("{} other values are", named.len()),
+        [first @ .., last] => format!("{} and {last} are", first.join(", ")),
+    }
+}
+
+fn range(value: &EnumValue) -> String {
+    match value.last {
+        Some(last) => format!("{} to {last}", value.value),
+        None => value.value.to_string(),
     }
 }
 

@@ -8,7 +8,13 @@ pub(super) fn run(device: &Device, modules: &[Module], format: Option<Format>, d
     let fixed = device.own_modules(modules).flat_map(|module| &module.fixed_objects);
     for group in device.groups.iter().chain(fixed) {
         let (Some(index), Some(code)) = (group.index(), group.object_code()) else { continue };
-        names(group, index, diagnostics);
+        // What is wrong with a row brings more of it, of which there is nothing new to say.
+        if format == Some(Format::Table) && diagnostics.has_error_in(group.origin.span) {
+            continue;
+        }
+        if device.canopen.is_some() || format == Some(Format::Table) {
+            names(group, index, diagnostics);
+        }
         if matches!(code, ObjectCode::Array | ObjectCode::Record) {
             structure(group, index, format, diagnostics);
             highest_sub(group, index, diagnostics);

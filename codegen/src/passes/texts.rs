@@ -14,7 +14,10 @@ pub(super) struct Text<'a> {
 pub(super) fn all(device: &Device) -> Vec<Text<'_>> {
     let mut list = List(Vec::new());
     for group in &device.groups {
-        list.documented(group.origin.span, &group.name, &group.documentation, &group.names);
+        // What is said of an object of one value is said of the value.
+        if group.items.is_empty() || group.object_code().is_none_or(|code| code.has_subs()) {
+            list.documented(group.origin.span, &group.name, &group.documentation, &group.names);
+        }
         group.items.iter().for_each(|item| list.item(item));
     }
     device.types.iter().for_each(|definition| list.definition(definition));

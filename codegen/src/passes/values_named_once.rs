@@ -84,7 +84,11 @@ fn outside(
     let value = if first.value < low { first.value } else { first.last.unwrap_or(first.value) };
     let message = format!("{base} is never {value} (`{}`{others})", brief(&first.name));
     let found = Diagnostic::new(&codes::NAME_OUTSIDE_TYPE, owner.place(id), message);
-    diagnostics.push(found.note_at(first.at.0.or(definition.origin.span), "the values are named here"));
+    let found = found.note_at(first.at.0.or(definition.origin.span), "the values are named here");
+    diagnostics.push(match (base, value) {
+        (Type::Unsigned(bits), ..0) => found.help(format!("is the type `i{bits}`?")),
+        _ => found.help("the type is too short, or the value is wrong"),
+    });
 }
 
 #[cfg(test)]

@@ -48,7 +48,13 @@ impl Rows {
             return Repeat::ONCE;
         };
         let unit = self.unit(space);
-        let bits = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).and_then(|named| named.ty.bits());
+        let bits = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).and_then(|named| {
+            let bits = match named.ty {
+                Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),
+                ty => ty.bits(),
+            };
+            bits?.checked_mul(named.elements.unwrap_or(1))
+        });
         let of_type = || if row.reg.is_some() { bits.unwrap_or(unit).div_ceil(unit) } else { 1 };
         Repeat { count, step: row.stride.unwrap_or_else(of_type) }
     }
@@ -252,7 +258,7 @@ impl Rows {
     ) {
         lints::index(reader, object);
         let text = match &object.value {
-            NumberOrText::Number(number) => format!("{number:#06x}"),
+            NumberOrText::Number(number) => format!("0x{number:04X}"),
             NumberOrText::Text(text) => text.clone(),
         };
         let found = place::objects(&text).filter(|found| found.indices.0 == found.indices.1);
@@ -269,7 +275,8 @@ impl Rows {
                     format!("the row says object {text}, and the rule of its space 0x{ruled:04X}:{ruled_sub}");
                 reader.diagnostics.push(
                     Diagnostic::new(&codes::REGISTER_FORMULA, reader.span(object), message)
-                        .label("what the row says is used"),
+                        .label("what the row says is used")
+                        .help(lints::FORMULA),
                 );
             }
             bindings.retain(|binding| !matches!(binding, Binding::Object { .. }));

@@ -10,7 +10,7 @@ use super::format::{BitEntries, BitTable, BitsTable, EnumTable, NumberOrText, Un
 use super::references::References;
 use super::rows::ACCESSES;
 use super::tree::{cited, Reader};
-use super::{place, types};
+use super::{lints, place, types};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{BitFieldEntry, BitMeaning, Doubt, EnumValue, Mark, Shape, Trigger, Type, TypeDef, TypeId, Zone};
 use crate::source::Origin;
@@ -174,6 +174,7 @@ impl Definitions {
                 reader.report(&codes::TABLE_PLACE, reader.span(key), message);
                 continue;
             };
+            lints::key(reader, key, base);
             let text = ValueTable::default();
             let (name, more) = match &entry.value {
                 TextOr::Text(name) => (Some(name.as_str()), &text),

@@ -5,8 +5,8 @@ use super::format::{AxesTable, DeviceTable, ManualTable, ModelTable, NumberOrTex
 use super::place;
 use super::spaces::Buses;
 use super::tree::{cited, Reader};
-use super::value;
-use crate::diagnostics::codes;
+use super::{lints, value};
+use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
     AxisRange, AxisRule, AxisStep, CanOpenSettings, Device, EtherCatSettings, Extension, Identity, Type, Variant,
 };
@@ -157,7 +157,12 @@ pub(super) fn axes(reader: &mut Reader<'_, '_>, table: &At<AxesTable>, device: &
                 let text = brief(reader.source.slice(reader.span(rule)));
                 let message =
                     format!("`{text}` is no rule: `objects` and one of `index`, `sub = \"axis\"`, `sub_stride`");
-                reader.report(&codes::TABLE_VALUE, reader.span(rule), message);
+                let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(rule), message);
+                let digits = rule.value.objects.as_ref().and_then(|given| lints::digits_of_index(reader, given));
+                reader.diagnostics.push(match digits {
+                    Some(digits) => found.help(digits),
+                    None => found.help("such as `{ objects = \"0x6000..0x67FF\", index = 0x800 }`"),
+                });
             }
         }
     }

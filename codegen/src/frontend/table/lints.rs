@@ -26,7 +26,8 @@ pub(super) fn number(reader: &mut Reader<'_, '_>, given: &At<Literal>, value: &V
         };
         if let Some(problem) = problem {
             let message = format!("`0x{}` {problem}, and {ty} has {needed}", brief(&digits));
-            reader.report(&codes::HEX_DIGITS, span, message);
+            let found = Diagnostic::new(&codes::HEX_DIGITS, span, message);
+            reader.diagnostics.push(found.help(DIGITS));
         }
     }
     range(reader, value, ty, span);
@@ -42,6 +43,21 @@ fn capital(reader: &mut Reader<'_, '_>, span: Span) {
     }
 }
 
+/// What to do about digits.
+const DIGITS: &str = "a digit was doubled or lost, or the type is another: compare both with the manual";
+
+/// The key of a value, or of a range of values, has no more digits than its integer. Narrow fields are written in bytes.
+pub(super) fn key(reader: &mut Reader<'_, '_>, given: &At<String>, base: Type) {
+    let Some(bits) = base.bits().filter(|&bits| bits >= 8) else { return };
+    let needed = bits.div_ceil(4) as usize;
+    let longest = given.value.split("..").filter_map(hexadecimal).find(|digits| digits.len() > needed);
+    if let Some(digits) = longest {
+        let message = format!("`0x{}` has {} digits, and {base} has {needed}", brief(&digits), digits.len());
+        let found = Diagnostic::new(&codes::HEX_DIGITS, reader.span(given), message);
+        reader.diagnostics.push(found.help(DIGITS));
+    }
+}
+
 /// Reports a number that its type can't have.
 pub(super) fn range(reader: &mut Reader<'_, '_>, value: &Value, ty: Type, span: Span) {
     let Some((low, high)) = ty.integer_range() else { return };
@@ -53,6 +69,9 @@ pub(super) fn range(reader: &mut Reader<'_, '_>, value: &Value, ty: Type, span: 
     let found = Diagnostic::new(&codes::OUT_OF_TYPE, span, message).label("kept as it is");
     reader.diagnostics.push(match (ty, value) {
         (Type::Unsigned(bits), Value::Int(..0)) => found.help(format!("is the type `i{bits}`?")),
+        (Type::Integer(bits @ 1..=64), Value::Int(number)) if (0..1i128 << bits).contains(number) => {
+            found.help(format!("is the type `u{bits}`?"))
+        }
         _ => found,
     });
 }
@@ -67,16 +86,28 @@ fn hexadecimal(text: &str) -> Option<String> {
 
 /// Reports an index that isn't written in four digits: one was lost.
 pub(super) fn index<T>(reader: &mut Reader<'_, '_>, given: &At<T>) {
-    let span = reader.span(given);
-    capital(reader, span);
-    let text = reader.source.slice(span).trim_matches(['"', '\'']);
-    let indices = text.split(':').next().unwrap_or_default().split("..");
-    let short = indices.filter_map(hexadecimal).find(|digits| digits.len() != 4);
-    if let Some(digits) = short {
-        let message = format!("the index `0x{}` has {} digits, and any has 4", brief(&digits), digits.len());
-        reader.report(&codes::HEX_DIGITS, span, message);
+    capital(reader, reader.span(given));
+    if let Some(message) = digits_of_index(reader, given) {
+        let found = Diagnostic::new(&codes::HEX_DIGITS, reader.span(given), message);
+        reader.diagnostics.push(found.help("a digit was doubled or lost: look at the rows around it"));
     }
 }
+
+/// What is wrong with the digits of an index, or of the first and last of a range.
+pub(super) fn digits_of_index<T>(reader: &Reader<'_, '_>, given: &At<T>) -> Option<String> {
+    let text = reader.source.slice(reader.span(given)).trim_matches(['"', '\'']);
+    let mut indices = text.split(':').next().unwrap_or_default().split("..");
+    let digits = indices.find_map(|index| hexadecimal(index).filter(|digits| digits.len() != 4))?;
+    Some(format!("the index `0x{}` has {} digits, and any has 4", brief(&digits), digits.len()))
+}
+
+/// How far apart the numbers of neighbours in one block are at most.
+const BLOCK: u64 = 16;
+
+/// What to do about an object that doesn't follow from its number.
+pub(super) const FORMULA: &str =
+    "one of the two is misprinted: keep the one that the rows around it support, with a `doubt`, \
+                                  and allow this code on the row";
 
 /// Number and object of a row that has both, and the object of its rule.
 struct Printed {
@@ -101,6 +132,11 @@ impl Printed {
         Some(Printed { span: reader.span(obj), number, index, rule: rule.map(|(index, _)| index.into()) })
     }
 
+    /// Whether the numbers are those of one block: rows of several blocks have objects of several.
+    fn is_near(&self, other: &Printed) -> bool {
+        self.number.abs_diff(other.number) <= BLOCK
+    }
+
     fn offset(&self) -> i64 {
         self.index.wrapping_sub(self.number)
     }
@@ -120,13 +156,16 @@ pub(super) fn series(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row>)]
         let (Some(expected), true) = (neighbours.0, neighbours.0 == neighbours.1) else { continue };
         // Where the neighbours follow the rule, breaking it was reported already.
         let by_rule = own.rule == Some(own.number.wrapping_add(expected));
-        if own.offset() != expected && !by_rule {
+        let is_member = [at.checked_sub(1), Some(at + 1)].into_iter().flatten().filter_map(|at| printed.get(at));
+        let is_member = is_member.clone().count() > 0 && is_member.into_iter().all(|other| own.is_near(other));
+        if own.offset() != expected && !by_rule && is_member {
             let message = format!(
                 "the row says object 0x{:04X}, and by the rows around it, it would be 0x{:04X}",
                 own.index,
                 own.number.wrapping_add(expected)
             );
-            reader.report(&codes::REGISTER_FORMULA, own.span, message);
+            let found = Diagnostic::new(&codes::REGISTER_FORMULA, own.span, message);
+            reader.diagnostics.push(found.help(FORMULA));
         }
     }
 }

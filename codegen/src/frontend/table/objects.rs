@@ -8,7 +8,7 @@ use super::format::Row;
 use super::place::{self, Objects};
 use super::rows::{Named, Rows};
 use super::tree::{cited, Reader};
-use crate::diagnostics::codes;
+use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Access, Binding, Group, Item, ObjectCode, Type};
 use crate::text::brief;
 
@@ -34,7 +34,11 @@ pub(super) fn add(
     let Some(objects) = place::objects(&key.value) else {
         let message =
             format!("`{}` is no object: write `0x6040`, `\"0x1018:1\"` or `\"0x1400..0x1403:1\"`", brief(&key.value));
-        reader.report(&codes::TABLE_PLACE, reader.span(key), message);
+        let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
+        reader.diagnostics.push(match super::lints::digits_of_index(reader, key) {
+            Some(digits) => found.help(digits),
+            None => found,
+        });
         return;
     };
     rows.allow(reader, key, row);
@@ -91,11 +95,8 @@ fn head(
         group.items.push(item);
     }
     if let Some(first) = dictionary.get(&index) {
-        let diagnostic = crate::diagnostics::Diagnostic::new(
-            &codes::TABLE_DUPLICATE,
-            reader.span(key),
-            format!("object 0x{index:04X} occurs twice"),
-        );
+        let diagnostic =
+            Diagnostic::new(&codes::TABLE_DUPLICATE, reader.span(key), format!("object 0x{index:04X} occurs twice"));
         reader.diagnostics.push(diagnostic.note_at(first.origin.span, "the first is here"));
         return;
     }
@@ -139,8 +140,7 @@ fn subs(
             Ok(at) => {
                 let first = group.items.get(at).map(|item| item.at.name).unwrap_or_default();
                 let message = format!("sub-index {sub_index} of object 0x{index:04X} occurs twice");
-                let diagnostic =
-                    crate::diagnostics::Diagnostic::new(&codes::TABLE_DUPLICATE, reader.span(key), message);
+                let diagnostic = Diagnostic::new(&codes::TABLE_DUPLICATE, reader.span(key), message);
                 reader.diagnostics.push(diagnostic.note_at(first, "the first is here"));
             }
             Err(at) => group.items.insert(at, item),
