@@ -522,7 +522,9 @@ fn items_18_and_19_indices_beside_numbers() {
          0166\t0x20A\tRprofists\tStato della comunicazione Profibus 0 = Disabilitato 1 = Parametrizzazione 2 = Configurazione 3 = Data Exchange FF = Fatal Error\t\t\t\tUnsigned16\tWORD NO MAP RO\n\
          ",
     );
-    assert_eq!(findings(&import), [(1, 1, "CSV007"), (6, 6, "CSV003")]);
+    assert_eq!(findings(&import), [(1, 1, "CSV007"), (5, 1, "CSV003"), (6, 6, "CSV003")]);
+    let said = &import.compilation.diagnostics.list()[1].message;
+    assert_eq!(said, "the index is 0x4803, and by 3 of 4 lines it would be 0x4804");
     let table = import.table.as_deref().expect("a table");
     assert!(table.contains("modbus = { table = \"holding\", first = 0 }"), "{table}");
     let device = check(Source::new("list.toml", table.as_bytes().to_vec()), &Options::default());

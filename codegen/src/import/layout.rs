@@ -1,12 +1,15 @@
 //! Rows to chapters and spaces; names and addresses that occur twice.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use super::address::Table;
 use super::rows::{Definition, Place, Row, Rows};
 use super::types::Base;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::source::Span;
+
+/// So many lines have to have their index above their number by as much.
+const ALIKE: usize = 3;
 
 /// A table of Modbus, as far as the rows tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +61,8 @@ pub(super) fn arrange(list: Rows, diagnostics: &mut Diagnostics) -> Listing {
         }
     }
     distinct_places(&mut rows, &spaces, diagnostics);
+    distinct_objects(&mut rows, diagnostics);
+    objects_agree(&rows, diagnostics);
     distinct_names(&mut rows, diagnostics);
     references(&mut rows, diagnostics);
     let mut chapters: Vec<Chapter> = Vec::new();
@@ -156,6 +161,32 @@ fn wire<'r>(rows: impl Iterator<Item = &'r Row>, diagnostics: &mut Diagnostics) 
     found.map(|(difference, _)| difference)
 }
 
+/// Of a list whose indices are its numbers and something, reports those that aren't: a digit was misprinted.
+fn objects_agree(rows: &[Row], diagnostics: &mut Diagnostics) {
+    let both = |row: &Row| match row.place {
+        Ok(Place::Register { address, object: Some((index, _)), .. }) => Some((address.first, index)),
+        _ => None,
+    };
+    let mut counts: BTreeMap<i64, usize> = BTreeMap::new();
+    for (number, index) in rows.iter().filter_map(both) {
+        *counts.entry(i64::from(index) - i64::from(number)).or_default() += 1;
+    }
+    let all: usize = counts.values().sum();
+    let Some((&first, &count)) = counts.iter().max_by_key(|(_, count)| **count) else { return };
+    if count < ALIKE || count * 4 < all * 3 {
+        return;
+    }
+    for (row, (number, index)) in rows.iter().filter_map(|row| Some((row, both(row)?))) {
+        let expected = i64::from(number) + first;
+        if i64::from(index) != expected && expected >= 0 {
+            let message =
+                format!("the index is 0x{index:04X}, and by {count} of {all} lines it would be 0x{expected:04X}");
+            let diagnostic = Diagnostic::new(&codes::CSV_UNREADABLE_CELL, row.span, message);
+            diagnostics.push(diagnostic.label("kept as it is: write a doubt down"));
+        }
+    }
+}
+
 /// The addresses that a row takes, as texts that differ where the addresses do.
 fn places(row: &Row) -> Vec<String> {
     let count = row.count.unwrap_or(1);
@@ -198,6 +229,35 @@ fn distinct_places(rows: &mut [Row], spaces: &[Space], diagnostics: &mut Diagnos
             }
             None => taken.extend(own.into_iter().map(|place| (place, row.span))),
         }
+    }
+}
+
+/// Takes the object from a register that is none: a part of one, one of several, or one whose object another row has.
+fn distinct_objects(rows: &mut [Row], diagnostics: &mut Diagnostics) {
+    let of_objects = rows.iter().filter(|row| matches!(row.place, Ok(Place::Object { .. })));
+    let mut taken: HashMap<String, Span> =
+        of_objects.flat_map(|row| places(row).into_iter().map(|place| (place, row.span))).collect();
+    for row in rows {
+        let is_part = row.facts.iter().any(|(key, _)| *key == "part");
+        let Ok(Place::Register { object: own @ Some(_), .. }) = &mut row.place else { continue };
+        let (index, sub) = own.unwrap_or_default();
+        let place = format!("{index} {}", sub.unwrap_or(0));
+        let problem = match taken.get(&place) {
+            _ if is_part => Some(("a part of a register is no object", None)),
+            _ if row.count.is_some() => Some(("several registers are not one object", None)),
+            Some(&first) => Some(("another row has this object", Some(first))),
+            None => None,
+        };
+        let Some((message, first)) = problem else {
+            taken.insert(place, row.span);
+            continue;
+        };
+        *own = None;
+        let found = Diagnostic::new(&codes::CSV_UNREADABLE_CELL, row.span, message).label("the object is left out");
+        diagnostics.push(match first {
+            Some(first) => found.note_at(first, "the first is here"),
+            None => found,
+        });
     }
 }
 
