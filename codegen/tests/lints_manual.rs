@@ -196,6 +196,10 @@ Rlong = { reg = "63-64", type = "u32", same_as = "64" }
     assert_eq!(help(&found, 0), "write `Rposwrtime`");
     assert_eq!(message(&found, 1), "there is no register 10015");
     assert_eq!(message(&found, 2), "register 64 is `Rlong`, and its name is wanted");
+    let rows = r#"Rposwrtime = { reg = "258-59", type = "u32", doc = "Da firmware 6 sostituito da registro 10015; see register 259." }
+"#;
+    let found = registers(rows, &[("TAB025", 1, rows.trim_end())]);
+    assert_eq!(message(&found, 0), "register 10015 is mentioned, and the table doesn't have it");
 }
 
 #[test]

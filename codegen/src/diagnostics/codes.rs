@@ -762,7 +762,7 @@ codes! {
     TAB025 MENTIONED_OBJECT "mentioned-object" Lint Warn
         "a text mentions an object or item that the table doesn't have"
         "Documentation, names and effects mention objects by index: 0x6000 to 0x67FF, `object 0x2010`, or with a sub-index, \
-        `0x1003:1`. Either a row is missing, or the index is misprinted. They also mention items by name, where names are told \
+        `0x1003:1`; and registers by number: `register 10015`. Either a row is missing, or the index is misprinted. They also mention items by name, where names are told \
         from other words (`Rposwrtime`): one or two letters beside a name, and no name itself, is a name that is misspelt."
     TAB026 FIRMWARE_WINDOW "firmware-window" Lint Warn
         "firmware windows contradict each other"

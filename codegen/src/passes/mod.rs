@@ -30,7 +30,7 @@ mod procedures_possible;
 mod process_image_checked;
 mod records_checked;
 mod subslots_distinct;
-mod texts;
+pub(crate) mod texts;
 mod titles_are_no_names;
 pub(crate) mod values_checked;
 mod values_named_once;

@@ -4,14 +4,14 @@ use crate::ir::{CompactString, Device, Documentation, Item, LocalText, Shape, St
 use crate::source::Span;
 
 /// A text, and what it belongs to.
-pub(super) struct Text<'a> {
+pub(crate) struct Text<'a> {
     pub span: Span,
     pub of: &'a str,
     pub words: &'a str,
 }
 
 /// All texts of a device.
-pub(super) fn all(device: &Device) -> Vec<Text<'_>> {
+pub(crate) fn all(device: &Device) -> Vec<Text<'_>> {
     let mut list = List(Vec::new());
     for group in &device.groups {
         // What is said of an object of one value is said of the value.

@@ -156,6 +156,7 @@ pub fn read(
     device.doubts.append(&mut rows.definitions.doubts);
     table.rest(&mut reader, &mut rows, &mut device);
     resolve(&mut reader, &rows, &device);
+    numbered::mentioned(&mut reader, &rows.numbered, &device);
     rows.allow_of_definitions(&mut reader);
     for (span, code) in rows.allowed {
         reader.diagnostics.allow(span, code);

@@ -1,10 +1,15 @@
-//! Numbers of registers that stand where the name of an item is wanted, as manuals print them: "replaced by register 10015".
+//! Numbers of registers that stand where the name of an item is wanted, or in texts, as manuals print them: "replaced by
+//! register 10015".
+
+use std::collections::BTreeSet;
 
 use compact_str::CompactString;
 
 use super::place;
 use super::tree::Reader;
 use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::Device;
+use crate::passes::texts;
 use crate::source::Span;
 use crate::text::brief;
 
@@ -39,4 +44,55 @@ pub(super) fn report(reader: &mut Reader<'_, '_>, list: &[Numbered], text: &str,
     };
     reader.diagnostics.push(Diagnostic::new(&codes::UNRESOLVED_NAME, span, message).help(help));
     true
+}
+
+/// Reports registers that texts mention by their number, and that the table doesn't have.
+pub(super) fn mentioned(reader: &mut Reader<'_, '_>, list: &[Numbered], device: &Device) {
+    if list.is_empty() {
+        return;
+    }
+    // By their first number, each with the last one of those so far: what covers a number begins at or below it.
+    let mut ranges: Vec<(u32, u32)> = list.iter().map(|item| (item.first, item.last)).collect();
+    ranges.sort_unstable();
+    let mut last = 0;
+    for range in &mut ranges {
+        last = range.1.max(last);
+        range.1 = last;
+    }
+    let mut said = BTreeSet::new();
+    for text in texts::all(device) {
+        for number in mentions(text.words) {
+            let below = ranges.partition_point(|(first, _)| *first <= number);
+            let exists = ranges.get(..below).and_then(<[_]>::last).is_some_and(|(_, last)| *last >= number);
+            if !exists && said.insert((text.span, number)) {
+                let message = format!("register {number} is mentioned, and the table doesn't have it");
+                reader.report(&codes::MENTIONED_OBJECT, text.span, message);
+            }
+        }
+    }
+}
+
+/// The numbers behind the word for a register: `register 10015`, `registro 10086-87`.
+fn mentions(text: &str) -> impl Iterator<Item = u32> + '_ {
+    const WORDS: [&str; 4] = ["register", "registers", "registro", "registri"];
+    let words = text.split(|c: char| c.is_whitespace() || matches!(c, '(' | ')' | '<' | '>'));
+    let pairs = words.clone().zip(words.skip(1));
+    pairs.filter(|(word, _)| WORDS.contains(&word.to_lowercase().as_str())).filter_map(|(_, number)| {
+        let number = number.trim_end_matches(['.', ',', ';', ':']);
+        let is_number = number.chars().all(|c| c.is_ascii_digit() || c == '-') && number.len() >= 2;
+        place::registers(number).filter(|_| is_number).map(|(first, _)| first)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::mentions;
+
+    #[test]
+    fn numbers_of_registers_are_told_from_others() {
+        let found = |text| mentions(text).collect::<Vec<_>>();
+        assert_eq!(found("Da firmware 6 sostituito da registro 10015"), [10015]);
+        assert_eq!(found("see registers 10086-87, and Register 63."), [10086, 63]);
+        assert_eq!(found("register 5, register 0x20, register 12V, registered 100, 100 registers, register"), [0; 0]);
+    }
 }
