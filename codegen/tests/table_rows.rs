@@ -1,5 +1,8 @@
 //! Rows of register tables: what differs between models, scales, conditions, addresses, and what of them is an error.
 
+mod compile_support;
+
+use compile_support::compile;
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Binding, Item, Scale, Value};
 use lexibus_codegen::source::Source;
@@ -364,4 +367,70 @@ fn findings_say_what_and_where() {
         .replace("reg = 2,", "reg = 2, obj = 0x2002,")
         + "[[pdos]]\nindex = 0x1A00\ndirection = \"tx\"\nentries = [\"b\"]\n";
     assert_eq!(said(&mapped), [""; 0]);
+}
+
+/// A table with every key of rows that has a say in generated code.
+const EVERYTHING: &str = r#"lexibus = 1
+[device]
+name = "Pump"
+buses = ["ethercat", "modbus", "serial"]
+node_ids = "1..90"
+[[models]]
+name = "SM137"
+constants = { base = 2.5 }
+[[models]]
+name = "SM140"
+[spaces.register]
+modbus = { table = "holding", functions = [3, 6, 16], max_read = 125, max_write = 2 }
+[spaces.coil]
+modbus = { table = "coil" }
+[[chapters]]
+title = "One"
+[chapters.registers]
+gain = { reg = 1, type = "u16", access = "rw", max = 10, default = 1, unit = "A", scale = 0.1, variants = [{ models = ["SM140"], default = 2, max = 20, scale = 0.2 }, { buses = ["modbus"], min = 1, doc = "On this bus it begins at 1." }] }
+mantissa = { reg = 2, type = "i16", access = "ro", scale = { exponent = "power", base = 2, fraction = 15 } }
+power = { reg = 3, type = "i16", access = "ro" }
+product = { reg = 4, type = "i16", access = "ro", unit = "W", scale = { times = "power", factor = 0.5 } }
+status = { reg = 5, type = "u16", access = "ro", bits = "Status" }
+mode = { reg = 6, type = "u8", access = "rw", enum = "Mode", when = { status = { mask = 4, value = 0 } }, allowed = [0, "1..3"] }
+old = { reg = 7, type = "u16", access = "ro", models = ["SM137"] }
+new = { reg = 7, type = "i16", access = "ro", models = ["SM140"] }
+"input{n+1}" = { reg = "10-13", type = "u16", access = "ro", count = 4 }
+"sync{n}" = { esc = 0x800, type = "u64", access = "rw", count = 3, stride = 8 }
+named = { ascii = "DRV.EN", param = 4, type = "u16", access = "rw", buses = ["serial"] }
+[[chapters]]
+title = "Two"
+space = "coil"
+[chapters.registers]
+gain = { reg = 1, type = "bool", access = "rw" }
+mode = { reg = "8-15", type = "u8", access = "rw", when = { "One/mode" = ["1..2"] } }
+[[chapters]]
+title = "Objects"
+[chapters.objects]
+0x3588 = { name = "Velocity gain", type = "u32", access = "rw", ascii = "VL.KP", param = 480, reg = "20-21", order = "low_first" }
+[bits.Status.at]
+"0..2" = "input {n+1}"
+3 = [{ name = "x", when = { power = { mask = 4, value = 4 } } }, { name = "y", when = { power = { mask = 4, value = 0 } } }]
+4 = { name = "kept", reserved = 1 }
+5 = { name = "z", access = "ro", replaced_by = "bit 6" }
+"15-6" = { reserved = 0 }
+[enums.Mode.values]
+0 = { name = "off", buses = ["ethercat"] }
+1 = { name = "on", when = { power = [1, "3..4"] } }
+2 = { name = "old", models = ["SM137"], until = "2.0", replaced_by = "on" }
+[codes.alarm.rows]
+1 = { name = "hot", doc = "Cool it.", models = ["SM140"], since = "2.0" }
+"#;
+
+#[test]
+fn all_of_it_compiles() {
+    assert_eq!(said(EVERYTHING), [""; 0]);
+    for accessors in [true, false] {
+        let compilation = read(EVERYTHING);
+        let text = compilation.rust(&RustOptions { accessors, ..RustOptions::default() }).expect("Rust");
+        compile("rows", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
+        let body = text.lines().skip_while(|line| line.starts_with("//") || line.is_empty());
+        let body: String = body.flat_map(|line| [line, "\n"]).collect();
+        assert_eq!(body, prettyplease::unparse(&syn::parse_file(&body).expect("Rust")));
+    }
 }
