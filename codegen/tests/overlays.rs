@@ -389,3 +389,18 @@ fn findings_about_what_an_overlay_said_are_in_the_overlay() {
     assert_eq!(found.len(), 1);
     assert!(found[0].0 == "TAB025" && found[0].1.starts_with("0x2000 ="), "{found:?}");
 }
+
+#[test]
+fn items_get_other_addresses_and_keep_their_own() {
+    let compilation = apply(&rows(
+        "0x2000 = { ascii = \"SPEED\", param = 7, variants = [{ buses = [\"canopen\"], max = 9 }] }\n\
+         \"0x2010:1..2\" = { ascii = \"G{sub}\" }\n",
+    ));
+    assert_eq!(findings(&compilation), []);
+    assert_eq!((item(&compilation, 0x2000, 0).bindings.len(), item(&compilation, 0x2000, 0).variants.len()), (3, 1));
+    assert!(compilation.rust(&Options::default().rust).is_some_and(|rust| rust.contains("Called G2 in the device")));
+    for row in ["reg = 1", "obj = 0x2005", "part = 3", "swap = true", "count = 2"] {
+        let found = findings(&apply(&rows(&format!("0x2000 = {{ {row}, unit = \"rpm\" }}"))));
+        assert_eq!(found, [("TAB004", "0x2000".to_owned())], "{row}");
+    }
+}

@@ -205,7 +205,8 @@ fn objects_have_other_addresses_beside() {
     let bindings = item(&read(&text), "Velocity gain").bindings.clone();
     assert_eq!(bindings.len(), 5, "{bindings:?}");
     assert!(matches!(&bindings[1], Binding::Register(own) if own.low_word_first && own.count == 2));
-    assert!(rust(&text).contains("velocity_gain"));
+    let rust = rust(&text);
+    assert!(rust.contains("Called VL.KP in the device's ASCII protocol."), "{rust}");
     for (row, words) in [
         (
             "\"0x2000..0x2001\" = { name = \"a\", type = \"u8\", access = \"ro\", param = 1 }",
@@ -428,6 +429,7 @@ fn all_of_it_compiles() {
     for accessors in [true, false] {
         let compilation = read(EVERYTHING);
         let text = compilation.rust(&RustOptions { accessors, ..RustOptions::default() }).expect("Rust");
+        assert!(text.contains("GAIN_1: ") && text.contains("GAIN_COIL_1: "));
         compile("rows", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
         let body = text.lines().skip_while(|line| line.starts_with("//") || line.is_empty());
         let body: String = body.flat_map(|line| [line, "\n"]).collect();

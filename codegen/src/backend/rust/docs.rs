@@ -9,7 +9,7 @@ use super::quantity;
 use super::scope::Scope;
 use super::value_type;
 use super::variant;
-use crate::ir::{Behaviour, Condition, Documentation, Item, Limits, Storage, Type, TypeDef, Value};
+use crate::ir::{Behaviour, Binding, Condition, Documentation, Item, Limits, Storage, Type, TypeDef, Value};
 
 /// Text as one line of Markdown without any markup.
 pub(super) fn escape(text: &str) -> String {
@@ -56,6 +56,7 @@ pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope
     if let Some(behaviour) = &item.behaviour {
         self::behaviour(behaviour, &mut paragraphs);
     }
+    paragraphs.extend(item.bindings.iter().filter_map(elsewhere));
     paragraphs.extend(variant::sentences(item));
     if let Some(availability) = &item.availability {
         paragraphs.push(manual::availability(availability));
@@ -69,6 +70,17 @@ pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope
         lines.extend([String::new(), paragraph]);
     }
     lines
+}
+
+/// An address that no client of the runtime has.
+fn elsewhere(binding: &Binding) -> Option<String> {
+    match binding {
+        Binding::Ascii(name) => Some(format!("Called {} in the device's ASCII protocol.", escape(name))),
+        Binding::EscMemory { address, length } => {
+            Some(format!("Memory of the slave controller: {length} bytes from 0x{address:04X} on."))
+        }
+        _ => None,
+    }
 }
 
 /// What is known of storage, side effects and conditions of writing.

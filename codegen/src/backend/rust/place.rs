@@ -222,10 +222,19 @@ impl<'i> Place<'i> {
     /// What tells the item from others of its name.
     pub fn suffix(&self) -> String {
         match (self.modbus, self.canopen.or(self.coe), self.serial) {
-            (Some(register), _, _) => match register.bit_offset {
-                Some(bit) => format!("{}_{bit}", register.address),
-                None => register.address.to_string(),
-            },
+            (Some(register), _, _) => {
+                // Two tables of Modbus have the same numbers.
+                let table = match register.space {
+                    RegisterSpace::Holding => "",
+                    RegisterSpace::Input => "input_",
+                    RegisterSpace::Coil => "coil_",
+                    RegisterSpace::DiscreteInput => "discrete_",
+                };
+                match register.bit_offset {
+                    Some(bit) => format!("{table}{}_{bit}", register.address),
+                    None => format!("{table}{}", register.address),
+                }
+            }
             (None, Some((index, sub)), _) => format!("{index:04X}_{sub}"),
             (None, None, code) => code.unwrap_or(0).to_string(),
         }
