@@ -217,6 +217,7 @@ fn objects_have_other_addresses_beside() {
         ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", part = 1 }", "`part` can't stand"),
         ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", swap = true }", "`order` can't stand"),
         ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", why = \"x\" }", "`why` can't stand"),
+        ("0x2000 = { name = \"a\", code = \"record\", access = \"ro\" }", "`access` is said of a value"),
         ("0x2000 = { name = \"a {m}\", type = \"u8\", access = \"ro\" }", "nothing fills `{`"),
         ("0x2000 = { name = \"a\", type = \"u8\", access = \"ro\", buses = [\"modbus\"] }", "on neither"),
     ] {

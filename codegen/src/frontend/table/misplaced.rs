@@ -89,3 +89,18 @@ fn report(reader: &mut Reader<'_, '_>, key: &At<String>, list: Misplaced<'_>) {
         reader.diagnostics.push(found.help(*why));
     }
 }
+
+/// The first key of a row that says something of a value, which an object with sub-entries hasn't.
+pub(super) fn of_value(row: &Row) -> Option<&'static str> {
+    macro_rules! first {
+        ($($key:literal $field:ident)*) => {
+            [$(($key, row.$field.is_some())),*].into_iter().find(|(_, is_there)| *is_there).map(|(key, _)| key)
+        };
+    }
+    first!(
+        "type" ty "bits" bits "enum" values "access" access "pdo" pdo "min" min "max" max "default" default
+        "fixed" fixed "allowed" allowed "unit" unit "scale" scale "offset" offset "na" na "step" step
+        "variants" variants "save" save "effective" effective "when" when "writable" writable "clears" clears
+        "once" once "effects" effects "same_as" same_as "reg" reg "esc" esc "length" length "ascii" ascii "param" param
+    )
+}

@@ -87,6 +87,12 @@ fn head(
     if matches!(code, Some(ObjectCode::Array | ObjectCode::Record)) {
         group.doubts =
             reader.doubts([complete.doubt.as_ref(), complete.doubts.as_ref()], group.origin, cite.as_deref());
+        if let Some(of_value) = super::misplaced::of_value(&row.value).filter(|_| number == 0) {
+            let key_text = brief(&key.value);
+            let message = format!("`{key_text}` has sub-entries, and `{of_value}` is said of a value");
+            let found = crate::diagnostics::Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
+            reader.diagnostics.push(found.help(format!("say it of one of them, as in `\"{key_text}:1\"`")));
+        }
         rows.summaries.extend(complete.summary.clone().map(|summary| (index, summary)));
     } else {
         let name = group.name.to_string();

@@ -220,7 +220,7 @@ impl Applied<'_> {
     /// What a row says of an object whose values are its sub-entries.
     fn head(&mut self, reader: &mut Reader<'_, '_>, group: &mut Group, row: &PatchRow, number: u32) -> Outcome {
         let own = &row.row.value;
-        if says_value(own) {
+        if super::super::misplaced::of_value(own).is_some() {
             let key = brief(&row.key.value);
             let message = format!("`{key}` has sub-entries: say it of one of them, as in `\"{key}:1\"`");
             reader.report(&codes::TABLE_PLACE, reader.span(&row.key), message);
@@ -320,14 +320,6 @@ fn name_of<T>(given: &TextOr<T>) -> Option<String> {
         TextOr::Text(name) => Some(name.clone()),
         TextOr::Table(_) => None,
     }
-}
-
-/// Whether a row says something of a value.
-fn says_value(row: &Row) -> bool {
-    let meaning = row.ty.is_some() || row.bits.is_some() || row.values.is_some() || row.unit.is_some();
-    let access = row.access.is_some() || row.pdo.is_some() || row.save.is_some();
-    let limits = row.min.is_some() || row.max.is_some() || row.default.is_some() || row.fixed.is_some();
-    meaning || access || limits || row.scale.is_some() || row.allowed.is_some() || row.na.is_some()
 }
 
 /// The items that go by `key`: their name, or the name of their group and theirs.
