@@ -106,7 +106,8 @@ fn is_allowed(value: &Value, allowed: &[(Value, Value)]) -> bool {
 }
 
 fn report(diagnostics: &mut Diagnostics, span: Span, message: String, limit: Span) {
-    let mut diagnostic = Diagnostic::new(&codes::DEFAULT_OUT_OF_LIMITS, span, message);
+    let mut diagnostic = Diagnostic::new(&codes::DEFAULT_OUT_OF_LIMITS, span, message)
+        .help("one of the numbers is misprinted: compare them with the manual, and correct it");
     if !limit.is_empty() {
         diagnostic = diagnostic.note_at(limit, "the limit");
     }

@@ -140,7 +140,8 @@ impl Taken {
             let (own, its) = (brief(&item.name), brief(&other.name));
             let message = format!("`{own}` and `{its}` are parts of {address} and share bits");
             let found = Diagnostic::new(&codes::REGISTERS_SHARED, item.at.name, message);
-            reader.diagnostics.push(found.note_at(other.span, "the other one is here"));
+            let found = found.note_at(other.span, "the other one is here");
+            reader.diagnostics.push(found.help("one of the two has the wrong bits in `part`, or the wrong number"));
         }
         let availability = item.availability.clone();
         parts.push(Part { bits, name: item.name.clone(), span: item.at.name, availability });
