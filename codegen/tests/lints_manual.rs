@@ -243,6 +243,7 @@ fn words_that_are_no_names() {
     let rows = r#"Rposact = { reg = 1, type = "i16", doc = "Reset, Rotor and Position; Rposreq and Rdefinpx are told" }
 Rposreq = { reg = 2, type = "i16", doc = "Posact, Rposrez5 or RPOSACT" }
 Rdefinp0 = { reg = 3, type = "i16", doc = "Rdefinp1, Rdefinp, Rposacts" }
+Rdefinp2 = { reg = 4, type = "i16" }
 "#;
     registers(rows, &[]);
     // Without a letter in front of all of them, names are words like others.
@@ -279,6 +280,7 @@ fn item_24_rows_without_a_name_and_one_with_its_description() {
     let words = r#""Maximum charging current of the first battery bank" = { reg = 1, type = "u16" }
 "Low-pass filter" = { reg = 2, type = "u16" }
 low-pass = { reg = 3, type = "u16" }
+CO-alarm = { reg = 4, type = "u16" }
 "#;
     registers(words, &[]);
 }

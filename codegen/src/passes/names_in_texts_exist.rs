@@ -12,7 +12,7 @@ use crate::text::{brief, edit_distance};
 const LETTERS: std::ops::RangeInclusive<usize> = 6..=48;
 
 /// Of so many names, nine tenths show how a table names its items.
-const CONVENTION: usize = 3;
+const CONVENTION: usize = 4;
 
 /// So many names and different words are compared at most: no table of a person has more.
 const MAX_NAMES: usize = 5_000;

@@ -149,11 +149,13 @@ fn description(name: &str, are_words: bool) -> Option<&'static str> {
     }
 }
 
-/// A column breaks `Rcamstspctrl` into `Rcamstspc-trl`, too; but `low-pass` is a word of small letters, as a whole.
+/// A column breaks `Rcamstspctrl` into `Rcamstspc-trl`, too. `low-pass` is a word of small letters, and `CO-alarm` has an
+/// abbreviation in front.
 fn syllables(name: &str, at: Span, diagnostics: &mut Diagnostics) {
     let letters = || name.chars().zip(name.chars().skip(1)).zip(name.chars().skip(2));
-    let is_broken =
-        letters().any(|((before, mark), after)| before.is_alphanumeric() && mark == '-' && after.is_lowercase());
+    let is_broken = letters().any(|((before, mark), after)| {
+        (before.is_lowercase() || before.is_numeric()) && mark == '-' && after.is_lowercase()
+    });
     if is_broken && name.contains(char::is_uppercase) && !name.contains(char::is_whitespace) {
         broken(name, &name.replace('-', ""), at, diagnostics);
     }
