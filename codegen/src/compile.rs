@@ -159,8 +159,8 @@ pub fn check(source: Source, options: &Options) -> Compilation {
         options.select.objects(catalog);
     }
     // One row of a table stands for several items, which share what is wrong with it.
-    let mut files = compilation.catalog.iter().flat_map(|catalog| &catalog.files);
-    if files.any(|file| file.format == Format::Table) {
+    let described_by = compilation.catalog.as_ref().and_then(|catalog| catalog.files.first());
+    if described_by.is_some_and(|file| file.format == Format::Table) {
         compilation.diagnostics.forget_repeated(0);
     }
     compilation.diagnostics.sort();

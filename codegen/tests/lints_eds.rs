@@ -407,6 +407,14 @@ fn digits_beyond_the_type() {
 }
 
 #[test]
+fn a_reading_that_is_never_zero() {
+    let input = "DataType=0x0003\nAccessType=ro\nPDOMapping=1\n";
+    let limits = |low: i32| format!("{input}LowLimit={low}\nHighLimit=9\n");
+    assert_lint(input, &limits(5), &["TAB023"]);
+    assert_lint(input, &limits(-9), &[]);
+}
+
+#[test]
 fn fewer_entries_than_announced() {
     for (from, to) in [
         ("SupportedObjects=4", "SupportedObjects=5"),
