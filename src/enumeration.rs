@@ -80,6 +80,9 @@ impl<E: Enumeration> Fixed for E {
             Range::From(low) => Range::From(low.native()),
             Range::To(high) => Range::To(high.native()),
             Range::Between(low, high) => Range::Between(low.native(), high.native()),
+            Range::OneOf(list) => {
+                return list.iter().any(|(low, high)| E::in_range(value, &Range::Between(*low, *high)))
+            }
         };
         <E::Base as Fixed>::in_range(value.native(), &base)
     }

@@ -2,7 +2,7 @@
 
 /// A range of values; both limits belong to it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Range<T> {
+pub enum Range<T: 'static> {
     /// Everything that the type can hold.
     #[default]
     Full,
@@ -12,6 +12,8 @@ pub enum Range<T> {
     To(T),
     /// From the first value to the second.
     Between(T, T),
+    /// One of several values or ranges: the first and the last value of each.
+    OneOf(&'static [(T, T)]),
 }
 
 impl<T: PartialOrd> Range<T> {
@@ -23,6 +25,7 @@ impl<T: PartialOrd> Range<T> {
             Self::From(low) => *low <= value,
             Self::To(high) => value <= *high,
             Self::Between(low, high) => *low <= value && value <= *high,
+            Self::OneOf(list) => list.iter().any(|(low, high)| *low <= value && value <= *high),
         }
     }
 }
@@ -39,6 +42,9 @@ mod tests {
         let between = Range::Between(-1, 1);
         assert!(between.contains(-1) && between.contains(1));
         assert!(!between.contains(-2) && !between.contains(2));
+        let several = Range::OneOf(&[(1, 1), (4, 6)]);
+        assert!(several.contains(1) && several.contains(6));
+        assert!(!several.contains(2) && !several.contains(7));
     }
 
     #[test]

@@ -149,6 +149,16 @@ fn places_of_modbus() {
 }
 
 #[test]
+fn only_values_that_are_allowed_are_written() {
+    let mut press = Press::new(Registers::default());
+    assert_eq!(press.stroke().write(5), Ok(()));
+    assert_eq!(press.stroke().write(15), Ok(()));
+    assert_eq!(press.stroke().write(6), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(press.sizes().write(Mode::Eject), Ok(()));
+    assert_eq!(press.sizes().write(Mode::Unknown(3)), Err(Error::OutOfRange(OutOfRange)));
+}
+
+#[test]
 fn equal_names_have_their_addresses() {
     assert_eq!(objects::POSITION_8.location().canopen, Object::new(0x2008, 1));
     assert_eq!(objects::POSITION_107.location().modbus, Register::holding(107));

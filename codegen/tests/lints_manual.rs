@@ -626,7 +626,7 @@ Rtim6 = { reg = "540-41", type = "u32", unit = "ms", min = 0, cite = 2767 }
 Rtim7 = { reg = "542-43", type = "u32", unit = "ms", min = 0, cite = 2768 }
 Rfreerun = { reg = "10154-55", type = "u32", access = "ro", unit = "ms", min = 0, max = 0xFFFFFFFF, cite = 2769 }
 "#;
-    let found = registers(rows, &[1, 2, 3, 4].map(|line| ("TAB050", line, "0")));
+    let found = registers(rows, &[1, 2, 3, 4].map(|line| ("TAB042", line, "0")));
     assert_eq!(message(&found, 0), "`Rtim4` has the limit 0, which is that of its type, and no upper one");
     // One limit that says something is a limit.
     registers("Rone = { reg = 1, type = \"u16\", min = 1 }\nRmost = { reg = 2, type = \"u16\", max = 100 }\n", &[]);

@@ -810,7 +810,7 @@ f = { reg = 22, type = "u16" }
 h = { reg = 30, type = "u8", part = "7-0" }
 i = { reg = 30, type = "u8", part = "8-1" }
 "#;
-    let found = registers(rows, &[("TAB051", "d"), ("TAB051", "f"), ("TAB051", "i")]);
+    let found = registers(rows, &[("TAB043", "d"), ("TAB043", "f"), ("TAB043", "i")]);
     assert_eq!(message(&found, 0), "`d` takes holding register 13, and `c` takes 12 to 13");
     assert_eq!(message(&found, 1), "`f` takes holding register 22, and `e` takes 20 to 23");
     assert_eq!(message(&found, 2), "`i` and `h` are parts of object 0x201E:0 and share bits");
@@ -818,7 +818,7 @@ i = { reg = 30, type = "u8", part = "8-1" }
     let rows = r#"d = { reg = 13, type = "u16" }
 c = { reg = "12-13", type = "u32" }
 "#;
-    registers(rows, &[("TAB051", "c")]);
+    registers(rows, &[("TAB043", "c")]);
     let rows = r#"c = { reg = "12-13", type = "u32" }
 d = { reg = 14, type = "u16" }
 b = { reg = 11, type = "u16" }

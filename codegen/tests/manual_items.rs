@@ -116,7 +116,7 @@ const ITEMS: &[(&str, How)] = &[
     ("58", Doubt(&[(574, "0x601"), (944, "0x00000580")])),
     // A picture of a running drive.
     ("59", Doubt(&[(464, "RW P 3849")])),
-    ("60", Finding("item_60_defaults_in_the_cell_of_the_limit", &["TAB004", "TAB050"])),
+    ("60", Finding("item_60_defaults_in_the_cell_of_the_limit", &["TAB004", "TAB042"])),
     ("60", Import("item_60_a_default_in_the_cell_of_a_limit", &["CSV003"])),
     // 4.4: damage in general. Headings and split letters; HTML and LaTeX; figures; what breaks off; spellings of notes; WORD.
     ("4.4 headings", Doubt(&[(167, "V ARIE")])),

@@ -21560,7 +21560,7 @@ pub mod objects {
     );
     /// Rdefum.
     ///
-    /// 0x2064:01, holding register 100, UNSIGNED16, rw, range 1 to 100.
+    /// 0x2064:01, holding register 100, UNSIGNED16, rw, one of 1, 10, 100.
     ///
     /// Divisor of speeds and accelerations: the ratio of the set value to the real one
     ///
@@ -21574,9 +21574,21 @@ pub mod objects {
         0x01,
         rt::Register::holding(100),
         "Rdefum",
-        rt::Range::Between(
-            super::types::SpeedDivisor::from_raw(1),
-            super::types::SpeedDivisor::from_raw(100),
+        rt::Range::OneOf(
+            &[
+                (
+                    super::types::SpeedDivisor::from_raw(1),
+                    super::types::SpeedDivisor::from_raw(1),
+                ),
+                (
+                    super::types::SpeedDivisor::from_raw(10),
+                    super::types::SpeedDivisor::from_raw(10),
+                ),
+                (
+                    super::types::SpeedDivisor::from_raw(100),
+                    super::types::SpeedDivisor::from_raw(100),
+                ),
+            ],
         ),
         "",
         rt::Flags::NONE,

@@ -824,10 +824,10 @@ codes! {
         "The column of the manual was too narrow for the name; its prose often has the whole one. Or the name's cell has the \
         description beside it as well: values (`0 = Stop`), tags, or a sentence where other registers are called by a word. Or a \
         bit or value is called `Definition`, as columns are: then a line of the printed table slid."
-    TAB050 EMPTY_LIMIT "empty-limit" Lint Warn
+    TAB042 EMPTY_LIMIT "empty-limit" Lint Warn
         "a row has one limit, which is that of its type"
         "A lower limit of 0 says nothing of an unsigned value. The manual's cell for the other limit is empty, or was lost."
-    TAB051 REGISTERS_SHARED "shared-registers" Lint Warn
+    TAB043 REGISTERS_SHARED "shared-registers" Lint Warn
         "two items share registers, or bits of one"
         "One of the two has the wrong number, or a type that is too long. Where the device shows a part of a value in registers \
          of its own, say so: `part`, or `same_as` and this code in `allow`."

@@ -120,7 +120,9 @@ fn facts(device: &Device, is_table: bool, diagnostics: &mut Diagnostics) {
     let owner = Owner { types: &device.types, groups: &groups };
     access_checked::run(owner, is_table, diagnostics);
     limits_named::both_given(owner, diagnostics);
-    limits_complete::run(owner, diagnostics);
+    if is_table {
+        limits_complete::run(owner, diagnostics);
+    }
     conditions_possible::run(owner, diagnostics);
     names_tell_apart::run(device, is_table, diagnostics);
     titles_are_no_names::run(owner, diagnostics);

@@ -2,7 +2,7 @@
 //! and reported on.
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Device, Format, Group, Item, Module, ObjectCode, Shape, Type, TypeDef, TypeId, Value};
+use crate::ir::{AxisStep, Device, Format, Group, Item, Module, ObjectCode, Shape, Type, TypeDef, TypeId, Value};
 
 pub(super) fn run(device: &Device, modules: &[Module], format: Option<Format>, diagnostics: &mut Diagnostics) {
     let fixed = device.own_modules(modules).flat_map(|module| &module.fixed_objects);
@@ -17,7 +17,9 @@ pub(super) fn run(device: &Device, modules: &[Module], format: Option<Format>, d
         }
         if matches!(code, ObjectCode::Array | ObjectCode::Record) {
             structure(group, index, format, diagnostics);
-            highest_sub(group, index, diagnostics);
+            if !has_entries_of_axes(device, index) {
+                highest_sub(group, index, diagnostics);
+            }
             sub0_access(group, index, diagnostics);
         }
         if code == ObjectCode::Array {
@@ -76,6 +78,13 @@ fn structure(group: &Group, index: u16, format: Option<Format>, diagnostics: &mu
 /// Whether sub-index 0 is the number of valid entries, and not the highest sub-index.
 fn is_counter(index: u16) -> bool {
     matches!(index, 0x1003 | 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C10..=0x1C2F)
+}
+
+/// Whether further axes have sub-indices of their own in the object, which sub-index 0 counts as well.
+fn has_entries_of_axes(device: &Device, index: u16) -> bool {
+    let rules = device.axes.iter().flat_map(|axes| &axes.rules);
+    let rule = rules.into_iter().find(|rule| (rule.indices.0..=rule.indices.1).contains(&index));
+    rule.is_some_and(|rule| !matches!(rule.step, AxisStep::Index(_)))
 }
 
 fn highest_sub(group: &Group, index: u16, diagnostics: &mut Diagnostics) {

@@ -190,6 +190,18 @@ pub(super) fn value(value: &Value) -> String {
 
 pub(super) fn limits(limits: &Limits) -> Option<String> {
     let depends = [&limits.low, &limits.high].into_iter().any(|limit| matches!(limit, Some(Value::NodeId(_))));
+    if !limits.allowed.is_empty() {
+        const SHOWN: usize = 16;
+        let one = |(first, last): &(Value, Value)| match first == last {
+            true => value(first),
+            false => format!("{} to {}", value(first), value(last)),
+        };
+        let mut list: Vec<String> = limits.allowed.iter().take(SHOWN).map(one).collect();
+        if limits.allowed.len() > SHOWN {
+            list.push("…".to_owned());
+        }
+        return Some(format!("one of {}", list.join(", ")));
+    }
     let text = match (&limits.low, &limits.high) {
         (Some(low), Some(high)) => Some(format!("range {} to {}", value(low), value(high))),
         (Some(low), None) => Some(format!("at least {}", value(low))),

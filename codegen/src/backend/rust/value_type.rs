@@ -146,6 +146,9 @@ impl ValueType {
     /// A `Range` of the type: limits beyond the type are clamped to it, impossible ones are not checked.
     pub(super) fn range_as(self, limits: &Limits, wrap: &dyn Fn(String) -> String) -> String {
         const FULL: &str = "rt::Range::Full";
+        if let Some(list) = self.only(limits, wrap) {
+            return list;
+        }
         if limits.is_empty() {
             return FULL.to_owned();
         }
@@ -166,6 +169,16 @@ impl ValueType {
             (None, Some(high)) => format!("rt::Range::To(«{high}»)"),
             (Some(low), Some(high)) => format!("rt::Range::Between(«{low}¦ {high}»)"),
         }
+    }
+
+    /// The only values, where the type has all of them.
+    fn only(self, limits: &Limits, wrap: &dyn Fn(String) -> String) -> Option<String> {
+        let (low, high) = self.integers().filter(|_| !limits.allowed.is_empty())?;
+        let one =
+            |value: &Value| value.as_int().filter(|number| (low..=high).contains(number)).map(|own| own.to_string());
+        let range = |(first, last): &(Value, Value)| Some(format!("(«{}¦ {}»)", wrap(one(first)?), wrap(one(last)?)));
+        let list: Option<Vec<String>> = limits.allowed.iter().map(range).collect();
+        Some(format!("rt::Range::OneOf(«&[«{}»]»)", list?.join("¦ ")))
     }
 
     fn integer_limits(self, limits: &Limits, range: (i128, i128)) -> Option<(Option<String>, Option<String>)> {
