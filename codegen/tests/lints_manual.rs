@@ -2,31 +2,13 @@
 //! has its finding at its row. The number in a test's name is that of the notes; `cite` has the manual's lines. `manual_items` is
 //! the overview of all 60 items: those that are here, in `lints_table` and in `import`, and those that only a doubt can tell.
 
+#[path = "table_support/heads.rs"]
+mod heads;
+
+use heads::*;
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::Level;
 use lexibus_codegen::source::Source;
-
-const DEVICE: &str = r#"lexibus = 1
-[device]
-name = "Vector Step"
-"#;
-const CANOPEN: &str = r#"lexibus = 1
-[device]
-name = "Vector Step"
-buses = ["canopen"]
-"#;
-const REGISTERS: &str = r#"lexibus = 1
-[device]
-name = "Vector Step"
-[defaults]
-access = "rw"
-[spaces.register]
-canopen = { index = 0x2000 }
-modbus = {}
-[[chapters]]
-[chapters.registers]
-"#;
-const OBJECTS: &str = "[[chapters]]\n[chapters.objects]\n";
 
 fn compile(text: &str) -> Compilation {
     let mut options = Options { no_profiles: true, ..Options::default() };
@@ -70,14 +52,6 @@ fn objects(rows: &str, expected: &[Found<'_>]) -> Compilation {
 #[track_caller]
 fn canopen(rows: &str, expected: &[Found<'_>]) -> Compilation {
     flags(&format!("{CANOPEN}{OBJECTS}"), rows, expected)
-}
-
-fn message(compilation: &Compilation, at: usize) -> &str {
-    &compilation.diagnostics.list()[at].message
-}
-
-fn help(compilation: &Compilation, at: usize) -> &str {
-    compilation.diagnostics.list()[at].help.as_deref().unwrap_or_default()
 }
 
 /// The boxes of a receive PDO (L954-1044), of which the procedure speaks, and what it maps.

@@ -2,30 +2,13 @@
 //! the number in a test's name is that of section 4 of the notes on the AEC Vector Step; lines (`cite`) are the manual's. More of
 //! them are in `lints_manual`, and `manual_items` lists them all.
 
+#[path = "table_support/heads.rs"]
+mod heads;
+
+use heads::*;
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::Level;
 use lexibus_codegen::source::Source;
-
-const DEVICE: &str = r#"lexibus = 1
-[device]
-name = "Vector Step"
-"#;
-const CANOPEN: &str = r#"lexibus = 1
-[device]
-name = "Vector Step"
-buses = ["canopen"]
-"#;
-const REGISTERS: &str = r#"lexibus = 1
-[device]
-name = "Vector Step"
-[defaults]
-access = "rw"
-[spaces.register]
-canopen = { index = 0x2000 }
-modbus = {}
-[[chapters]]
-[chapters.registers]
-"#;
 
 fn compile(text: &str, wanted: &[&str]) -> Compilation {
     let mut options = Options { no_profiles: true, ..Options::default() };
@@ -68,21 +51,13 @@ fn registers(rows: &str, expected: &[(&str, &str)]) -> Compilation {
 /// Rows of `[chapters.objects]`, and what follows.
 #[track_caller]
 fn objects(rows: &str, expected: &[(&str, &str)]) -> Compilation {
-    flags(&format!("{DEVICE}[[chapters]]\n[chapters.objects]\n{rows}"), expected)
+    flags(&format!("{DEVICE}{OBJECTS}{rows}"), expected)
 }
 
 /// The same of a CANopen device.
 #[track_caller]
 fn canopen(rows: &str, expected: &[(&str, &str)]) -> Compilation {
-    flags(&format!("{CANOPEN}[[chapters]]\n[chapters.objects]\n{rows}"), expected)
-}
-
-fn message(compilation: &Compilation, at: usize) -> &str {
-    &compilation.diagnostics.list()[at].message
-}
-
-fn help(compilation: &Compilation, at: usize) -> &str {
-    compilation.diagnostics.list()[at].help.as_deref().unwrap_or_default()
+    flags(&format!("{CANOPEN}{OBJECTS}{rows}"), expected)
 }
 
 #[test]
