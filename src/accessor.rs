@@ -19,7 +19,7 @@ use crate::value::Value;
 /// arguments depend on the type `V`. Those without a suffix ask for a [`Client`], those that end in `_async` for an
 /// [`AsyncClient`].
 ///
-/// Every method fails with [`Error::Client`] where the client does; its own documentation names the other errors. An
+/// Every method fails as the client does (see [`Client::read`]); its own documentation names the other errors. An
 /// answer that doesn't fit is always [`Error::Length`], never a panic.
 pub struct Accessor<'c, C, V: Value, A, L> {
     client: &'c mut C,
@@ -45,7 +45,7 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
         L: On<C::Bus>,
     {
         let address = self.item.location().address();
-        let length = self.client.read(address, buffer).map_err(Error::Client)?;
+        let length = self.client.read(address, buffer)?;
         Ok(filled(buffer, length)?)
     }
 
@@ -55,7 +55,7 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
         L: On<C::Bus>,
     {
         let address = self.item.location().address();
-        let length = self.client.read(address, buffer).await.map_err(Error::Client)?;
+        let length = self.client.read(address, buffer).await?;
         Ok(filled(buffer, length)?)
     }
 
@@ -64,7 +64,7 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
         C: Client,
         L: On<C::Bus>,
     {
-        self.client.write(self.item.location().address(), data).map_err(Error::Client)
+        self.client.write(self.item.location().address(), data)
     }
 
     async fn send_async(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
@@ -72,7 +72,7 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
         C: AsyncClient,
         L: On<C::Bus>,
     {
-        self.client.write(self.item.location().address(), data).await.map_err(Error::Client)
+        self.client.write(self.item.location().address(), data).await
     }
 }
 

@@ -1,10 +1,8 @@
 //! Further axes of a device: the same objects at other addresses.
 
-use core::error;
-use core::fmt;
-
 use crate::bus::{Bus, CanOpen, CoE, Object};
 use crate::client::{AsyncClient, Client};
+use crate::error::Error;
 
 /// How many axes a device has, and how the objects of further ones follow from those of the first.
 ///
@@ -99,7 +97,7 @@ pub struct Axis<C> {
 }
 
 impl<C> Axis<C> {
-    /// Axis `number`, from 1. Where there is no such axis, every access is an [`AxisError::NoSuchAxis`].
+    /// Axis `number`, from 1. Where there is no such axis, every access is an [`Error::NoSuchAxis`].
     pub const fn new(client: C, axes: &'static Axes, number: u8) -> Self {
         Self { client, axes, number }
     }
@@ -110,41 +108,8 @@ impl<C> Axis<C> {
         self.number
     }
 
-    fn object<E>(&self, object: Object) -> Result<Object, AxisError<E>> {
-        self.axes.object(self.number, object).ok_or(AxisError::NoSuchAxis { axis: self.number, object })
-    }
-}
-
-/// Why an axis couldn't be accessed. `E` is the client's own error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum AxisError<E> {
-    /// The device has no such axis, or that axis doesn't have the object. Nothing was sent.
-    NoSuchAxis {
-        /// The number of the axis, from 1.
-        axis: u8,
-        /// The object, as the first axis has it.
-        object: Object,
-    },
-    /// The client failed: the bus, or an abort by the device.
-    Client(E),
-}
-
-impl<E: fmt::Display> fmt::Display for AxisError<E> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoSuchAxis { axis, object } => write!(f, "there is no axis {axis} that has object {object}"),
-            Self::Client(error) => error.fmt(f),
-        }
-    }
-}
-
-impl<E: error::Error> error::Error for AxisError<E> {
-    fn source(&self) -> Option<&(dyn error::Error + 'static)> {
-        match self {
-            Self::NoSuchAxis { .. } => None,
-            Self::Client(error) => error.source(),
-        }
+    fn object<E>(&self, object: Object) -> Result<Object, Error<E>> {
+        self.axes.object(self.number, object).ok_or(Error::NoSuchAxis { axis: self.number, object })
     }
 }
 
@@ -164,16 +129,16 @@ where
     C::Bus: AxisBus,
 {
     type Bus = C::Bus;
-    type Error = AxisError<C::Error>;
+    type Error = C::Error;
 
-    fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Self::Error> {
+    fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
         let address = self.object(address)?;
-        self.client.read(address, buffer).map_err(AxisError::Client)
+        self.client.read(address, buffer)
     }
 
-    fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Self::Error> {
+    fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<C::Error>> {
         let address = self.object(address)?;
-        self.client.write(address, data).map_err(AxisError::Client)
+        self.client.write(address, data)
     }
 }
 
@@ -182,23 +147,22 @@ where
     C::Bus: AxisBus,
 {
     type Bus = C::Bus;
-    type Error = AxisError<C::Error>;
+    type Error = C::Error;
 
-    async fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Self::Error> {
+    async fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
         let address = self.object(address)?;
-        self.client.read(address, buffer).await.map_err(AxisError::Client)
+        self.client.read(address, buffer).await
     }
 
-    async fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Self::Error> {
+    async fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<C::Error>> {
         let address = self.object(address)?;
-        self.client.write(address, data).await.map_err(AxisError::Client)
+        self.client.write(address, data).await
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::string::ToString;
 
     const AXES: Axes = Axes {
         count: 3,
@@ -239,11 +203,5 @@ mod tests {
         assert_eq!(found(2, 0x2000, 2), None);
         assert_eq!(found(3, 0x23E8, 250), None);
         assert_eq!(found(3, 0x6040, 0), None);
-    }
-
-    #[test]
-    fn errors_say_which_object() {
-        let error = AxisError::<crate::TextError>::NoSuchAxis { axis: 4, object: Object::new(0x6040, 0) };
-        assert_eq!(error.to_string(), "there is no axis 4 that has object 0x6040:00");
     }
 }

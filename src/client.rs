@@ -1,6 +1,7 @@
 //! What carries an item's bytes: implemented by adapters to bus libraries.
 
 use crate::bus::Bus;
+use crate::error::Error;
 
 /// Reads and writes one device, waiting for each answer.
 ///
@@ -10,7 +11,7 @@ pub trait Client {
     /// The bus that the device is on.
     type Bus: Bus;
 
-    /// What can go wrong.
+    /// What can go wrong on the bus.
     type Error;
 
     /// Reads the value at `address` to the start of `buffer` and returns its length in bytes.
@@ -21,15 +22,16 @@ pub trait Client {
     ///
     /// # Errors
     ///
-    /// Whatever the bus or the device reports.
-    fn read(&mut self, address: <Self::Bus as Bus>::Address, buffer: &mut [u8]) -> Result<usize, Self::Error>;
+    /// [`Error::Client`] where the bus fails, [`Error::Abort`] where the device refuses, [`Error::UnexpectedReply`] and
+    /// [`Error::Length`] where it answers something else.
+    fn read(&mut self, address: <Self::Bus as Bus>::Address, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>>;
 
     /// Writes `data` to the value at `address`.
     ///
     /// # Errors
     ///
-    /// Whatever the bus or the device reports.
-    fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Self::Error>;
+    /// The same as of [`read`](Self::read).
+    fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
 }
 
 /// Reads and writes one device without blocking. The same rules as for [`Client`].
@@ -40,33 +42,37 @@ pub trait AsyncClient {
     /// The bus that the device is on.
     type Bus: Bus;
 
-    /// What can go wrong.
+    /// What can go wrong on the bus.
     type Error;
 
     /// Reads the value at `address`, as [`Client::read`] does.
     ///
     /// # Errors
     ///
-    /// Whatever the bus or the device reports.
-    async fn read(&mut self, address: <Self::Bus as Bus>::Address, buffer: &mut [u8]) -> Result<usize, Self::Error>;
+    /// The same as of [`read`](Self::read).
+    async fn read(
+        &mut self,
+        address: <Self::Bus as Bus>::Address,
+        buffer: &mut [u8],
+    ) -> Result<usize, Error<Self::Error>>;
 
     /// Writes `data` to the value at `address`, as [`Client::write`] does.
     ///
     /// # Errors
     ///
-    /// Whatever the bus or the device reports.
-    async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Self::Error>;
+    /// The same as of [`read`](Self::read).
+    async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
 }
 
 impl<T: Client + ?Sized> Client for &mut T {
     type Bus = T::Bus;
     type Error = T::Error;
 
-    fn read(&mut self, address: <Self::Bus as Bus>::Address, buffer: &mut [u8]) -> Result<usize, Self::Error> {
+    fn read(&mut self, address: <Self::Bus as Bus>::Address, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>> {
         T::read(self, address, buffer)
     }
 
-    fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Self::Error> {
+    fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>> {
         T::write(self, address, data)
     }
 }
@@ -75,11 +81,15 @@ impl<T: AsyncClient + ?Sized> AsyncClient for &mut T {
     type Bus = T::Bus;
     type Error = T::Error;
 
-    async fn read(&mut self, address: <Self::Bus as Bus>::Address, buffer: &mut [u8]) -> Result<usize, Self::Error> {
+    async fn read(
+        &mut self,
+        address: <Self::Bus as Bus>::Address,
+        buffer: &mut [u8],
+    ) -> Result<usize, Error<Self::Error>> {
         T::read(self, address, buffer).await
     }
 
-    async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Self::Error> {
+    async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>> {
         T::write(self, address, data).await
     }
 }
@@ -95,13 +105,13 @@ mod tests {
         type Bus = Serial;
         type Error = ();
 
-        fn read(&mut self, address: Parameter, buffer: &mut [u8]) -> Result<usize, ()> {
+        fn read(&mut self, address: Parameter, buffer: &mut [u8]) -> Result<usize, Error<()>> {
             buffer.fill(address.0 as u8);
             Ok(buffer.len())
         }
 
-        fn write(&mut self, _: Parameter, _: &[u8]) -> Result<(), ()> {
-            Err(())
+        fn write(&mut self, _: Parameter, _: &[u8]) -> Result<(), Error<()>> {
+            Err(Error::Client(()))
         }
     }
 
@@ -116,6 +126,6 @@ mod tests {
         assert_eq!(first(&mut client, 3), Some(3));
         let object: &mut dyn Client<Bus = Serial, Error = ()> = &mut client;
         assert_eq!(first(object, 4), Some(4));
-        assert_eq!(client.write(Parameter(0), &[]), Err(()));
+        assert_eq!(client.write(Parameter(0), &[]), Err(Error::Client(())));
     }
 }

@@ -3,12 +3,26 @@
 use core::error;
 use core::fmt;
 
+use crate::abort::AbortCode;
+use crate::bus::Object;
+
 /// Why an access failed. `E` is the client's own error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Error<E> {
-    /// The client failed: the bus, or an abort by the device.
+    /// The bus failed.
     Client(E),
+    /// The device refused: an abort of an SDO transfer (CiA 301 7.2.4.3.17), or what a bus has instead.
+    Abort(AbortCode),
+    /// The device answered something that is no answer to what it was asked.
+    UnexpectedReply,
+    /// The device has no such axis, or that axis doesn't have the object. Nothing was sent.
+    NoSuchAxis {
+        /// The number of the axis, from 1.
+        axis: u8,
+        /// The object, as the first axis has it.
+        object: Object,
+    },
     /// The value is outside the item's declared range, or doesn't fit its type. Nothing was sent.
     OutOfRange(OutOfRange),
     /// The device sent, or the caller gave, a number of bytes that doesn't fit.
@@ -46,6 +60,9 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Client(error) => error.fmt(f),
+            Self::Abort(code) => write!(f, "the device refused: {code}"),
+            Self::UnexpectedReply => f.write_str("unexpected reply"),
+            Self::NoSuchAxis { axis, object } => write!(f, "there is no axis {axis} that has object {object}"),
             Self::OutOfRange(error) => error.fmt(f),
             Self::Length(error) => error.fmt(f),
             Self::Text(error) => error.fmt(f),
@@ -84,6 +101,12 @@ impl error::Error for LengthError {}
 impl error::Error for OutOfRange {}
 impl error::Error for TextError {}
 
+impl<E> From<AbortCode> for Error<E> {
+    fn from(code: AbortCode) -> Self {
+        Self::Abort(code)
+    }
+}
+
 impl<E> From<OutOfRange> for Error<E> {
     fn from(error: OutOfRange) -> Self {
         Self::OutOfRange(error)
@@ -112,6 +135,10 @@ mod tests {
         let length = Error::<OutOfRange>::from(LengthError { expected: 4, actual: 2 });
         assert_eq!(length.to_string(), "expected 4 bytes, got 2");
         assert_eq!(Error::Client(TextError).to_string(), "invalid text");
+        let missing = Error::<TextError>::NoSuchAxis { axis: 4, object: Object::new(0x6040, 0) };
+        assert_eq!(missing.to_string(), "there is no axis 4 that has object 0x6040:00");
+        let refused = Error::<TextError>::from(AbortCode::READ_ONLY);
+        assert_eq!(refused.to_string(), "the device refused: 0x06010002: attempt to write a read-only object");
         assert_eq!(Error::<TextError>::from(OutOfRange).to_string(), "value out of range");
     }
 }

@@ -30,14 +30,14 @@
 //!     type Bus = CanOpen;
 //!     type Error = core::convert::Infallible;
 //!
-//!     fn read(&mut self, _: Object, buffer: &mut [u8]) -> Result<usize, Self::Error> {
+//!     fn read(&mut self, _: Object, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>> {
 //!         for (to, from) in buffer.iter_mut().zip(self.0) {
 //!             *to = from;
 //!         }
 //!         Ok(buffer.len())
 //!     }
 //!
-//!     fn write(&mut self, _: Object, data: &[u8]) -> Result<(), Self::Error> {
+//!     fn write(&mut self, _: Object, data: &[u8]) -> Result<(), Error<Self::Error>> {
 //!         for (to, from) in self.0.iter_mut().zip(data) {
 //!             *to = *from;
 //!         }
@@ -65,6 +65,7 @@
 #[cfg(test)]
 extern crate std;
 
+mod abort;
 mod access;
 mod accessor;
 mod axes;
@@ -95,9 +96,10 @@ mod time;
 mod value;
 mod wide;
 
+pub use abort::AbortCode;
 pub use access::{Const, Readable, Ro, Rw, Wo, Writable};
 pub use accessor::Accessor;
-pub use axes::{Axes, Axis, AxisBus, AxisError, AxisRange, AxisStep};
+pub use axes::{Axes, Axis, AxisBus, AxisRange, AxisStep};
 pub use bit_field::DebugBits;
 pub use bus::{Bus, CanOpen, CoE, Modbus, Object, Parameter, Profinet, Record, Serial};
 pub use client::{AsyncClient, Client};

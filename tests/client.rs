@@ -40,13 +40,13 @@ impl Client for Memory {
     type Bus = CanOpen;
     type Error = Object;
 
-    fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Object> {
-        let value = self.0.get(&address).ok_or(address)?;
+    fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Error<Object>> {
+        let value = self.0.get(&address).ok_or(Error::Client(address))?;
         buffer.iter_mut().zip(value).for_each(|(to, from)| *to = *from);
         Ok(value.len())
     }
 
-    fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Object> {
+    fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<Object>> {
         self.0.insert(address, data.to_vec());
         Ok(())
     }
@@ -56,11 +56,11 @@ impl AsyncClient for Memory {
     type Bus = CanOpen;
     type Error = Object;
 
-    async fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Object> {
+    async fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Error<Object>> {
         Client::read(self, address, buffer)
     }
 
-    async fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Object> {
+    async fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<Object>> {
         Client::write(self, address, data)
     }
 }
@@ -152,9 +152,9 @@ fn a_configuration_is_written_step_by_step() -> Result<(), Error<Object>> {
     let mut device = Memory::default();
     let node = NodeId::new(5).expect("5 is a node-ID");
     let cob_id = COB_ID.initial().resolve(node).expect("it fits");
-    SdoWrite::new_u32(0x1400, 1, cob_id | 1 << 31).send(&mut device).map_err(Error::Client)?;
+    SdoWrite::new_u32(0x1400, 1, cob_id | 1 << 31).send(&mut device)?;
     assert_eq!(COB_ID.at(&mut device).read()?, 0x8000_0205);
-    now(SdoWrite::new_u32(0x1400, 1, cob_id).send_async(&mut device)).map_err(Error::Client)?;
+    now(SdoWrite::new_u32(0x1400, 1, cob_id).send_async(&mut device))?;
     assert_eq!(COB_ID.at(&mut device).read()?, 0x205);
     Ok(())
 }

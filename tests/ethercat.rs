@@ -287,12 +287,12 @@ impl Client for Recorder {
     type Bus = CoE;
     type Error = core::convert::Infallible;
 
-    fn read(&mut self, _: Object, buffer: &mut [u8]) -> Result<usize, Self::Error> {
+    fn read(&mut self, _: Object, buffer: &mut [u8]) -> Result<usize, lexibus::Error<Self::Error>> {
         buffer[0] = 2;
         Ok(1)
     }
 
-    fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Self::Error> {
+    fn write(&mut self, address: Object, data: &[u8]) -> Result<(), lexibus::Error<Self::Error>> {
         self.0.push((address, data.to_vec()));
         Ok(())
     }

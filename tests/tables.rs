@@ -1,10 +1,10 @@
 //! Register tables from description to device: the bindings of `data/press.toml`, with a client of each bus.
 
 use std::collections::HashMap;
+use std::convert::Infallible;
 
 use lexibus::{
-    codes, AxisError, CanOpen, Client, CoE, Error, LengthError, Modbus, Object, OutOfRange, Parameter, Register,
-    RegisterTable, Serial,
+    codes, CanOpen, Client, CoE, Error, Modbus, Object, OutOfRange, Parameter, Register, RegisterTable, Serial,
 };
 
 lexibus::dictionary! {
@@ -26,13 +26,13 @@ impl<B: lexibus::Bus<Address = Object>> Client for Objects<B> {
     type Bus = B;
     type Error = Object;
 
-    fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Object> {
-        let value = self.entries.get(&address).ok_or(address)?;
+    fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Error<Object>> {
+        let value = self.entries.get(&address).ok_or(Error::Client(address))?;
         buffer.iter_mut().zip(value).for_each(|(to, from)| *to = *from);
         Ok(value.len())
     }
 
-    fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Object> {
+    fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<Object>> {
         self.entries.insert(address, data.to_vec());
         Ok(())
     }
@@ -58,20 +58,20 @@ impl Registers {
 
 impl Client for Registers {
     type Bus = Modbus;
-    type Error = LengthError;
+    type Error = Infallible;
 
-    fn read(&mut self, register: Register, buffer: &mut [u8]) -> Result<usize, LengthError> {
+    fn read(&mut self, register: Register, buffer: &mut [u8]) -> Result<usize, Error<Infallible>> {
         match register.table {
             RegisterTable::Coil | RegisterTable::DiscreteInput => {
                 let bit = self.bits.get(&(register.table, register.address));
                 buffer[0] = u8::from(bit.copied().unwrap_or(false));
                 Ok(1)
             }
-            _ => register.decode(&self.words(register), buffer),
+            _ => Ok(register.decode(&self.words(register), buffer)?),
         }
     }
 
-    fn write(&mut self, register: Register, data: &[u8]) -> Result<(), LengthError> {
+    fn write(&mut self, register: Register, data: &[u8]) -> Result<(), Error<Infallible>> {
         if register.table == RegisterTable::Coil {
             self.bits.insert((register.table, register.address), data[0] != 0);
             return Ok(());
@@ -93,13 +93,13 @@ impl Client for Parameters {
     type Bus = Serial;
     type Error = ();
 
-    fn read(&mut self, number: Parameter, buffer: &mut [u8]) -> Result<usize, ()> {
-        let value = self.0.get(&number).ok_or(())?;
+    fn read(&mut self, number: Parameter, buffer: &mut [u8]) -> Result<usize, Error<()>> {
+        let value = self.0.get(&number).ok_or(Error::Client(()))?;
         buffer[..value.len()].copy_from_slice(value);
         Ok(value.len())
     }
 
-    fn write(&mut self, number: Parameter, data: &[u8]) -> Result<(), ()> {
+    fn write(&mut self, number: Parameter, data: &[u8]) -> Result<(), Error<()>> {
         self.0.insert(number, data.to_vec());
         Ok(())
     }
@@ -179,7 +179,7 @@ fn further_axes() {
     assert_eq!(entries[&Object::new(0x200D, 1)], [3, 0]);
     assert_eq!(press.axis(2).velocity().read_scaled(), Ok(Some(2.0)));
     let object = Object::new(0x607A, 0);
-    assert_eq!(press.axis(3).target_position().read(), Err(Error::Client(AxisError::NoSuchAxis { axis: 3, object })));
+    assert_eq!(press.axis(3).target_position().read(), Err(Error::NoSuchAxis { axis: 3, object }));
 }
 
 #[test]

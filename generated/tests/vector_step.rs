@@ -3,9 +3,10 @@
 #![cfg(feature = "vector-step")]
 
 use std::collections::HashMap;
+use std::convert::Infallible;
 use std::marker::PhantomData;
 
-use lexibus::{AxisError, Bus, CanOpen, Client, CoE, Error, LengthError, Modbus, Object, OutOfRange, Register};
+use lexibus::{Bus, CanOpen, Client, CoE, Error, Modbus, Object, OutOfRange, Register};
 use lexibus_drives::vector_step::types::{
     Controlword, DriveCommand, EepromCommand, ModesOfOperation, State, Statusword,
 };
@@ -24,13 +25,13 @@ impl<B: Bus<Address = Object>> Client for Objects<B> {
     type Bus = B;
     type Error = Object;
 
-    fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, Object> {
-        let value = self.0.get(&object).ok_or(object)?;
+    fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, Error<Object>> {
+        let value = self.0.get(&object).ok_or(Error::Client(object))?;
         buffer.iter_mut().zip(value).for_each(|(to, from)| *to = *from);
         Ok(value.len())
     }
 
-    fn write(&mut self, object: Object, data: &[u8]) -> Result<(), Object> {
+    fn write(&mut self, object: Object, data: &[u8]) -> Result<(), Error<Object>> {
         self.0.insert(object, data.to_vec());
         Ok(())
     }
@@ -41,16 +42,16 @@ struct Words([u16; 0x4000]);
 
 impl Client for Words {
     type Bus = Modbus;
-    type Error = LengthError;
+    type Error = Infallible;
 
-    fn read(&mut self, register: Register, buffer: &mut [u8]) -> Result<usize, LengthError> {
+    fn read(&mut self, register: Register, buffer: &mut [u8]) -> Result<usize, Error<Infallible>> {
         let first = usize::from(register.address);
-        register.decode(&self.0[first..first + usize::from(register.count)], buffer)
+        Ok(register.decode(&self.0[first..first + usize::from(register.count)], buffer)?)
     }
 
-    fn write(&mut self, register: Register, data: &[u8]) -> Result<(), LengthError> {
+    fn write(&mut self, register: Register, data: &[u8]) -> Result<(), Error<Infallible>> {
         let first = usize::from(register.address);
-        register.encode(data, &mut self.0[first..first + usize::from(register.count)])
+        Ok(register.encode(data, &mut self.0[first..first + usize::from(register.count)])?)
     }
 }
 
@@ -104,7 +105,7 @@ fn each_of_three_axes_has_its_objects() {
     drive.axis(3).rloadsav().write(EepromCommand::from_raw(129)).unwrap();
     assert!(drive.client().0.contains_key(&Object::new(0x20C2, 1)));
     let missing = drive.axis(4).target_position().write(0);
-    assert!(matches!(missing, Err(Error::Client(AxisError::NoSuchAxis { axis: 4, .. }))));
+    assert!(matches!(missing, Err(Error::NoSuchAxis { axis: 4, .. })));
 }
 
 #[test]

@@ -9,7 +9,7 @@ use std::task::Wake;
 use std::vec::Vec;
 
 use crate::value::Value;
-use crate::{AsyncClient, CanOpen, Client, Flags, Initial, Item, Object, OnCanOpen, Range};
+use crate::{AsyncClient, CanOpen, Client, Error, Flags, Initial, Item, Object, OnCanOpen, Range};
 
 /// Sends `answer`, keeps what was written, and says it sent `claimed` bytes where that is set.
 #[derive(Default)]
@@ -29,12 +29,12 @@ impl Client for Device {
     type Bus = CanOpen;
     type Error = Infallible;
 
-    fn read(&mut self, _: Object, buffer: &mut [u8]) -> Result<usize, Infallible> {
+    fn read(&mut self, _: Object, buffer: &mut [u8]) -> Result<usize, Error<Infallible>> {
         buffer.iter_mut().zip(&self.answer).for_each(|(to, from)| *to = *from);
         Ok(self.claimed.unwrap_or(self.answer.len()))
     }
 
-    fn write(&mut self, _: Object, data: &[u8]) -> Result<(), Infallible> {
+    fn write(&mut self, _: Object, data: &[u8]) -> Result<(), Error<Infallible>> {
         self.written = Some(data.to_vec());
         Ok(())
     }
@@ -44,11 +44,11 @@ impl AsyncClient for Device {
     type Bus = CanOpen;
     type Error = Infallible;
 
-    async fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Infallible> {
+    async fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Error<Infallible>> {
         Client::read(self, address, buffer)
     }
 
-    async fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Infallible> {
+    async fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<Infallible>> {
         Client::write(self, address, data)
     }
 }

@@ -49,7 +49,7 @@ impl StartupCommand {
     /// # Errors
     ///
     /// Those of the client.
-    pub fn send<C: Client<Bus = CoE>>(&self, client: &mut C) -> Result<(), C::Error> {
+    pub fn send<C: Client<Bus = CoE>>(&self, client: &mut C) -> Result<(), crate::Error<C::Error>> {
         client.write(self.object, self.data())
     }
 
@@ -58,7 +58,7 @@ impl StartupCommand {
     /// # Errors
     ///
     /// Those of the client.
-    pub async fn send_async<C: AsyncClient<Bus = CoE>>(&self, client: &mut C) -> Result<(), C::Error> {
+    pub async fn send_async<C: AsyncClient<Bus = CoE>>(&self, client: &mut C) -> Result<(), crate::Error<C::Error>> {
         client.write(self.object, self.data()).await
     }
 }

@@ -3,6 +3,7 @@
 use super::word::to_bytes;
 use crate::bus::{Bus, Object};
 use crate::client::{AsyncClient, Client};
+use crate::error::Error;
 
 /// A value of at most 8 bytes to be written to an object, as a step of a PDO's configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -52,7 +53,7 @@ impl SdoWrite {
     /// # Errors
     ///
     /// Those of the client.
-    pub fn send<C: Client>(&self, client: &mut C) -> Result<(), C::Error>
+    pub fn send<C: Client>(&self, client: &mut C) -> Result<(), Error<C::Error>>
     where
         C::Bus: Bus<Address = Object>,
     {
@@ -64,7 +65,7 @@ impl SdoWrite {
     /// # Errors
     ///
     /// Those of the client.
-    pub async fn send_async<C: AsyncClient>(&self, client: &mut C) -> Result<(), C::Error>
+    pub async fn send_async<C: AsyncClient>(&self, client: &mut C) -> Result<(), Error<C::Error>>
     where
         C::Bus: Bus<Address = Object>,
     {
@@ -84,11 +85,11 @@ mod tests {
         type Bus = CoE;
         type Error = ();
 
-        fn read(&mut self, _: Object, _: &mut [u8]) -> Result<usize, ()> {
-            Err(())
+        fn read(&mut self, _: Object, _: &mut [u8]) -> Result<usize, Error<()>> {
+            Err(Error::UnexpectedReply)
         }
 
-        fn write(&mut self, address: Object, data: &[u8]) -> Result<(), ()> {
+        fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<()>> {
             self.0 = Some((address, data.len()));
             Ok(())
         }

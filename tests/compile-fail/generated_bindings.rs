@@ -1,6 +1,6 @@
 //! The names of a drive's own bindings, and what they refuse.
 
-use lexibus::{CanOpen, Client, Object};
+use lexibus::{CanOpen, Client, Error, Object};
 use lexibus_drives::demo_drive::DemoDrive;
 
 struct Bus;
@@ -9,11 +9,11 @@ impl Client for Bus {
     type Bus = CanOpen;
     type Error = ();
 
-    fn read(&mut self, _: Object, _: &mut [u8]) -> Result<usize, ()> {
+    fn read(&mut self, _: Object, _: &mut [u8]) -> Result<usize, Error<()>> {
         Ok(0)
     }
 
-    fn write(&mut self, _: Object, _: &[u8]) -> Result<(), ()> {
+    fn write(&mut self, _: Object, _: &[u8]) -> Result<(), Error<()>> {
         Ok(())
     }
 }

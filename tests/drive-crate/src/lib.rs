@@ -31,13 +31,13 @@ mod tests {
         type Bus = CanOpen;
         type Error = &'static str;
 
-        fn read(&mut self, at: Object, buffer: &mut [u8]) -> Result<usize, Self::Error> {
-            let value = self.0.get(&(at.index, at.sub_index)).ok_or("no such object")?;
-            buffer.get_mut(..value.len()).ok_or("too long")?.copy_from_slice(value);
+        fn read(&mut self, at: Object, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>> {
+            let value = self.0.get(&(at.index, at.sub_index)).ok_or(Error::Client("no such object"))?;
+            buffer.get_mut(..value.len()).ok_or(Error::Client("too long"))?.copy_from_slice(value);
             Ok(value.len())
         }
 
-        fn write(&mut self, at: Object, data: &[u8]) -> Result<(), Self::Error> {
+        fn write(&mut self, at: Object, data: &[u8]) -> Result<(), Error<Self::Error>> {
             self.0.insert((at.index, at.sub_index), data.to_vec());
             Ok(())
         }
