@@ -84,6 +84,7 @@ mod initial;
 pub mod interface;
 mod item;
 mod location;
+mod machine;
 mod node_id;
 pub mod pdo;
 pub mod profinet;
@@ -114,6 +115,7 @@ pub use location::{
     Absent, Location, On, OnCanOpen, OnCanOpenAndCoE, OnCanOpenAndModbus, OnCanOpenCoEAndModbus, OnCoE, OnCoEAndModbus,
     OnModbus, OnSerial,
 };
+pub use machine::{Step, Transition};
 pub use node_id::NodeId;
 pub use pdo::{CobId, MappedEntry, Pdo, SdoWrite};
 pub use quantity::{Exponential, Fraction, Number, OrNone, PerItem, Quantity, Reciprocal, Scaled};

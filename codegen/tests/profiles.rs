@@ -99,7 +99,7 @@ fn a_drive_gets_the_names_of_its_bits_and_values() {
 
     let machine = device.machines.first().expect("the state machine");
     assert_eq!((machine.status_item.as_str(), machine.control_item.as_str()), ("Statusword", "Controlword"));
-    assert_eq!((machine.states.len(), machine.commands.len(), machine.transitions.len()), (8, 7, 15));
+    assert_eq!((machine.states.len(), machine.commands.len(), machine.transitions.len()), (8, 7, 16));
     assert!(device.code_tables.iter().any(|table| table.name == "drive errors"));
 }
 

@@ -1771,6 +1771,89 @@ pub mod types {
             State::from_raw(self.0)
         }
     }
+    impl State {
+        const TRANSITIONS: &'static [rt::Transition<Command>] = &[
+            rt::Transition::new(
+                Self::NotReadyToSwitchOn as u8,
+                Self::SwitchOnDisabled as u8,
+                None,
+            ),
+            rt::Transition::new(
+                Self::SwitchOnDisabled as u8,
+                Self::ReadyToSwitchOn as u8,
+                Some(Command::Shutdown),
+            ),
+            rt::Transition::new(
+                Self::ReadyToSwitchOn as u8,
+                Self::SwitchedOn as u8,
+                Some(Command::SwitchOn),
+            ),
+            rt::Transition::new(
+                Self::SwitchedOn as u8,
+                Self::OperationEnabled as u8,
+                Some(Command::EnableOperation),
+            ),
+            rt::Transition::new(
+                Self::OperationEnabled as u8,
+                Self::SwitchedOn as u8,
+                Some(Command::DisableOperation),
+            ),
+            rt::Transition::new(
+                Self::SwitchedOn as u8,
+                Self::ReadyToSwitchOn as u8,
+                Some(Command::Shutdown),
+            ),
+            rt::Transition::new(
+                Self::ReadyToSwitchOn as u8,
+                Self::SwitchOnDisabled as u8,
+                Some(Command::DisableVoltage),
+            ),
+            rt::Transition::new(
+                Self::OperationEnabled as u8,
+                Self::ReadyToSwitchOn as u8,
+                Some(Command::Shutdown),
+            ),
+            rt::Transition::new(
+                Self::OperationEnabled as u8,
+                Self::SwitchOnDisabled as u8,
+                Some(Command::DisableVoltage),
+            ),
+            rt::Transition::new(
+                Self::SwitchedOn as u8,
+                Self::SwitchOnDisabled as u8,
+                Some(Command::DisableVoltage),
+            ),
+            rt::Transition::new(
+                Self::OperationEnabled as u8,
+                Self::QuickStopActive as u8,
+                Some(Command::QuickStop),
+            ),
+            rt::Transition::new(
+                Self::QuickStopActive as u8,
+                Self::SwitchOnDisabled as u8,
+                Some(Command::DisableVoltage),
+            ),
+            rt::Transition::new(
+                Self::FaultReactionActive as u8,
+                Self::Fault as u8,
+                None,
+            ),
+            rt::Transition::new(
+                Self::Fault as u8,
+                Self::SwitchOnDisabled as u8,
+                Some(Command::FaultReset),
+            ),
+            rt::Transition::new(
+                Self::QuickStopActive as u8,
+                Self::OperationEnabled as u8,
+                Some(Command::EnableOperation),
+            ),
+        ];
+        /// What takes the device one step from this state towards `target`.
+        pub fn toward(self, target: Self) -> rt::Step<Command> {
+            rt::Step::toward(Self::TRANSITIONS, self as u8, target as u8)
+        }
+    }
     /// Commands of drive, as Controlword takes them.
     ///
     /// Transitions:
@@ -1790,6 +1873,7 @@ pub mod types {
     /// - 14: fault\_reaction\_active to fault, by itself
     /// - 15: fault to switch\_on\_disabled, on fault\_reset
     /// - 16: quick\_stop\_active to operation\_enabled, on enable\_operation
+    /// - 13: any state to fault\_reaction\_active, by itself. After a fault.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Command {
         /// shutdown: 0x6 of the bits 0x87.

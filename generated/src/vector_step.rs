@@ -20482,6 +20482,89 @@ pub mod types {
             State::from_raw(self.0)
         }
     }
+    impl State {
+        const TRANSITIONS: &'static [rt::Transition<DriveCommand>] = &[
+            rt::Transition::new(
+                Self::NotReadyToSwitchOn as u8,
+                Self::SwitchOnDisabled as u8,
+                None,
+            ),
+            rt::Transition::new(
+                Self::SwitchOnDisabled as u8,
+                Self::ReadyToSwitchOn as u8,
+                Some(DriveCommand::Shutdown),
+            ),
+            rt::Transition::new(
+                Self::ReadyToSwitchOn as u8,
+                Self::SwitchedOn as u8,
+                Some(DriveCommand::SwitchOn),
+            ),
+            rt::Transition::new(
+                Self::SwitchedOn as u8,
+                Self::OperationEnabled as u8,
+                Some(DriveCommand::EnableOperation),
+            ),
+            rt::Transition::new(
+                Self::OperationEnabled as u8,
+                Self::SwitchedOn as u8,
+                Some(DriveCommand::DisableOperation),
+            ),
+            rt::Transition::new(
+                Self::SwitchedOn as u8,
+                Self::ReadyToSwitchOn as u8,
+                Some(DriveCommand::Shutdown),
+            ),
+            rt::Transition::new(
+                Self::ReadyToSwitchOn as u8,
+                Self::SwitchOnDisabled as u8,
+                Some(DriveCommand::DisableVoltage),
+            ),
+            rt::Transition::new(
+                Self::OperationEnabled as u8,
+                Self::ReadyToSwitchOn as u8,
+                Some(DriveCommand::Shutdown),
+            ),
+            rt::Transition::new(
+                Self::OperationEnabled as u8,
+                Self::SwitchOnDisabled as u8,
+                Some(DriveCommand::DisableVoltage),
+            ),
+            rt::Transition::new(
+                Self::SwitchedOn as u8,
+                Self::SwitchOnDisabled as u8,
+                Some(DriveCommand::DisableVoltage),
+            ),
+            rt::Transition::new(
+                Self::OperationEnabled as u8,
+                Self::QuickStopActive as u8,
+                Some(DriveCommand::QuickStop),
+            ),
+            rt::Transition::new(
+                Self::QuickStopActive as u8,
+                Self::SwitchOnDisabled as u8,
+                Some(DriveCommand::DisableVoltage),
+            ),
+            rt::Transition::new(
+                Self::FaultReactionActive as u8,
+                Self::Fault as u8,
+                None,
+            ),
+            rt::Transition::new(
+                Self::Fault as u8,
+                Self::SwitchOnDisabled as u8,
+                Some(DriveCommand::FaultReset),
+            ),
+            rt::Transition::new(
+                Self::QuickStopActive as u8,
+                Self::OperationEnabled as u8,
+                Some(DriveCommand::EnableOperation),
+            ),
+        ];
+        /// What takes the device one step from this state towards `target`.
+        pub fn toward(self, target: Self) -> rt::Step<DriveCommand> {
+            rt::Step::toward(Self::TRANSITIONS, self as u8, target as u8)
+        }
+    }
     /// Commands of drive, as Controlword takes them.
     ///
     /// Transitions:

@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use std::convert::Infallible;
 use std::marker::PhantomData;
 
-use lexibus::{Bus, CanOpen, Client, CoE, Error, Modbus, Object, OutOfRange, Register};
+use lexibus::{Bus, CanOpen, Client, CoE, Error, Modbus, Object, OutOfRange, Register, Step};
 use lexibus_drives::vector_step::types::{
     Controlword, DriveCommand, EepromCommand, ModesOfOperation, State, Statusword,
 };
@@ -86,6 +86,33 @@ fn profile_objects_have_units_bits_and_states() {
     assert_eq!(control.raw() & 0x8F, 0x0F);
     assert_eq!(lexibus::codes::find(codes::EMERGENCY, 0x8110).map(|code| code.first), Some(0x8110));
     assert_eq!(IDENTITY.vendor_id, Some(0xBC));
+}
+
+#[test]
+fn one_step_at_a_time_to_operation() {
+    // The drive answers each command as its state machine has it (L2088-2105).
+    let mut state = State::Fault;
+    let mut commands = Vec::new();
+    loop {
+        match state.toward(State::OperationEnabled) {
+            Step::Command(command) => {
+                commands.push(command);
+                state = match command {
+                    DriveCommand::FaultReset => State::SwitchOnDisabled,
+                    DriveCommand::Shutdown => State::ReadyToSwitchOn,
+                    DriveCommand::SwitchOn => State::SwitchedOn,
+                    DriveCommand::EnableOperation => State::OperationEnabled,
+                    other => panic!("{other:?}"),
+                };
+            }
+            step => break assert_eq!(step, Step::Reached),
+        }
+    }
+    let expected =
+        [DriveCommand::FaultReset, DriveCommand::Shutdown, DriveCommand::SwitchOn, DriveCommand::EnableOperation];
+    assert_eq!(commands, expected);
+    assert_eq!(State::NotReadyToSwitchOn.toward(State::OperationEnabled), Step::Wait);
+    assert_eq!(State::OperationEnabled.toward(State::Fault), Step::Unreachable);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! State machines: the states that a status tells, and the commands that a control word gives.
 
 use super::bit_field::BitFieldModel;
+use super::data::Data;
 use super::docs;
 use super::options::RustOptions;
 use super::scope::Scope;
@@ -11,6 +12,18 @@ use crate::passes::names_unique::{self, Case, Wish};
 pub(super) struct MachineModel {
     pub states: Option<PatternsModel>,
     pub commands: Option<PatternsModel>,
+    /// Transitions between states by commands, where there are any.
+    transitions: Option<Data>,
+}
+
+impl MachineModel {
+    /// The literal of the transitions, in a text that is moved so far to the right.
+    pub(super) fn transitions(&self, nest: &usize) -> Option<String> {
+        const INDENT: usize = 8;
+        let commands = self.commands.as_ref()?;
+        let column = INDENT + format!("const TRANSITIONS: &'static [rt::Transition<{}>] = ", commands.name).len();
+        Some(self.transitions.as_ref()?.render(INDENT, column, 1, *nest))
+    }
 }
 
 /// States or commands.
@@ -28,6 +41,8 @@ pub(super) struct PatternsModel {
 /// A state or a command.
 pub(super) struct PatternModel {
     pub name: String,
+    /// Its name in the source.
+    original: String,
     pub docs: String,
     pub mask: String,
     pub value: String,
@@ -78,18 +93,44 @@ pub(super) fn models(
         let patterns = |name, docs, list, item: &str, method| {
             patterns(scope, (name, docs), list, (item, method), bit_fields, options)
         };
-        MachineModel {
-            states: patterns(states, state_docs, &machine.states, &machine.status_item, state),
-            commands: patterns(
-                commands,
-                command_docs,
-                &machine.commands,
-                &machine.control_item,
-                format!("with_{command}"),
-            ),
-        }
+        let states = patterns(states, state_docs, &machine.states, &machine.status_item, state);
+        let method = format!("with_{command}");
+        let commands = patterns(commands, command_docs, &machine.commands, &machine.control_item, method);
+        let transitions = states
+            .as_ref()
+            .zip(commands.as_ref())
+            .and_then(|(states, commands)| steps(&machine.transitions, states, commands));
+        MachineModel { states, commands, transitions }
     };
     machines.iter().zip(names).zip(methods(machines)).map(model).collect()
+}
+
+/// The transitions that a controller can take, or wait for. One that leaves any state by itself is a fault, and no way to go.
+fn steps(transitions: &[Transition], states: &PatternsModel, commands: &PatternsModel) -> Option<Data> {
+    let named = |list: &PatternsModel, name: &str| {
+        list.patterns.iter().find(|own| own.original == name).map(|own| own.name.clone())
+    };
+    let mut steps = Vec::new();
+    for own in transitions {
+        let command = own.command.as_ref().map(|name| named(commands, name));
+        let command = match command {
+            None => Data::text("None"),
+            Some(Some(name)) => Data::Call("Some", vec![Data::text(format!("{}::{name}", commands.name))]),
+            // A message, or a command without bits.
+            Some(None) => continue,
+        };
+        let from = match (&own.from, &own.command) {
+            (Some(from), _) => named(states, from).into_iter().collect(),
+            (None, Some(_)) => states.patterns.iter().map(|own| own.name.clone()).collect(),
+            (None, None) => Vec::new(),
+        };
+        let Some(to) = named(states, &own.to) else { continue };
+        let state = |name: &str| Data::text(format!("Self::{name} as u8"));
+        for from in from {
+            steps.push(Data::Call("rt::Transition::new", vec![state(&from), state(&to), command.clone()]));
+        }
+    }
+    (!steps.is_empty()).then_some(Data::Slice(steps))
 }
 
 /// The transitions as a list.
@@ -153,7 +194,8 @@ fn patterns(
         let title = docs::escape(&own.name.replace('_', " "));
         let text = own.documentation.as_ref().map_or("", |own| own.text.as_str());
         let text = if text.is_empty() { String::new() } else { format!(" {}", docs::sentence(&docs::escape(text))) };
-        PatternModel { docs: format!("{title}: {value} of the bits {mask}.{text}"), name, mask, value }
+        let original = own.name.to_string();
+        PatternModel { docs: format!("{title}: {value} of the bits {mask}.{text}"), name, original, mask, value }
     };
     Some(PatternsModel {
         patterns: list.iter().zip(names).map(pattern).collect(),

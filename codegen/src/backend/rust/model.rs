@@ -33,6 +33,8 @@ pub(super) struct Place {
 pub(super) struct Model<'a> {
     pub options: &'a RustOptions,
     pub interface_version: u32,
+    /// How far the lines are moved to the right.
+    pub nest: usize,
     pub device_name: String,
     pub title: String,
     /// Who made the device; a module of a modular device has none.
@@ -190,6 +192,7 @@ impl<'a> Model<'a> {
         let (scope, types) = Scope::of_device(device, options);
         let mut model = Model::of_scope(scope, types, options);
         let title = title(device);
+        model.nest = place.nest;
         model.device_name = device_name(device, file, options.device_name.as_deref());
         model.title = docs::escape(&title);
         model.identity = (!device.dictionary_only).then(|| IdentityModel::new(device));
@@ -221,6 +224,7 @@ impl<'a> Model<'a> {
             handle_types,
             options,
             interface_version: INTERFACE_VERSION,
+            nest: 0,
             device_name: String::new(),
             title: String::new(),
             identity: None,

@@ -1,0 +1,107 @@
+//! State machines: the way from one state to another.
+
+/// A change of state of a device's state machine. States go by their numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Transition<C> {
+    from: u8,
+    to: u8,
+    command: Option<C>,
+}
+
+impl<C> Transition<C> {
+    /// From a state to another by a command; without one, the device changes by itself.
+    #[must_use]
+    pub const fn new(from: u8, to: u8, command: Option<C>) -> Self {
+        Self { from, to, command }
+    }
+}
+
+/// What takes a device one step towards a state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Step<C> {
+    /// Nothing: it is there.
+    Reached,
+    /// This command.
+    Command(C),
+    /// Waiting: the device goes on by itself.
+    Wait,
+    /// No command leads there.
+    Unreachable,
+}
+
+/// So many transitions are looked at.
+const MAX_TRANSITIONS: usize = 128;
+
+impl<C: Copy> Step<C> {
+    /// The first step of the shortest way from `state` to `target`. Of ways of one length, one that begins with a command
+    /// counts.
+    #[must_use]
+    pub fn toward(transitions: &[Transition<C>], state: u8, target: u8) -> Self {
+        if state == target {
+            return Step::Reached;
+        }
+        let transitions = &transitions[..transitions.len().min(MAX_TRANSITIONS)];
+        // The transitions from which the target is reached in so many steps, a bit each.
+        let mut leads: u128 = 0;
+        loop {
+            let mut more = leads;
+            for (at, own) in transitions.iter().enumerate() {
+                let goes_on = |(next, other): (usize, &Transition<C>)| leads >> next & 1 == 1 && own.to == other.from;
+                if own.to == target || transitions.iter().enumerate().any(goes_on) {
+                    more |= 1 << at;
+                }
+            }
+            if more == leads {
+                return Step::Unreachable;
+            }
+            leads = more;
+            let first = transitions.iter().enumerate().filter(|(at, own)| leads >> at & 1 == 1 && own.from == state);
+            let mut waits = false;
+            for (_, own) in first {
+                match own.command {
+                    Some(command) => return Step::Command(command),
+                    None => waits = true,
+                }
+            }
+            if waits {
+                return Step::Wait;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 0 becomes 1 by itself; `u` and `d` go up and down between 1, 2 and 3; 4 leads back by `r`, and nothing leads there.
+    const TRANSITIONS: &[Transition<char>] = &[
+        Transition::new(0, 1, None),
+        Transition::new(1, 2, Some('u')),
+        Transition::new(2, 3, Some('U')),
+        Transition::new(3, 1, Some('d')),
+        Transition::new(3, 2, Some('D')),
+        Transition::new(4, 0, Some('r')),
+    ];
+
+    #[test]
+    fn the_shortest_way() {
+        let toward = |state, target| Step::toward(TRANSITIONS, state, target);
+        assert_eq!(toward(2, 2), Step::Reached);
+        assert_eq!(toward(1, 3), Step::Command('u'));
+        assert_eq!(toward(2, 3), Step::Command('U'));
+        assert_eq!(toward(3, 1), Step::Command('d'));
+        assert_eq!(toward(2, 1), Step::Command('U'));
+        assert_eq!(toward(0, 3), Step::Wait);
+        assert_eq!(toward(4, 3), Step::Command('r'));
+        assert_eq!(toward(1, 4), Step::Unreachable);
+        assert_eq!(toward(1, 0), Step::Unreachable);
+    }
+
+    #[test]
+    fn a_command_before_waiting() {
+        let both = [Transition::new(0, 1, None), Transition::new(0, 1, Some('c'))];
+        assert_eq!(Step::toward(&both, 0, 1), Step::Command('c'));
+        assert_eq!(Step::<char>::toward(&[], 0, 1), Step::Unreachable);
+    }
+}
