@@ -62,7 +62,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-#[cfg(test)]
+#[cfg(any(test, feature = "socketcan"))]
 extern crate std;
 
 mod abort;
@@ -73,6 +73,8 @@ mod bit_field;
 pub mod bits;
 mod bus;
 mod client;
+#[cfg(feature = "canopen")]
+pub mod clients;
 pub mod codes;
 mod data_type;
 mod enumeration;

@@ -1,0 +1,130 @@
+use core::convert::Infallible;
+use std::collections::{HashMap, VecDeque};
+use std::vec::Vec;
+
+use canopen_sdo::{ObjectDictionary, SdoServer, ServerConfig};
+
+use super::*;
+use crate::{Domain, Flags, Initial, Item, OnCanOpen, Range, Ro, Rw, VisibleString, Wo};
+
+const NODE: u8 = 5;
+const SPEED: Item<u16, Rw, OnCanOpen> = Item::object(0x2000, 0, "Speed");
+const STATUS: Item<u16, Ro, OnCanOpen> = Item::object(0x2001, 0, "Status");
+const LABEL: Item<VisibleString, Rw, OnCanOpen> =
+    Item::new(OnCanOpen::canopen(0x2002, 0), "Label", Range::Full, Initial::Unknown, "", Flags::NONE);
+const PROGRAM: Item<Domain, Wo, OnCanOpen> =
+    Item::new(OnCanOpen::canopen(0x2003, 1), "Program", Range::Full, Initial::Unknown, "", Flags::NONE);
+
+/// Objects of a device: 0x2001 can't be written, and 0x2000 takes no more than 3000.
+struct Objects(HashMap<(u16, u8), Vec<u8>>);
+
+impl ObjectDictionary for Objects {
+    fn read(&mut self, index: u16, sub: u8, buf: &mut [u8]) -> Result<usize, SdoAbortCode> {
+        let value = self.0.get(&(index, sub)).ok_or(SdoAbortCode::ObjectDoesNotExist)?;
+        buf[..value.len()].copy_from_slice(value);
+        Ok(value.len())
+    }
+
+    fn write(&mut self, index: u16, sub: u8, data: &[u8]) -> Result<(), SdoAbortCode> {
+        match index {
+            0x2001 => Err(SdoAbortCode::WriteReadOnly),
+            0x2000 if data.len() == 2 && u16::from_le_bytes([data[0], data[1]]) > 3000 => {
+                Err(SdoAbortCode::ValueTooHigh)
+            }
+            _ => {
+                self.0.insert((index, sub), data.to_vec());
+                Ok(())
+            }
+        }
+    }
+}
+
+/// A bus with one node, and frames of others between its answers.
+struct Bus {
+    server: SdoServer<1024>,
+    objects: Objects,
+    answers: VecDeque<CanFrame>,
+    is_silent: bool,
+}
+
+impl Bus {
+    fn new() -> Self {
+        let objects = Objects(HashMap::from([((0x2001, 0), std::vec![0x37, 0x02])]));
+        Self { server: SdoServer::new(ServerConfig::new(NODE)), objects, answers: VecDeque::new(), is_silent: false }
+    }
+}
+
+impl CanPort for Bus {
+    type Error = Infallible;
+
+    fn send(&mut self, frame: &CanFrame, _: Duration) -> Result<bool, Infallible> {
+        if self.is_silent {
+            return Ok(true);
+        }
+        self.answers.extend(CanFrame::new(0x705, &[5]));
+        let request = SdoFrame::new(frame.id(), frame.data().try_into().expect("eight bytes"));
+        let _ = self.server.handle_frame(request, 0, &mut self.objects);
+        let answers = std::iter::from_fn(|| self.server.poll_transmit());
+        self.answers.extend(answers.filter_map(|answer| CanFrame::new(answer.cob_id, &answer.data)));
+        Ok(true)
+    }
+
+    fn receive(&mut self, id: u16, _: Duration) -> Result<Option<CanFrame>, Infallible> {
+        Ok(std::iter::from_fn(|| self.answers.pop_front()).find(|frame| frame.id() == id))
+    }
+}
+
+fn node() -> Sdo<Bus> {
+    Sdo::new(Bus::new(), NodeId::new(NODE).expect("a node-ID"))
+}
+
+#[test]
+fn expedited() {
+    let mut node = node();
+    assert_eq!(SPEED.at(&mut node).write(1500), Ok(()));
+    assert_eq!(SPEED.at(&mut node).read(), Ok(1500));
+    assert_eq!(STATUS.at(&mut node).read(), Ok(0x237));
+}
+
+#[test]
+fn segmented() {
+    let mut node = node();
+    let mut buffer = [0; 64];
+    LABEL.at(&mut node).write("a name of more than seven letters").unwrap();
+    assert_eq!(LABEL.at(&mut node).read_into(&mut buffer), Ok("a name of more than seven letters"));
+    let program: Vec<u8> = (0..=255).cycle().take(1000).collect();
+    PROGRAM.at(&mut node).write(&program).unwrap();
+    assert_eq!(node.port().objects.0[&(0x2003, 1)], program);
+    assert_eq!(PROGRAM.at(&mut node).write(&[]), Err(Error::Length(LengthError::new(1, 0))));
+}
+
+#[test]
+fn aborts_have_their_codes() {
+    let mut node = node();
+    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Abort(AbortCode::NO_OBJECT)));
+    assert_eq!(SPEED.at(&mut node).write(3001), Err(Error::Abort(AbortCode::TOO_HIGH)));
+    assert_eq!(node.write(Object::new(0x2001, 0), &[0, 0]), Err(Error::Abort(AbortCode::READ_ONLY)));
+    node.port().is_silent = true;
+    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Abort(AbortCode::TIMEOUT)));
+    node.port().is_silent = false;
+    // What was aborted doesn't disturb the next transfer.
+    assert_eq!(SPEED.at(&mut node).write(1), Ok(()));
+}
+
+#[test]
+fn answers_to_nobody_are_passed_over() {
+    let mut node = node();
+    SPEED.at(&mut node).write(7).unwrap();
+    // A segment, and the answer about another object.
+    node.port().answers.extend(CanFrame::new(0x585, &[0x00, 1, 2, 3, 4, 5, 6, 7]));
+    node.port().answers.extend(CanFrame::new(0x585, &[0x4B, 0x01, 0x20, 0, 9, 9, 0, 0]));
+    assert_eq!(SPEED.at(&mut node).read(), Ok(7));
+}
+
+#[test]
+fn frames() {
+    assert_eq!(CanFrame::new(0x800, &[]), None);
+    assert_eq!(CanFrame::new(0x7FF, &[0; 9]), None);
+    let frame = CanFrame::new(0x185, &[1, 2]).expect("a frame");
+    assert_eq!((frame.id(), frame.data()), (0x185, [1, 2].as_slice()));
+}

@@ -1,0 +1,8 @@
+//! Clients: thin adapters to libraries that carry the bytes, one feature each.
+//!
+//! | feature | module | library |
+//! |---|---|---|
+//! | `canopen` | [`canopen`] | `canopen-sdo` for the SDO protocol, `embedded-can` for the interface |
+//! | `socketcan` | [`canopen`] | the same with SocketCAN of Linux |
+
+pub mod canopen;
