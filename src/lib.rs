@@ -62,7 +62,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-#[cfg(any(test, feature = "socketcan"))]
+#[cfg(any(test, feature = "socketcan", feature = "modbus"))]
 extern crate std;
 
 mod abort;
@@ -73,7 +73,7 @@ mod bit_field;
 pub mod bits;
 mod bus;
 mod client;
-#[cfg(feature = "canopen")]
+#[cfg(any(feature = "canopen", feature = "modbus"))]
 pub mod clients;
 pub mod codes;
 mod data_type;

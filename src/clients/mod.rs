@@ -2,7 +2,11 @@
 //!
 //! | feature | module | library |
 //! |---|---|---|
-//! | `canopen` | [`canopen`] | `canopen-sdo` for the SDO protocol, `embedded-can` for the interface |
-//! | `socketcan` | [`canopen`] | the same with SocketCAN of Linux |
+//! | `canopen` | `canopen` | `canopen-sdo` for the SDO protocol, `embedded-can` for the interface |
+//! | `socketcan` | `canopen` | the same with SocketCAN of Linux |
+//! | `modbus` | `modbus` | `tokio-modbus`, RTU and TCP, blocking and not |
 
+#[cfg(feature = "canopen")]
 pub mod canopen;
+#[cfg(feature = "modbus")]
+pub mod modbus;
