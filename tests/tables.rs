@@ -149,6 +149,20 @@ fn places_of_modbus() {
 }
 
 #[test]
+fn texts_in_registers() {
+    let mut press = Press::new(Registers::default());
+    let mut buffer = [0; 16];
+    // A letter of 16 bits has a register for itself, as a number.
+    press.title().write("Äb", &mut buffer).unwrap();
+    assert_eq!((press.client().words[&(HOLDING, 129)], press.client().words[&(HOLDING, 130)]), (0xC4, 0x62));
+    assert_eq!(press.title().read_into(&mut buffer).unwrap(), "Äb");
+    // The numbers tell the length that the type doesn't.
+    press.note().write("ABCDEFG").unwrap();
+    assert_eq!(press.client().words[&(HOLDING, 141)], 0x4546);
+    assert_eq!(press.note().read_into(&mut buffer), Ok("ABCDEFG"));
+}
+
+#[test]
 fn only_values_that_are_allowed_are_written() {
     let mut press = Press::new(Registers::default());
     assert_eq!(press.stroke().write(5), Ok(()));

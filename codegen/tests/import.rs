@@ -361,6 +361,17 @@ const TITLES: [&str; 30] = [
     "Repeat",
 ];
 
+#[test]
+fn limits_with_a_decimal_point_are_physical() {
+    let list = "Address;Name;Type;Unit;Factor;Min;Max;Default\n40001;Set point;INT16;°C;0.1;-20.0;200.0;25.0\n";
+    let table = read(list).table.expect("a table");
+    assert!(table.contains("min = -200, max = 2000, default = 250"), "{table}");
+    // A sheet that prints addresses so, too, has no fractions by that.
+    let list = list.replace("40001;", "40001.0;");
+    let table = read(&list).table.expect("a table");
+    assert!(table.contains("min = -20, max = 200, default = 25"), "{table}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 

@@ -163,6 +163,12 @@ fn lists_and_ranges_of_values() {
 }
 
 #[test]
+fn words_that_are_no_command() {
+    is_wrong(", save = \"no\"", "`save` is `false`, or a command in quotes");
+    is_wrong(", save = \"yes\"", "`save` is `true`");
+}
+
+#[test]
 fn conditions_on_bits() {
     let text = a(", when = { b = { mask = 4, value = 0 } }");
     assert_eq!(said(&text), [""; 0]);
@@ -174,7 +180,7 @@ fn conditions_on_bits() {
         + "[enums.E.values]\n0 = { name = \"off\", buses = [\"canopen\"] }\n1 = { name = \"on\", when = { b = 3 } }\n";
     assert_eq!(said(&values), [""; 0]);
     let text = rust(&values);
-    assert!(text.contains("Only on canopen.") && text.contains("Only while b is 3."), "{text}");
+    assert!(text.contains("Only on CANopen.") && text.contains("Only while b is 3."), "{text}");
     let never = values.replace("b = 3", "b = { mask = 4, value = 8 }");
     assert!(said(&never)[0].contains("never holds"));
     let meanings = |other: &str| {

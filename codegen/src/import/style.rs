@@ -52,7 +52,12 @@ fn has_physical_limit(record: &Record, columns: &Columns, comma: bool) -> bool {
     let is_scaled = factors.into_iter().any(|field| !cells::is_blank(text(field)))
         || cells::unit(text(Field::Unit), comma).1.is_some();
     let is_integer = types::read(text(Field::Type)).is_none_or(|ty| ty.base != Base::Float);
-    let is_fraction = |number: cells::Number| number.int().is_none();
+    // A sheet that prints every number with a point, the addresses too, has no fractions by that.
+    let prints_points = matches!(cells::number(text(Field::Reg), comma), Some(cells::Number::Real(_)));
+    let is_fraction = |number: cells::Number| match number {
+        cells::Number::Real(value) => value.fract() != 0.0 || !prints_points,
+        cells::Number::Int { .. } => false,
+    };
     let limits = [Field::Min, Field::Max, Field::Default];
     let mut numbers = limits.into_iter().filter_map(|field| cells::quantity(text(field), text(Field::Unit), comma));
     let range = || cells::range(text(Field::Range), text(Field::Unit), comma);

@@ -41,7 +41,8 @@ fn row(row: &CodeRow, columns: usize) -> Option<String> {
     let code = |code: i64| if code > 9 { format!("{code:#X}").replacen("0X", "0x", 1) } else { code.to_string() };
     let mut text = row.documentation.as_ref().map_or_else(String::new, |documentation| documentation.text.clone());
     if let Some(availability) = &row.availability {
-        text = format!("{text} {}", manual::availability(availability)).trim_start().to_owned();
+        let whole = if text.is_empty() { String::new() } else { docs::sentence(&text) + " " };
+        text = whole + &manual::availability(availability);
     }
     let mut cells: Vec<String> = row.cells.iter().take(columns.max(row.cells.len())).map(cell).collect();
     cells.resize(columns.max(cells.len()), "rt::codes::Cell::Empty".to_owned());

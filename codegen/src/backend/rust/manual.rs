@@ -48,7 +48,19 @@ pub(super) fn doubt(doubt: &Doubt) -> String {
     format!("Note: {}. Chosen: {}{why}.", part(&doubt.says), part(&doubt.chosen))
 }
 
-/// Models, firmware and options that have an element; empty where all do.
+/// A bus as people write it.
+fn bus_name(key: &str) -> &str {
+    match key {
+        "canopen" => "CANopen",
+        "ethercat" => "EtherCAT",
+        "modbus" => "Modbus",
+        "profinet" => "PROFINET",
+        "serial" => "a serial line",
+        other => other,
+    }
+}
+
+/// Models, firmware, buses and options that have an element; empty where all do.
 pub(super) fn availability(availability: &Availability) -> String {
     let list =
         |names: &[crate::ir::CompactString]| names.iter().map(|name| docs::escape(name)).collect::<Vec<_>>().join(", ");
@@ -68,7 +80,8 @@ pub(super) fn availability(availability: &Availability) -> String {
         sentences.push(format!("Replaced by {}.", docs::escape(other)));
     }
     if !availability.buses.is_empty() {
-        sentences.push(format!("Only on {}.", list(&availability.buses)));
+        let buses: Vec<crate::ir::CompactString> = availability.buses.iter().map(|bus| bus_name(bus).into()).collect();
+        sentences.push(format!("Only on {}.", list(&buses)));
     }
     if !availability.options.is_empty() {
         sentences.push(format!("Needs {}.", list(&availability.options)));

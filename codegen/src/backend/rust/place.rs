@@ -14,6 +14,8 @@ pub(super) struct Place<'i> {
     bits: u32,
     /// Whether the value is a sequence of bytes, and no number.
     is_bytes: bool,
+    /// Whether it is a text of 16 bits a letter: a register holds a letter, as a number.
+    is_wide: bool,
 }
 
 /// The buses of a location.
@@ -94,6 +96,7 @@ impl<'i> Place<'i> {
             base,
             Type::VisibleString(_) | Type::OctetString(_) | Type::UnicodeString(_) | Type::Domain | Type::Opaque(_)
         );
+        place.is_wide = matches!(base, Type::UnicodeString(_));
         place
     }
 
@@ -183,7 +186,7 @@ impl<'i> Place<'i> {
         } else if low_first && register.space != RegisterSpace::Holding {
             code += ".ordered(rt::WordOrder::LowFirst)";
         }
-        if register.bytes_swapped {
+        if register.bytes_swapped != self.is_wide {
             code += ".swapped()";
         }
         if let Some(first) = register.bit_offset {

@@ -51,6 +51,7 @@ impl Rows {
         let bits = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).and_then(|named| {
             let bits = match named.ty {
                 Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),
+                Type::UnicodeString(Some(units)) => units.checked_mul(16),
                 ty => ty.bits(),
             };
             bits?.checked_mul(named.elements.unwrap_or(1))
@@ -213,6 +214,9 @@ impl Rows {
                     .push(Diagnostic::new(&codes::REGISTER_SPAN, reader.span(reg), message).label("the type is used"));
             }
         }
+        // Of a type without a length, the numbers tell it.
+        let printed = last.map(|last| (last - first).saturating_add(1).saturating_mul(unit));
+        let bits = bits.or(printed.filter(|_| repeat.count == 1));
         let bit_offset = row.part.as_ref().and_then(|part| self.part(reader, part, (bits, unit)));
         Some(Numbers {
             first,

@@ -141,6 +141,7 @@ fn placed(
     let bits = match ty {
         Some(Type::Named(id)) => types.get(id.0 as usize).and_then(|own| own.bits),
         Some(Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes))) => bytes.checked_mul(8),
+        Some(Type::UnicodeString(Some(units))) => units.checked_mul(16),
         other => other.and_then(Type::bits),
     };
     let Some((at, bits)) = field.at.zip(bits) else {

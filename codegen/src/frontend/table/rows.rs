@@ -262,6 +262,7 @@ impl Rows {
             Type::Named(TypeId(id)) => self.definitions.types.get(id as usize).and_then(|def| def.bits),
             ty => match ty {
                 Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),
+                Type::UnicodeString(Some(units)) => units.checked_mul(16),
                 ty => ty.bits(),
             },
         }
@@ -374,6 +375,11 @@ impl Rows {
         match &row.save {
             Some(FlagOrText::Flag(true)) => behaviour.storage = Storage::Immediate,
             Some(FlagOrText::Flag(false)) => behaviour.storage = Storage::Volatile,
+            Some(FlagOrText::Text(word)) if ["yes", "no", "true", "false"].contains(&word.as_str()) => {
+                let flag = matches!(word.as_str(), "yes" | "true");
+                let message = format!("`save` is `{flag}`, or a command in quotes, and `{word}` is none");
+                reader.report(&codes::TABLE_VALUE, item.at.name, message);
+            }
             Some(FlagOrText::Text(command)) => behaviour.storage = Storage::OnCommand(command.as_str().into()),
             None => {}
         }

@@ -1,16 +1,16 @@
 //! Symbols of units.
 
 /// Symbols of single units: the SI's and those of drives. Products, quotients and powers are made of them.
-const SYMBOLS: [&str; 74] = [
+const SYMBOLS: [&str; 90] = [
     "%", "%RH", "1", "A", "Ah", "Bd", "C", "F", "GHz", "H", "Hz", "J", "K", "MB", "MHz", "Mbit", "MΩ", "N", "Nm", "Pa",
     "V", "VA", "VAh", "W", "Wh", "bar", "bit", "byte", "cm", "count", "counts", "d", "dB", "deg", "g", "h", "in", "kA",
     "kB", "kHz", "kN", "kV", "kVA", "kW", "kWh", "kbit", "kg", "kΩ", "l", "m", "mA", "mH", "mNm", "mV", "mW", "mbar",
     "min", "mm", "ms", "mΩ", "nF", "ns", "pF", "ppm", "pulse", "rad", "rev", "rpm", "s", "step", "steps", "us", "var",
-    "Ω",
+    "Ω", "L", "hPa", "kPa", "kvar", "lm", "lx", "mL", "mS", "mg", "ml", "mol", "pH", "psi", "t", "dBm", "S",
 ];
 
 /// Those with a sign in front of a letter.
-const SIGNS: [&str; 11] = ["°", "°C", "°F", "µs", "µA", "µm", "µV", "µH", "µF", "μs", "μm"];
+const SIGNS: [&str; 13] = ["°", "°C", "°F", "µs", "µA", "µm", "µV", "µH", "µF", "μs", "μm", "µS", "µg"];
 
 /// Whether this is the symbol of a unit: `rev/s²`, `kg·m²`, `mNm/A`.
 pub(super) fn is_known(symbol: &str) -> bool {
