@@ -142,18 +142,30 @@ fn value(register: Register, reply: Reply, buffer: &mut [u8]) -> Result<usize, E
     Ok(bits.len().div_ceil(8))
 }
 
-/// What writes registers: `words` are those that they hold, where only a part of them changes.
-fn write_registers(
+/// Whether the registers are read before they are written, because only a part of them changes.
+fn is_part(register: Register) -> bool {
+    register.table == RegisterTable::Holding && register.part.is_some()
+}
+
+/// What writes a value: `held` is what the registers hold, where only a part of them changes.
+fn write_request(
     register: Register,
-    mut words: Vec<u16>,
+    held: Option<Vec<u16>>,
     data: &[u8],
     single: bool,
 ) -> Result<Request<'static>, Error<ModbusError>> {
-    register.encode(data, &mut words)?;
-    Ok(match words.as_slice() {
-        [word] if single => Request::WriteSingleRegister(register.address, *word),
-        _ => Request::WriteMultipleRegisters(register.address, words.into()),
-    })
+    match register.table {
+        RegisterTable::Holding => {
+            let mut words = held.unwrap_or_else(|| vec![0; usize::from(register.count)]);
+            register.encode(data, &mut words)?;
+            Ok(match words.as_slice() {
+                [word] if single => Request::WriteSingleRegister(register.address, *word),
+                _ => Request::WriteMultipleRegisters(register.address, words.into()),
+            })
+        }
+        RegisterTable::Coil => Ok(write_coils(register, data)),
+        RegisterTable::Input | RegisterTable::DiscreteInput => Err(Error::Client(ModbusError::ReadOnly)),
+    }
 }
 
 /// What writes bits.
@@ -185,17 +197,11 @@ impl<T: sync::Client> Client for ModbusClient<T> {
     }
 
     fn write(&mut self, register: Register, data: &[u8]) -> Result<(), Error<ModbusError>> {
-        let request = match register.table {
-            RegisterTable::Holding => {
-                let own = match register.part {
-                    Some(_) => words(self.context.call(read_request(register)), register.count)?,
-                    None => vec![0; usize::from(register.count)],
-                };
-                write_registers(register, own, data, self.single)?
-            }
-            RegisterTable::Coil => write_coils(register, data),
-            RegisterTable::Input | RegisterTable::DiscreteInput => return Err(Error::Client(ModbusError::ReadOnly)),
+        let held = match is_part(register) {
+            true => Some(words(self.context.call(read_request(register)), register.count)?),
+            false => None,
         };
+        let request = write_request(register, held, data, self.single)?;
         written(self.context.call(request))
     }
 }
@@ -209,17 +215,11 @@ impl AsyncClient for ModbusClient<Context> {
     }
 
     async fn write(&mut self, register: Register, data: &[u8]) -> Result<(), Error<ModbusError>> {
-        let request = match register.table {
-            RegisterTable::Holding => {
-                let own = match register.part {
-                    Some(_) => words(self.context.call(read_request(register)).await, register.count)?,
-                    None => vec![0; usize::from(register.count)],
-                };
-                write_registers(register, own, data, self.single)?
-            }
-            RegisterTable::Coil => write_coils(register, data),
-            RegisterTable::Input | RegisterTable::DiscreteInput => return Err(Error::Client(ModbusError::ReadOnly)),
+        let held = match is_part(register) {
+            true => Some(words(self.context.call(read_request(register)).await, register.count)?),
+            false => None,
         };
+        let request = write_request(register, held, data, self.single)?;
         written(self.context.call(request).await)
     }
 }

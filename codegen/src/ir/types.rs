@@ -339,6 +339,23 @@ pub struct EnumValue {
     pub at: Mark,
 }
 
+impl EnumValue {
+    /// One value of which nothing else is known.
+    pub fn new(name: CompactString, value: i128) -> Self {
+        EnumValue {
+            name,
+            value,
+            last: None,
+            zone: None,
+            names: Texts::default(),
+            when: None,
+            availability: None,
+            documentation: None,
+            at: Default::default(),
+        }
+    }
+}
+
 /// A zone of an enumeration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

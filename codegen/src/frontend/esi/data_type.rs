@@ -140,15 +140,5 @@ pub(super) fn enum_value<'a>(
         return Ok(None);
     };
     let (name, names, documentation) = (names.name(), names.others(), comment.documentation());
-    Ok(Some(EnumValue {
-        name,
-        value,
-        last: None,
-        zone: None,
-        names,
-        when: None,
-        availability: None,
-        documentation,
-        at: Default::default(),
-    }))
+    Ok(Some(EnumValue { names, documentation, ..EnumValue::new(name, value) }))
 }

@@ -7,7 +7,7 @@ use super::data_type::{DataType, NumberType, PairType, StringType};
 use super::links::{unresolved, Kind};
 use super::reader::{Given, Read, Reader};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Documentation, EnumValue, Extension, Field, Scale, Shape, Texts, Type, TypeDef, TypeId};
+use crate::ir::{Documentation, EnumValue, Extension, Field, Scale, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
@@ -190,17 +190,7 @@ impl<'a> Reader<'a, '_> {
             super::reader::note("Assign@Content", Some(&content), rest);
             return Ok(());
         };
-        values.push(EnumValue {
-            name,
-            value,
-            last,
-            zone: None,
-            names: Texts::default(),
-            when: None,
-            availability: None,
-            documentation: None,
-            at: Default::default(),
-        });
+        values.push(EnumValue { last, ..EnumValue::new(name, value) });
         Ok(())
     }
 }

@@ -27,6 +27,29 @@ macro_rules! tables {
 /// Values of other items that have to be there, by the items' names.
 pub type Conditions = Entries<ConditionValues>;
 
+/// The row of a field of an image or a message: what it has in common with rows.
+macro_rules! field_row {
+    ($field:ident) => {
+        Row {
+            ty: $field.ty.clone(),
+            bits: $field.bits.clone(),
+            values: $field.values.clone(),
+            unit: $field.unit.clone(),
+            scale: $field.scale.clone(),
+            min: $field.min.clone(),
+            max: $field.max.clone(),
+            na: $field.na.clone(),
+            orig: $field.orig.clone(),
+            doc: $field.doc.clone(),
+            cite: $field.cite.clone(),
+            doubt: $field.doubt.clone(),
+            doubts: $field.doubts.clone(),
+            ..Row::default()
+        }
+    };
+}
+pub(super) use field_row;
+
 /// A text that may be a list.
 pub type Words = OneOrMany<String>;
 

@@ -1,7 +1,7 @@
 //! Fixed process images: where the items of a device, or fields of its own, are in cyclic data.
 
 use super::at::At;
-use super::format::{ImageField, ImageTable, Row};
+use super::format::{field_row, ImageField, ImageTable, Row};
 use super::rows::{Named, Rows};
 use super::tree::{cited, Reader};
 use super::{process, types};
@@ -103,22 +103,7 @@ fn new_item(
     direction: Direction,
 ) -> Option<(Placed, Item)> {
     let own = &field.value;
-    let row = Row {
-        ty: own.ty.clone(),
-        bits: own.bits.clone(),
-        values: own.values.clone(),
-        unit: own.unit.clone(),
-        scale: own.scale.clone(),
-        min: own.min.clone(),
-        max: own.max.clone(),
-        na: own.na.clone(),
-        orig: own.orig.clone(),
-        doc: own.doc.clone(),
-        cite: own.cite.clone(),
-        doubt: own.doubt.clone(),
-        doubts: own.doubts.clone(),
-        ..Row::default()
-    };
+    let row = field_row!(own);
     let named = Named { name: &key.value, key, number: 0, end: field.end };
     let ty = rows.ty(reader, named, &row)?;
     let placed = placed(reader, &rows.definitions.types, key, own, Some(ty))?;

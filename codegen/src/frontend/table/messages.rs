@@ -1,7 +1,7 @@
 //! Messages of a command protocol, and how they are framed.
 
 use super::at::{At, FlagOr, TextOr};
-use super::format::{CompletionTable, FieldTable, FramingTable, MessageTable, Row, SpaceTable};
+use super::format::{field_row, CompletionTable, FieldTable, FramingTable, MessageTable, Row, SpaceTable};
 use super::references::{References, ITEM_OR_FIELD};
 use super::rows::{Named, Rows};
 use super::tree::{cited, Reader};
@@ -280,23 +280,7 @@ impl Fields<'_, '_, '_> {
     /// A value in a message: read as a row is, with what a field has in common with it.
     fn typed(&mut self, field: &At<FieldTable>, name: &At<String>) -> Option<MessageField> {
         let own = &field.value;
-        let row = Row {
-            ty: own.ty.clone(),
-            bits: own.bits.clone(),
-            values: own.values.clone(),
-            unit: own.unit.clone(),
-            scale: own.scale.clone(),
-            offset: own.offset,
-            min: own.min.clone(),
-            max: own.max.clone(),
-            na: own.na.clone(),
-            orig: own.orig.clone(),
-            doc: own.doc.clone(),
-            cite: own.cite.clone(),
-            doubt: own.doubt.clone(),
-            doubts: own.doubts.clone(),
-            ..Row::default()
-        };
+        let row = Row { offset: own.offset, ..field_row!(own) };
         let named = Named { name: &name.value, key: name, number: 0, end: field.end };
         let ty = self.rows.ty(self.reader, named, &row)?;
         let mut item = Item::new(Binding::Ascii(CompactString::default()));

@@ -90,32 +90,12 @@ pub(super) fn words(words: &'static [&'static str]) -> impl FnMut(&mut Schema) {
 
 /// The names of types.
 pub(super) fn types(schema: &mut Schema) {
-    let names = [
-        "bool",
-        "u8",
-        "u16",
-        "u32",
-        "u64",
-        "i8",
-        "i16",
-        "i32",
-        "i64",
-        "f32",
-        "f64",
-        "str",
-        "wstr",
-        "bytes",
-        "domain",
-        "time_of_day",
-        "time_difference",
-        "?",
-    ];
     let grammar = concat!(
         r"^((bool|[ui]([1-9]|[1-5][0-9]|6[0-4])|f32|f64|(str|wstr|bytes)( *\( *[0-9]+ *\))?",
         r"|time_of_day|time_difference|domain|\?)( *\[ *[1-9][0-9]* *\])?|\$[a-z].*)$"
     );
     texts(schema, &mut |text| {
-        text.insert("anyOf".into(), json!([{ "enum": names }, { "type": "string", "pattern": grammar }]));
+        text.insert("anyOf".into(), json!([{ "enum": super::types::NAMES }, { "type": "string", "pattern": grammar }]));
     });
 }
 

@@ -78,8 +78,8 @@ pub(super) fn meant(text: &str) -> Option<&'static str> {
     usual.or_else(|| super::tree::similar(text, NAMES.into_iter()))
 }
 
-/// The names that a suggestion is taken from.
-const NAMES: [&str; 18] = [
+/// The names that a suggestion is taken from, and that editors offer.
+pub(super) const NAMES: [&str; 18] = [
     "bool",
     "u8",
     "u16",
@@ -94,9 +94,9 @@ const NAMES: [&str; 18] = [
     "str",
     "wstr",
     "bytes",
+    "domain",
     "time_of_day",
     "time_difference",
-    "domain",
     "?",
 ];
 

@@ -201,17 +201,7 @@ fn enumeration<'a>(
 pub(super) fn enum_value(value: i128, texts: &Texts) -> EnumValue {
     let name = texts.label();
     let (names, documentation) = (texts.names(&name), texts.documentation());
-    EnumValue {
-        name,
-        value,
-        last: None,
-        zone: None,
-        names,
-        when: None,
-        availability: None,
-        documentation,
-        at: Default::default(),
-    }
+    EnumValue { names, documentation, ..EnumValue::new(name, value) }
 }
 
 fn derived<'a>(
