@@ -377,7 +377,8 @@ fn chapter<'a>(
         misplaced::object(reader, &key, &row);
         objects::add(reader, rows, dictionary, (&key, &row), (space, defaults));
     }
-    (!group.items.is_empty() || !group.doubts.is_empty()).then_some(group)
+    let says_something = !group.doubts.is_empty() || group.documentation.is_some();
+    (!group.items.is_empty() || says_something).then_some(group)
 }
 
 /// Rows of one kind.
