@@ -62,7 +62,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
-#[cfg(any(test, feature = "socketcan", feature = "modbus"))]
+#[cfg(any(test, feature = "std"))]
 extern crate std;
 
 mod abort;
