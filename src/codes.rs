@@ -36,6 +36,67 @@ pub enum Cell {
     Text(&'static str),
 }
 
+/// A code of a table, as a type: an enumeration that generated code has for each table.
+///
+/// ```
+/// use lexibus::codes::{Code, CodeTable};
+///
+/// // What the compiler emits for a table of two codes:
+/// static ALARMS: &[Code] = &[Code::new(7, 7, "motor blocked", "Let it move.", &[]), Code::new(0x80, 0x8F, "option", "", &[])];
+///
+/// #[derive(Clone, Copy, Debug, PartialEq)]
+/// enum Alarms {
+///     MotorBlocked,
+///     Option(u16),
+///     Unknown(u16),
+/// }
+///
+/// impl CodeTable for Alarms {
+///     type Raw = u16;
+///
+///     fn codes() -> &'static [Code] {
+///         ALARMS
+///     }
+///
+///     fn from_raw(code: u16) -> Self {
+///         match code {
+///             7 => Self::MotorBlocked,
+///             0x80..=0x8F => Self::Option(code),
+///             _ => Self::Unknown(code),
+///         }
+///     }
+///
+///     fn raw(self) -> u16 {
+///         match self {
+///             Self::MotorBlocked => 7,
+///             Self::Option(code) | Self::Unknown(code) => code,
+///         }
+///     }
+/// }
+///
+/// assert_eq!(Alarms::from_raw(7), Alarms::MotorBlocked);
+/// assert_eq!(Alarms::MotorBlocked.row().map(|row| row.text), Some("Let it move."));
+/// assert_eq!(Alarms::from_raw(8).row(), None);
+/// ```
+pub trait CodeTable: Copy {
+    /// The integer of a code.
+    type Raw: Copy + Into<i64>;
+
+    /// The table.
+    fn codes() -> &'static [Code];
+
+    /// The name of a number.
+    fn from_raw(code: Self::Raw) -> Self;
+
+    /// The number.
+    fn raw(self) -> Self::Raw;
+
+    /// What the table says of it; `None` where it says nothing.
+    fn row(self) -> Option<&'static Code> {
+        find(Self::codes(), self.raw().into())
+    }
+}
+
 /// The row of a code: where several ranges have it, that of the narrowest.
 ///
 /// ```

@@ -20791,6 +20791,104 @@ pub mod codes {
             &[rt::codes::Cell::Number(3), rt::codes::Cell::Text("")],
         ),
     ];
+    /// A code of [`EMERGENCY`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum Emergency {
+        /// 0: generic error.
+        GenericError,
+        /// 0x5400: power stage error. The power stage of the drive has an error.
+        PowerStageError,
+        /// 0x8110: CAN overrun. A message was lost.
+        CanOverrun,
+        /// 0x8120: CAN error passive. The CAN controller is in the error passive state, disabled in the manual's words.
+        CanErrorPassive,
+        /// 0x8130: error control event. An error in the check of a message, by the manual's words; taken as guarding or heartbeat that failed.
+        ErrorControlEvent,
+        /// 0x8140: recovered from bus off.
+        RecoveredFromBusOff,
+        /// 0x8150: COB-ID collision.
+        CobIdCollision,
+        /// 0x8210: PDO longer than mapped.
+        PdoLongerThanMapped,
+        /// 0x8220: PDO shorter than mapped.
+        PdoShorterThanMapped,
+        /// 0xFF01: NVRAM error. Reading or writing the non-volatile memory failed; the vendor data hold the error code of Reepsts.
+        NvramError,
+        /// 0xFF02: homing error axis 1. The homing command failed; on drives with one axis this is their axis.
+        HomingErrorAxis1,
+        /// 0xFF06: homing error axis 2. The homing command of axis 2 failed, if the drive has it. Only of SMD2204.
+        HomingErrorAxis2,
+        /// 0xFF07: homing error axis 3. The homing command of axis 3 failed, if the drive has it. Only of SMD2204.
+        HomingErrorAxis3,
+        /// 0xFF03: interpolation data missing. Interpolated mode ran out of data.
+        InterpolationDataMissing,
+        /// 0xFF04: interpolation sync too early.
+        InterpolationSyncTooEarly,
+        /// 0xFF05: interpolation sync too late.
+        InterpolationSyncTooLate,
+        /// 0xFF13: power stage error axis 1. Sent beside 0x5400 for the axis whose power stage has an error. Only of SMD2204.
+        PowerStageErrorAxis1,
+        /// 0xFF14: power stage error axis 2. Sent beside 0x5400 for the axis whose power stage has an error. Only of SMD2204.
+        PowerStageErrorAxis2,
+        /// 0xFF15: power stage error axis 3. Sent beside 0x5400 for the axis whose power stage has an error. Only of SMD2204.
+        PowerStageErrorAxis3,
+        /// Any other number.
+        Unknown(u16),
+    }
+    impl rt::codes::CodeTable for Emergency {
+        type Raw = u16;
+        fn codes() -> &'static [rt::codes::Code] {
+            EMERGENCY
+        }
+        fn from_raw(code: u16) -> Self {
+            match code {
+                0 => Self::GenericError,
+                0x5400 => Self::PowerStageError,
+                0x8110 => Self::CanOverrun,
+                0x8120 => Self::CanErrorPassive,
+                0x8130 => Self::ErrorControlEvent,
+                0x8140 => Self::RecoveredFromBusOff,
+                0x8150 => Self::CobIdCollision,
+                0x8210 => Self::PdoLongerThanMapped,
+                0x8220 => Self::PdoShorterThanMapped,
+                0xFF01 => Self::NvramError,
+                0xFF02 => Self::HomingErrorAxis1,
+                0xFF03 => Self::InterpolationDataMissing,
+                0xFF04 => Self::InterpolationSyncTooEarly,
+                0xFF05 => Self::InterpolationSyncTooLate,
+                0xFF06 => Self::HomingErrorAxis2,
+                0xFF07 => Self::HomingErrorAxis3,
+                0xFF13 => Self::PowerStageErrorAxis1,
+                0xFF14 => Self::PowerStageErrorAxis2,
+                0xFF15 => Self::PowerStageErrorAxis3,
+                _ => Self::Unknown(code),
+            }
+        }
+        fn raw(self) -> u16 {
+            match self {
+                Self::GenericError => 0,
+                Self::PowerStageError => 0x5400,
+                Self::CanOverrun => 0x8110,
+                Self::CanErrorPassive => 0x8120,
+                Self::ErrorControlEvent => 0x8130,
+                Self::RecoveredFromBusOff => 0x8140,
+                Self::CobIdCollision => 0x8150,
+                Self::PdoLongerThanMapped => 0x8210,
+                Self::PdoShorterThanMapped => 0x8220,
+                Self::NvramError => 0xFF01,
+                Self::HomingErrorAxis1 => 0xFF02,
+                Self::HomingErrorAxis2 => 0xFF06,
+                Self::HomingErrorAxis3 => 0xFF07,
+                Self::InterpolationDataMissing => 0xFF03,
+                Self::InterpolationSyncTooEarly => 0xFF04,
+                Self::InterpolationSyncTooLate => 0xFF05,
+                Self::PowerStageErrorAxis1 => 0xFF13,
+                Self::PowerStageErrorAxis2 => 0xFF14,
+                Self::PowerStageErrorAxis3 => 0xFF15,
+                Self::Unknown(code) => code,
+            }
+        }
+    }
     /// sdo\_abort.
     ///
     /// Further columns: objects.
@@ -20831,6 +20929,48 @@ pub mod codes {
             &[rt::codes::Cell::Text("0x1600..0x1603, 0x1A00..0x1A03")],
         ),
     ];
+    /// A code of [`SDO_ABORT`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum SdoAbort {
+        /// 0x6090030: value range exceeded. Bits 29 and 30 of the COB-ID of SYNC or EMCY can't be changed.
+        ValueRangeExceeded,
+        /// 0x6040043: general parameter incompatibility. Another consumer heartbeat time other than 0 exists for the same node.
+        GeneralParameterIncompatibility,
+        /// 0x6020000: object does not exist. The mapped object doesn't exist, or the mapping is longer than 64 bits.
+        ObjectDoesNotExist,
+        /// 0x6040041: object cannot be mapped. The mapped object doesn't exist, or the mapping is longer than 64 bits.
+        ObjectCannotBeMapped,
+        /// 0x6040042: mapping exceeds PDO length. The mapping is longer than 64 bits.
+        MappingExceedsPdoLength,
+        /// Any other number.
+        Unknown(u32),
+    }
+    impl rt::codes::CodeTable for SdoAbort {
+        type Raw = u32;
+        fn codes() -> &'static [rt::codes::Code] {
+            SDO_ABORT
+        }
+        fn from_raw(code: u32) -> Self {
+            match code {
+                0x6020000 => Self::ObjectDoesNotExist,
+                0x6040041 => Self::ObjectCannotBeMapped,
+                0x6040042 => Self::MappingExceedsPdoLength,
+                0x6040043 => Self::GeneralParameterIncompatibility,
+                0x6090030 => Self::ValueRangeExceeded,
+                _ => Self::Unknown(code),
+            }
+        }
+        fn raw(self) -> u32 {
+            match self {
+                Self::ValueRangeExceeded => 0x6090030,
+                Self::GeneralParameterIncompatibility => 0x6040043,
+                Self::ObjectDoesNotExist => 0x6020000,
+                Self::ObjectCannotBeMapped => 0x6040041,
+                Self::MappingExceedsPdoLength => 0x6040042,
+                Self::Unknown(code) => code,
+            }
+        }
+    }
     /// drive errors.
     pub static DRIVE_ERRORS: &[rt::codes::Code] = &[
         rt::codes::Code::new(0x2310, 0x2310, "continuous over-current", "", &[]),
@@ -20867,6 +21007,160 @@ pub mod codes {
         rt::codes::Code::new(0xF003, 0xF003, "stroke operation", "", &[]),
         rt::codes::Code::new(0xF004, 0xF004, "control", "", &[]),
     ];
+    /// A code of [`DRIVE_ERRORS`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum DriveErrors {
+        /// 0x2310: continuous over-current.
+        ContinuousOverCurrent,
+        /// 0x2320: short circuit or earth leakage.
+        ShortCircuitOrEarthLeakage,
+        /// 0x2330: earth leakage.
+        EarthLeakage,
+        /// 0x3110: mains over-voltage.
+        MainsOverVoltage,
+        /// 0x3120: mains under-voltage.
+        MainsUnderVoltage,
+        /// 0x3130: phase failure.
+        PhaseFailure,
+        /// 0x3210: DC link over-voltage.
+        DcLinkOverVoltage,
+        /// 0x3220: DC link under-voltage.
+        DcLinkUnderVoltage,
+        /// 0x4110: ambient temperature too high.
+        AmbientTemperatureTooHigh,
+        /// 0x4210: device temperature too high.
+        DeviceTemperatureTooHigh,
+        /// 0x4310: drive temperature too high.
+        DriveTemperatureTooHigh,
+        /// 0x5530: non-volatile memory.
+        NonVolatileMemory,
+        /// 0x6010: software reset by the watchdog.
+        SoftwareResetByTheWatchdog,
+        /// 0x6310: loss of parameters.
+        LossOfParameters,
+        /// 0x6320: parameter error.
+        ParameterError,
+        /// 0x7110: brake chopper.
+        BrakeChopper,
+        /// 0x7121: motor blocked.
+        MotorBlocked,
+        /// 0x7122: motor error, or commutation.
+        MotorErrorOrCommutation,
+        /// 0x7305: incremental sensor 1.
+        IncrementalSensor1,
+        /// 0x7306: incremental sensor 2.
+        IncrementalSensor2,
+        /// 0x7310: speed sensor.
+        SpeedSensor,
+        /// 0x7320: position sensor.
+        PositionSensor,
+        /// 0x8311: torque too high.
+        TorqueTooHigh,
+        /// 0x8331: torque fault.
+        TorqueFault,
+        /// 0x8400: velocity controller.
+        VelocityController,
+        /// 0x8500: position controller.
+        PositionController,
+        /// 0x8600: positioning controller.
+        PositioningController,
+        /// 0x8611: following error.
+        FollowingError,
+        /// 0x8612: reference limit.
+        ReferenceLimit,
+        /// 0xF001: deceleration.
+        Deceleration,
+        /// 0xF002: sub-synchronous run.
+        SubSynchronousRun,
+        /// 0xF003: stroke operation.
+        StrokeOperation,
+        /// 0xF004: control.
+        Control,
+        /// Any other number.
+        Unknown(u16),
+    }
+    impl rt::codes::CodeTable for DriveErrors {
+        type Raw = u16;
+        fn codes() -> &'static [rt::codes::Code] {
+            DRIVE_ERRORS
+        }
+        fn from_raw(code: u16) -> Self {
+            match code {
+                0x2310 => Self::ContinuousOverCurrent,
+                0x2320 => Self::ShortCircuitOrEarthLeakage,
+                0x2330 => Self::EarthLeakage,
+                0x3110 => Self::MainsOverVoltage,
+                0x3120 => Self::MainsUnderVoltage,
+                0x3130 => Self::PhaseFailure,
+                0x3210 => Self::DcLinkOverVoltage,
+                0x3220 => Self::DcLinkUnderVoltage,
+                0x4110 => Self::AmbientTemperatureTooHigh,
+                0x4210 => Self::DeviceTemperatureTooHigh,
+                0x4310 => Self::DriveTemperatureTooHigh,
+                0x5530 => Self::NonVolatileMemory,
+                0x6010 => Self::SoftwareResetByTheWatchdog,
+                0x6310 => Self::LossOfParameters,
+                0x6320 => Self::ParameterError,
+                0x7110 => Self::BrakeChopper,
+                0x7121 => Self::MotorBlocked,
+                0x7122 => Self::MotorErrorOrCommutation,
+                0x7305 => Self::IncrementalSensor1,
+                0x7306 => Self::IncrementalSensor2,
+                0x7310 => Self::SpeedSensor,
+                0x7320 => Self::PositionSensor,
+                0x8311 => Self::TorqueTooHigh,
+                0x8331 => Self::TorqueFault,
+                0x8400 => Self::VelocityController,
+                0x8500 => Self::PositionController,
+                0x8600 => Self::PositioningController,
+                0x8611 => Self::FollowingError,
+                0x8612 => Self::ReferenceLimit,
+                0xF001 => Self::Deceleration,
+                0xF002 => Self::SubSynchronousRun,
+                0xF003 => Self::StrokeOperation,
+                0xF004 => Self::Control,
+                _ => Self::Unknown(code),
+            }
+        }
+        fn raw(self) -> u16 {
+            match self {
+                Self::ContinuousOverCurrent => 0x2310,
+                Self::ShortCircuitOrEarthLeakage => 0x2320,
+                Self::EarthLeakage => 0x2330,
+                Self::MainsOverVoltage => 0x3110,
+                Self::MainsUnderVoltage => 0x3120,
+                Self::PhaseFailure => 0x3130,
+                Self::DcLinkOverVoltage => 0x3210,
+                Self::DcLinkUnderVoltage => 0x3220,
+                Self::AmbientTemperatureTooHigh => 0x4110,
+                Self::DeviceTemperatureTooHigh => 0x4210,
+                Self::DriveTemperatureTooHigh => 0x4310,
+                Self::NonVolatileMemory => 0x5530,
+                Self::SoftwareResetByTheWatchdog => 0x6010,
+                Self::LossOfParameters => 0x6310,
+                Self::ParameterError => 0x6320,
+                Self::BrakeChopper => 0x7110,
+                Self::MotorBlocked => 0x7121,
+                Self::MotorErrorOrCommutation => 0x7122,
+                Self::IncrementalSensor1 => 0x7305,
+                Self::IncrementalSensor2 => 0x7306,
+                Self::SpeedSensor => 0x7310,
+                Self::PositionSensor => 0x7320,
+                Self::TorqueTooHigh => 0x8311,
+                Self::TorqueFault => 0x8331,
+                Self::VelocityController => 0x8400,
+                Self::PositionController => 0x8500,
+                Self::PositioningController => 0x8600,
+                Self::FollowingError => 0x8611,
+                Self::ReferenceLimit => 0x8612,
+                Self::Deceleration => 0xF001,
+                Self::SubSynchronousRun => 0xF002,
+                Self::StrokeOperation => 0xF003,
+                Self::Control => 0xF004,
+                Self::Unknown(code) => code,
+            }
+        }
+    }
 }
 /// A handle for every register and every entry of the object dictionary.
 pub mod objects {

@@ -1,9 +1,11 @@
 //! Tables of codes: alarms, emergency codes, abort codes.
 
 use super::bus_facts;
+use super::code_type::{self, CodeTypeModel};
 use super::docs;
 use super::literal;
 use super::manual;
+use super::options::RustOptions;
 use crate::ir::{CodeRow, CodeTable, Value};
 use crate::passes::names_unique::{self, Case, Wish};
 
@@ -12,33 +14,37 @@ pub(super) struct CodeTableModel {
     pub name: String,
     pub docs: Vec<String>,
     pub rows: Vec<String>,
+    /// The type of its codes.
+    pub ty: Option<CodeTypeModel>,
 }
 
-pub(super) fn models(tables: &[CodeTable]) -> Vec<CodeTableModel> {
+pub(super) fn models(tables: &[CodeTable], options: &RustOptions) -> Vec<CodeTableModel> {
+    let tables: Vec<&CodeTable> = tables.iter().filter(|table| !table.rows.is_empty()).collect();
     let wish = |(number, table)| {
-        let table: &CodeTable = table;
+        let table: &&CodeTable = table;
         Wish { name: &table.name, fallback: format!("codes {number}"), suffix: format!("{number}") }
     };
     let wishes: Vec<Wish<'_>> = tables.iter().enumerate().map(wish).collect();
     let names = names_unique::unique(&wishes, &bus_facts::RESERVED, Case::Snake);
-    let tables = tables.iter().zip(names).filter(|(table, _)| !table.rows.is_empty());
-    tables.map(|(table, name)| model(table, name.to_ascii_uppercase())).collect()
+    let types = names_unique::unique(&wishes, &["Self"], Case::Pascal);
+    let named = tables.iter().zip(names.iter().zip(types));
+    named.map(|(table, (name, ty))| model(table, name.to_ascii_uppercase(), ty, options)).collect()
 }
 
-fn model(table: &CodeTable, name: String) -> CodeTableModel {
+fn model(table: &CodeTable, name: String, ty: String, options: &RustOptions) -> CodeTableModel {
     let mut docs = vec![docs::sentence(&docs::escape(&table.name))];
     if !table.columns.is_empty() {
         let columns: Vec<String> = table.columns.iter().map(|column| docs::escape(column)).collect();
         docs.extend([String::new(), format!("Further columns: {}.", columns.join(", "))]);
     }
     let rows = table.rows.iter().filter_map(|own| row(own, table.columns.len())).collect();
-    CodeTableModel { name, docs, rows }
+    let ty = code_type::model(table, options).map(|own| CodeTypeModel { name: ty, ..own });
+    CodeTableModel { name, docs, rows, ty }
 }
 
 /// `None` for a code beyond 64 bits.
 fn row(row: &CodeRow, columns: usize) -> Option<String> {
     let (first, last) = (i64::try_from(row.code).ok()?, i64::try_from(row.last.unwrap_or(row.code)).ok()?);
-    let code = |code: i64| if code > 9 { format!("{code:#X}").replacen("0X", "0x", 1) } else { code.to_string() };
     let mut text = row.documentation.as_ref().map_or_else(String::new, |documentation| documentation.text.clone());
     if let Some(availability) = &row.availability {
         let whole = if text.is_empty() { String::new() } else { docs::sentence(&text) + " " };
@@ -48,7 +54,11 @@ fn row(row: &CodeRow, columns: usize) -> Option<String> {
     cells.resize(columns.max(cells.len()), "rt::codes::Cell::Empty".to_owned());
     let cells = if cells.is_empty() { "&[]".to_owned() } else { format!("&[«{}»]", cells.join("¦ ")) };
     let (name, text) = (literal::string(&row.name), literal::string(&text));
-    Some(format!("rt::codes::Code::new(«{}¦ {}¦ {name}¦ {text}¦ {cells}»)", code(first), code(last)))
+    Some(format!(
+        "rt::codes::Code::new(«{}¦ {}¦ {name}¦ {text}¦ {cells}»)",
+        code_type::number(first),
+        code_type::number(last)
+    ))
 }
 
 fn cell(value: &Value) -> String {

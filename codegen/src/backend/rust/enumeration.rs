@@ -88,7 +88,7 @@ fn variants(values: &[&EnumValue], manual: &Manual) -> Vec<VariantModel> {
     let wishes: Vec<Wish<'_>> = values
         .iter()
         .map(|value| {
-            let number = value.value.to_string().replace('-', "minus_");
+            let number = value.value.to_string().replace('-', "Minus");
             Wish { name: &value.name, fallback: format!("value {number}"), suffix: number }
         })
         .collect();

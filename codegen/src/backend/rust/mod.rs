@@ -9,6 +9,7 @@ mod bit_field;
 mod bus_facts;
 mod catalog;
 mod code_table;
+mod code_type;
 mod data;
 mod docs;
 mod enumeration;

@@ -198,7 +198,7 @@ impl<'a> Model<'a> {
         model.identity = (!device.dictionary_only).then(|| IdentityModel::new(device));
         model.has_accessors = options.accessors && !model.objects.is_empty() && has_object_access(device);
         model.ethercat = EtherCatModel::new(device, &model.pdos, &place.modules, place.nest);
-        model.code_tables = code_table::models(&device.code_tables);
+        model.code_tables = code_table::models(&device.code_tables, options);
         model.axes = axes::model(device, place.nest);
         model.bus_facts = bus_facts::models(device);
         model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);

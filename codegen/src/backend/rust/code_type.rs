@@ -1,0 +1,156 @@
+//! The type of a table's codes: an enumeration, so that a program can tell alarms apart by their names.
+
+use super::docs;
+use super::manual;
+use super::options::RustOptions;
+use crate::ir::{CodeRow, CodeTable};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// A type, ready to be written.
+pub(super) struct CodeTypeModel {
+    pub name: String,
+    pub derives: Vec<String>,
+    /// The integer of a code.
+    pub native: &'static str,
+    pub variants: Vec<CodeVariant>,
+    /// The arms of the match from a code to its variant: pattern and variant.
+    pub arms: Vec<(String, String)>,
+    /// Whether each number is in a row.
+    pub complete: bool,
+}
+
+/// A code, or a range of codes.
+pub(super) struct CodeVariant {
+    pub name: String,
+    pub docs: String,
+    /// The code; `None` where the variant has one of several.
+    pub code: Option<String>,
+}
+
+/// Variants of every type of codes, and what its code names.
+const RESERVED: [&str; 2] = ["Self", "Unknown"];
+
+/// Integers of codes. The lowest has 16 bits, as codes of emergency messages have (CiA 301 7.2.7).
+const NATIVES: [(&str, i64, i64); 4] = [
+    ("u16", 0, u16::MAX as i64),
+    ("u32", 0, u32::MAX as i64),
+    ("i32", i32::MIN as i64, i32::MAX as i64),
+    ("i64", i64::MIN, i64::MAX),
+];
+
+type Span = (i64, i64);
+
+/// The type of `table`, without a name as yet; `None` where no row has a code of 64 bits.
+pub(super) fn model<'a>(table: &'a CodeTable, options: &RustOptions) -> Option<CodeTypeModel> {
+    let mut rows: Vec<(Span, &CodeRow)> = Vec::new();
+    for row in &table.rows {
+        // Of rows for several models of a device, the first one names the code.
+        match span(row) {
+            Some(own) if rows.iter().all(|(other, _)| *other != own) => rows.push((own, row)),
+            _ => {}
+        }
+    }
+    let low = rows.iter().map(|(span, _)| span.0).min()?;
+    let high = rows.iter().map(|(span, _)| span.1).max()?;
+    let (native, first, last) = *NATIVES.iter().find(|native| native.1 <= low && high <= native.2)?;
+    let wish = |(span, row): &(Span, &'a CodeRow)| {
+        let number = span.0.to_string().replace('-', "Minus");
+        Wish { name: &row.name, fallback: format!("code {number}"), suffix: number }
+    };
+    let wishes: Vec<Wish<'a>> = rows.iter().map(wish).collect();
+    let names = names_unique::unique(&wishes, &RESERVED, Case::Pascal);
+    let spans: Vec<Span> = rows.iter().map(|(span, _)| *span).collect();
+    let pieces = disjoint(&spans);
+    let covered: i128 = pieces.iter().map(|(_, span)| i128::from(span.1) - i128::from(span.0) + 1).sum();
+    let arm = |(at, span): &(usize, Span)| {
+        let is_range = spans[*at].0 != spans[*at].1;
+        (pattern(*span), if is_range { format!("{}(code)", names[*at]) } else { names[*at].clone() })
+    };
+    let arms = pieces.iter().map(arm).collect();
+    let variants = rows.iter().zip(&names).map(|((span, row), name)| variant(*span, row, name)).collect();
+    let complete = covered == i128::from(last) - i128::from(first) + 1;
+    Some(CodeTypeModel { name: String::new(), derives: options.derives(true), native, variants, arms, complete })
+}
+
+fn span(row: &CodeRow) -> Option<Span> {
+    let first = i64::try_from(row.code).ok()?;
+    let last = i64::try_from(row.last.unwrap_or(row.code)).ok()?;
+    (first <= last).then_some((first, last))
+}
+
+/// What of each span no narrower one has, in ascending order. Of spans of one length, the first has what they share.
+fn disjoint(spans: &[Span]) -> Vec<(usize, Span)> {
+    let mut order: Vec<usize> = (0..spans.len()).collect();
+    order.sort_by_key(|at| spans[*at].0.abs_diff(spans[*at].1));
+    let mut taken: Vec<(usize, Span)> = Vec::new();
+    for at in order {
+        let (first, last) = spans[at];
+        // What is left, from here on; beyond `last` nothing is.
+        let mut next = Some(first);
+        let mut own = Vec::new();
+        for (_, other) in taken.iter().filter(|(_, other)| other.1 >= first && other.0 <= last) {
+            own.extend(next.filter(|next| *next < other.0).map(|next| (at, (next, other.0 - 1))));
+            next = other.1.checked_add(1);
+        }
+        own.extend(next.filter(|next| *next <= last).map(|next| (at, (next, last))));
+        taken.extend(own);
+        taken.sort_by_key(|(_, span)| span.0);
+    }
+    taken
+}
+
+fn pattern((first, last): Span) -> String {
+    if first == last {
+        number(first)
+    } else {
+        format!("{}..={}", number(first), number(last))
+    }
+}
+
+/// A code as a literal: in hexadecimal from 10 on.
+pub(super) fn number(code: i64) -> String {
+    if code > 9 {
+        format!("{code:#X}").replacen("0X", "0x", 1)
+    } else {
+        code.to_string()
+    }
+}
+
+fn variant(span: Span, row: &CodeRow, name: &str) -> CodeVariant {
+    let codes = if span.0 == span.1 { number(span.0) } else { format!("{} to {}", number(span.0), number(span.1)) };
+    let title = docs::escape(&row.name);
+    let mut text = if title.is_empty() { format!("{codes}.") } else { format!("{codes}: {}", docs::sentence(&title)) };
+    let mut sentences = Vec::new();
+    docs::words(row.documentation.as_deref(), &mut sentences);
+    sentences.extend(row.availability.as_ref().map(|own| manual::availability(own)));
+    for sentence in sentences {
+        text.push(' ');
+        text.push_str(&sentence);
+    }
+    CodeVariant { name: name.to_owned(), docs: text, code: (span.0 == span.1).then(|| number(span.0)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn narrower_spans_are_cut_out_of_wider_ones() {
+        let spans = [(0x81, 0x8F), (0x83, 0x83), (0, 0), (0x8F, 0x90)];
+        let pieces = [(2, (0, 0)), (0, (0x81, 0x82)), (1, (0x83, 0x83)), (0, (0x84, 0x8E)), (3, (0x8F, 0x90))];
+        assert_eq!(disjoint(&spans), pieces);
+        assert_eq!(
+            disjoint(&[(i64::MIN, i64::MAX), (i64::MAX, i64::MAX)]),
+            [(0, (i64::MIN, i64::MAX - 1)), (1, (i64::MAX, i64::MAX))]
+        );
+        assert_eq!(disjoint(&[(0, 1), (0, 0), (1, 1)]), [(1, (0, 0)), (2, (1, 1))]);
+    }
+
+    #[test]
+    fn patterns() {
+        assert_eq!(
+            (pattern((5, 5)), pattern((9, 0x1F)), pattern((-3, -3))),
+            ("5".into(), "9..=0x1F".into(), "-3".into())
+        );
+    }
+}
