@@ -16,6 +16,8 @@ pub enum Error<E> {
     Abort(AbortCode),
     /// The device answered something that is no answer to what it was asked.
     UnexpectedReply,
+    /// The device didn't answer in time, or the bus didn't become free.
+    Timeout,
     /// The device has no such axis, or that axis doesn't have the object. Nothing was sent.
     NoSuchAxis {
         /// The number of the axis, from 1.
@@ -62,6 +64,7 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
             Self::Client(error) => error.fmt(f),
             Self::Abort(code) => write!(f, "the device refused: {code}"),
             Self::UnexpectedReply => f.write_str("unexpected reply"),
+            Self::Timeout => f.write_str("no answer in time"),
             Self::NoSuchAxis { axis, object } => write!(f, "there is no axis {axis} that has object {object}"),
             Self::OutOfRange(error) => error.fmt(f),
             Self::Length(error) => error.fmt(f),

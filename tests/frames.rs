@@ -7,7 +7,7 @@ use std::future::Future;
 use std::pin::Pin;
 use std::time::Duration;
 
-use lexibus::clients::canopen::{CanFrame, CanPort, Sdo};
+use lexibus::clients::canopen::{CanFrame, CanPort, Node};
 use lexibus::clients::modbus::tokio_modbus::client::{rtu, Context};
 use lexibus::clients::modbus::tokio_modbus::Slave;
 use lexibus::clients::modbus::ModbusClient;
@@ -119,14 +119,19 @@ impl CanPort for Script {
         Ok(true)
     }
 
-    fn receive(&mut self, id: u16, _: Duration) -> Result<Option<CanFrame>, Infallible> {
-        assert_eq!(id, 0x585);
-        Ok(self.0.pop_front().and_then(|(_, answer)| CanFrame::new(id, &answer)))
+    fn receive(
+        &mut self,
+        _: Duration,
+        wanted: &mut dyn FnMut(&CanFrame) -> bool,
+    ) -> Result<Option<CanFrame>, Infallible> {
+        let answer = self.0.pop_front().and_then(|(_, answer)| CanFrame::new(0x585, &answer));
+        assert!(answer.as_ref().map_or(true, wanted));
+        Ok(answer)
     }
 }
 
-fn node(script: &[([u8; 8], [u8; 8])]) -> Sdo<Script> {
-    Sdo::new(Script(script.iter().copied().collect()), NodeId::new(5).expect("a node-ID"))
+fn node(script: &[([u8; 8], [u8; 8])]) -> Node<Script> {
+    Node::new(Script(script.iter().copied().collect()), NodeId::new(5).expect("a node-ID"))
 }
 
 #[test]

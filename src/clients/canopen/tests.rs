@@ -2,9 +2,13 @@ use core::convert::Infallible;
 use std::collections::{HashMap, VecDeque};
 use std::vec::Vec;
 
-use canopen_sdo::{ObjectDictionary, SdoServer, ServerConfig};
+use core::time::Duration;
+
+use canopen_sdo::{ObjectDictionary, SdoAbortCode, SdoFrame, SdoServer, ServerConfig};
 
 use super::*;
+use crate::codes::{Code, CodeTable};
+use crate::{AbortCode, AsyncClient, Client, Error, LengthError, NodeId, Object};
 use crate::{Domain, Flags, Initial, Item, OnCanOpen, Range, Ro, Rw, VisibleString, Wo};
 
 const NODE: u8 = 5;
@@ -62,20 +66,44 @@ impl CanPort for Bus {
             return Ok(true);
         }
         self.answers.extend(CanFrame::new(0x705, &[5]));
-        let request = SdoFrame::new(frame.id(), frame.data().try_into().expect("eight bytes"));
+        let Ok(data) = frame.data().try_into() else { return Ok(true) };
+        let request = SdoFrame::new(frame.id(), data);
         let _ = self.server.handle_frame(request, 0, &mut self.objects);
         let answers = std::iter::from_fn(|| self.server.poll_transmit());
         self.answers.extend(answers.filter_map(|answer| CanFrame::new(answer.cob_id, &answer.data)));
         Ok(true)
     }
 
-    fn receive(&mut self, id: u16, _: Duration) -> Result<Option<CanFrame>, Infallible> {
-        Ok(std::iter::from_fn(|| self.answers.pop_front()).find(|frame| frame.id() == id))
+    fn receive(
+        &mut self,
+        _: Duration,
+        wanted: &mut dyn FnMut(&CanFrame) -> bool,
+    ) -> Result<Option<CanFrame>, Infallible> {
+        Ok(std::iter::from_fn(|| self.answers.pop_front()).find(|frame| wanted(frame)))
     }
 }
 
-fn node() -> Sdo<Bus> {
-    Sdo::new(Bus::new(), NodeId::new(NODE).expect("a node-ID"))
+/// The same bus without blocking.
+struct NoWait(Bus);
+
+impl AsyncCanPort for NoWait {
+    type Error = Infallible;
+
+    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Infallible> {
+        self.0.send(frame, patience)
+    }
+
+    async fn receive(
+        &mut self,
+        patience: Duration,
+        wanted: &mut dyn FnMut(&CanFrame) -> bool,
+    ) -> Result<Option<CanFrame>, Infallible> {
+        self.0.receive(patience, wanted)
+    }
+}
+
+fn node() -> Node<Bus> {
+    Node::new(Bus::new(), NodeId::new(NODE).expect("a node-ID"))
 }
 
 #[test]
@@ -105,7 +133,7 @@ fn aborts_have_their_codes() {
     assert_eq!(SPEED.at(&mut node).write(3001), Err(Error::Abort(AbortCode::TOO_HIGH)));
     assert_eq!(node.write(Object::new(0x2001, 0), &[0, 0]), Err(Error::Abort(AbortCode::READ_ONLY)));
     node.port().is_silent = true;
-    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Abort(AbortCode::TIMEOUT)));
+    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
     node.port().is_silent = false;
     // What was aborted doesn't disturb the next transfer.
     assert_eq!(SPEED.at(&mut node).write(1), Ok(()));
@@ -122,9 +150,78 @@ fn answers_to_nobody_are_passed_over() {
 }
 
 #[test]
-fn frames() {
-    assert_eq!(CanFrame::new(0x800, &[]), None);
-    assert_eq!(CanFrame::new(0x7FF, &[0; 9]), None);
-    let frame = CanFrame::new(0x185, &[1, 2]).expect("a frame");
-    assert_eq!((frame.id(), frame.data()), (0x185, [1, 2].as_slice()));
+fn messages_during_a_transfer_are_kept() {
+    let id = NodeId::new(NODE).expect("a node-ID");
+    let mut node = Node::new(Buffered::<_, 4>::new(Bus::new()), id);
+    SPEED.at(&mut node).write(7).unwrap();
+    assert_eq!(node.heartbeat(Duration::ZERO), Ok(Some(NmtState::Operational)));
+    assert_eq!(node.heartbeat(Duration::ZERO), Ok(None));
+    node.nmt(NmtCommand::Start).unwrap();
+    assert_eq!(node.wait_for(NmtState::Operational, Duration::ZERO), Ok(()));
+    SPEED.at(&mut node).write(8).unwrap();
+    assert_eq!(node.wait_for(NmtState::Stopped, Duration::ZERO), Err(Error::Timeout));
+    // Without it, they are gone.
+    let mut node = Node::new(Bus::new(), id);
+    SPEED.at(&mut node).write(7).unwrap();
+    assert_eq!(node.heartbeat(Duration::ZERO), Ok(None));
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Alarm {
+    Blocked,
+    Unknown(u16),
+}
+
+impl CodeTable for Alarm {
+    type Raw = u16;
+
+    fn codes() -> &'static [Code] {
+        const { &[Code::new(0x7121, 0x7121, "motor blocked", "", &[])] }
+    }
+
+    fn from_raw(code: u16) -> Self {
+        match code {
+            0x7121 => Self::Blocked,
+            _ => Self::Unknown(code),
+        }
+    }
+
+    fn raw(self) -> u16 {
+        match self {
+            Self::Blocked => 0x7121,
+            Self::Unknown(code) => code,
+        }
+    }
+}
+
+#[test]
+fn emergencies_are_the_devices_alarms() {
+    let mut node = node();
+    for (id, code) in [(0x086, 0x1000), (0x085, 0x7121), (0x085, 0x1000)] {
+        let [low, high] = u16::to_le_bytes(code);
+        node.port().answers.extend(CanFrame::new(id, &[low, high, 1, 0, 0, 0, 0, 0]));
+    }
+    let alarm = |node: &mut Node<Bus>| node.emergency(Duration::ZERO).unwrap().map(|own| own.alarm::<Alarm>());
+    assert_eq!(alarm(&mut node), Some(Alarm::Blocked));
+    assert_eq!(alarm(&mut node), Some(Alarm::Unknown(0x1000)));
+    assert_eq!(alarm(&mut node), None);
+    assert_eq!(Alarm::Blocked.row().map(|row| row.name), Some("motor blocked"));
+}
+
+#[tokio::test]
+async fn without_blocking() {
+    let mut node = Node::new(Buffered::<_, 16>::new(NoWait(Bus::new())), NodeId::new(NODE).expect("a node-ID"));
+    assert_eq!(SPEED.at(&mut node).write_async(1500).await, Ok(()));
+    assert_eq!(SPEED.at(&mut node).read_async().await, Ok(1500));
+    assert_eq!(SPEED.at(&mut node).write_async(3001).await, Err(Error::Abort(AbortCode::TOO_HIGH)));
+    let label = "a name of more than seven letters";
+    AsyncClient::write(&mut node, Object::new(0x2002, 0), label.as_bytes()).await.unwrap();
+    let mut buffer = [0; 64];
+    assert_eq!(AsyncClient::read(&mut node, Object::new(0x2002, 0), &mut buffer).await, Ok(label.len()));
+    assert_eq!(&buffer[..label.len()], label.as_bytes());
+    node.nmt_async(NmtCommand::Stop).await.unwrap();
+    node.sync_async().await.unwrap();
+    assert_eq!(node.heartbeat_async(Duration::ZERO).await, Ok(Some(NmtState::Operational)));
+    assert_eq!(node.wait_for_async(NmtState::Stopped, Duration::ZERO).await, Err(Error::Timeout));
+    assert_eq!(node.emergency_async(Duration::ZERO).await, Ok(None));
 }

@@ -1,0 +1,71 @@
+//! Frames.
+
+use embedded_can::{Id, StandardId};
+
+/// A data frame with an identifier of 11 bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CanFrame {
+    id: u16,
+    data: [u8; 8],
+    length: u8,
+}
+
+impl CanFrame {
+    /// A frame; `None` where `id` has more than 11 bits, or there are more than 8 bytes.
+    #[must_use]
+    pub fn new(id: u16, data: &[u8]) -> Option<Self> {
+        let mut bytes = [0; 8];
+        bytes.get_mut(..data.len())?.copy_from_slice(data);
+        (id <= 0x7FF).then_some(Self { id, data: bytes, length: data.len() as u8 })
+    }
+
+    /// A frame of a fixed form: an identifier of 11 bits, and up to 8 bytes.
+    pub(super) fn of<const N: usize>(id: u16, data: [u8; N]) -> Self {
+        let mut bytes = [0; 8];
+        bytes.iter_mut().zip(data).for_each(|(to, from)| *to = from);
+        Self { id: id & 0x7FF, data: bytes, length: N.min(8) as u8 }
+    }
+
+    /// Eight bytes; those behind the frame's own are 0.
+    pub(super) const fn padded(&self) -> [u8; 8] {
+        self.data
+    }
+
+    /// The identifier (COB-ID).
+    #[must_use]
+    pub const fn id(&self) -> u16 {
+        self.id
+    }
+
+    /// The bytes.
+    #[must_use]
+    pub fn data(&self) -> &[u8] {
+        &self.data[..usize::from(self.length)]
+    }
+
+    /// A frame of a library; `None` for one without data of its own, or with an identifier of 29 bits.
+    pub fn from_frame(frame: &impl embedded_can::Frame) -> Option<Self> {
+        match frame.id() {
+            Id::Standard(id) if frame.is_data_frame() => Self::new(id.as_raw(), frame.data()),
+            _ => None,
+        }
+    }
+
+    /// The same as a frame of a library; `None` where it has none like it.
+    pub fn to_frame<F: embedded_can::Frame>(&self) -> Option<F> {
+        F::new(StandardId::new(self.id)?, self.data())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits() {
+        assert_eq!(CanFrame::new(0x800, &[]), None);
+        assert_eq!(CanFrame::new(0x7FF, &[0; 9]), None);
+        let frame = CanFrame::new(0x185, &[1, 2]).expect("a frame");
+        assert_eq!((frame.id(), frame.data()), (0x185, [1, 2].as_slice()));
+    }
+}

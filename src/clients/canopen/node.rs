@@ -1,0 +1,195 @@
+//! One node of a network.
+
+use core::time::Duration;
+
+use super::emergency::Emergency;
+use super::frame::CanFrame;
+use super::nmt::{self, NmtCommand, NmtState};
+use super::port::{AsyncCanPort, CanPort};
+use crate::error::Error;
+use crate::node_id::NodeId;
+
+/// How long an answer may take where nothing else is said.
+pub const TIMEOUT: Duration = Duration::from_millis(500);
+
+/// One node behind a CAN interface. It is a [`Client`](crate::Client) of a [`CanPort`], an
+/// [`AsyncClient`](crate::AsyncClient) of an [`AsyncCanPort`].
+///
+/// Frames that come while others are waited for are lost, unless the interface is [`Buffered`](super::Buffered).
+#[derive(Clone, Debug)]
+pub struct Node<P> {
+    port: P,
+    id: NodeId,
+    timeout: Duration,
+}
+
+impl<P> Node<P> {
+    /// The node `id` behind `port`. An answer may take [`TIMEOUT`].
+    pub const fn new(port: P, id: NodeId) -> Self {
+        Self { port, id, timeout: TIMEOUT }
+    }
+
+    /// The same with another time for each answer, and for the bus to become free.
+    #[must_use]
+    pub fn with_timeout(self, timeout: Duration) -> Self {
+        Self { timeout, ..self }
+    }
+
+    /// The node-ID.
+    pub const fn id(&self) -> NodeId {
+        self.id
+    }
+
+    /// How long an answer may take.
+    pub const fn timeout(&self) -> Duration {
+        self.timeout
+    }
+
+    /// The interface.
+    pub fn port(&mut self) -> &mut P {
+        &mut self.port
+    }
+
+    /// Gives the interface back.
+    pub fn into_port(self) -> P {
+        self.port
+    }
+}
+
+fn sent<E>(is_sent: bool) -> Result<(), Error<E>> {
+    if is_sent {
+        Ok(())
+    } else {
+        Err(Error::Timeout)
+    }
+}
+
+/// What a heartbeat of `id` in one of `states` is; in any state where there are none.
+fn state_of(frame: &CanFrame, id: NodeId) -> Option<NmtState> {
+    NmtState::of(frame).filter(|(node, _)| *node == id).map(|(_, state)| state)
+}
+
+impl<P: CanPort> Node<P> {
+    /// Sends a frame, whoever it is for.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Client`] where the interface fails, [`Error::Timeout`] where the bus doesn't become free.
+    pub fn send(&mut self, frame: &CanFrame) -> Result<(), Error<P::Error>> {
+        sent(self.port.send(frame, self.timeout).map_err(Error::Client)?)
+    }
+
+    /// Tells the node what to do (CiA 301 7.2.8.3.1). No node answers to it; its heartbeat shows the state.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`send`](Self::send).
+    pub fn nmt(&mut self, command: NmtCommand) -> Result<(), Error<P::Error>> {
+        self.send(&command.frame(Some(self.id)))
+    }
+
+    /// Sends SYNC, at which all nodes of the network send and take over their synchronous PDOs.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`send`](Self::send).
+    pub fn sync(&mut self) -> Result<(), Error<P::Error>> {
+        self.send(&nmt::sync())
+    }
+
+    /// The state that the node's next heartbeat tells; `None` where none comes within `patience`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Client`] where the interface fails.
+    pub fn heartbeat(&mut self, patience: Duration) -> Result<Option<NmtState>, Error<P::Error>> {
+        let id = self.id;
+        let frame = self.port.receive(patience, &mut |frame| state_of(frame, id).is_some());
+        Ok(frame.map_err(Error::Client)?.and_then(|frame| state_of(&frame, id)))
+    }
+
+    /// Waits for a heartbeat that tells `state`; [`NmtState::BootUp`] is the message of a node that has just started.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Client`] where the interface fails, [`Error::Timeout`] where no such heartbeat comes within `patience`.
+    pub fn wait_for(&mut self, state: NmtState, patience: Duration) -> Result<(), Error<P::Error>> {
+        let id = self.id;
+        let frame = self.port.receive(patience, &mut |frame| state_of(frame, id) == Some(state));
+        sent(frame.map_err(Error::Client)?.is_some())
+    }
+
+    /// The node's next emergency message; `None` where none comes within `patience`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Client`] where the interface fails.
+    pub fn emergency(&mut self, patience: Duration) -> Result<Option<Emergency>, Error<P::Error>> {
+        let id = self.id;
+        let frame = self.port.receive(patience, &mut |frame| Emergency::of(frame, id).is_some());
+        Ok(frame.map_err(Error::Client)?.and_then(|frame| Emergency::of(&frame, id)))
+    }
+}
+
+impl<P: AsyncCanPort> Node<P> {
+    /// Sends a frame, as [`send`](Self::send) does.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`send`](Self::send).
+    pub async fn send_async(&mut self, frame: &CanFrame) -> Result<(), Error<P::Error>> {
+        sent(self.port.send(frame, self.timeout).await.map_err(Error::Client)?)
+    }
+
+    /// Tells the node what to do, as [`nmt`](Self::nmt) does.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`send`](Self::send).
+    pub async fn nmt_async(&mut self, command: NmtCommand) -> Result<(), Error<P::Error>> {
+        let frame = command.frame(Some(self.id));
+        self.send_async(&frame).await
+    }
+
+    /// Sends SYNC, as [`sync`](Self::sync) does.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`send`](Self::send).
+    pub async fn sync_async(&mut self) -> Result<(), Error<P::Error>> {
+        self.send_async(&nmt::sync()).await
+    }
+
+    /// The state that the node's next heartbeat tells, as [`heartbeat`](Self::heartbeat) gives it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Client`] where the interface fails.
+    pub async fn heartbeat_async(&mut self, patience: Duration) -> Result<Option<NmtState>, Error<P::Error>> {
+        let id = self.id;
+        let frame = self.port.receive(patience, &mut |frame| state_of(frame, id).is_some()).await;
+        Ok(frame.map_err(Error::Client)?.and_then(|frame| state_of(&frame, id)))
+    }
+
+    /// Waits for a heartbeat that tells `state`, as [`wait_for`](Self::wait_for) does.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`wait_for`](Self::wait_for).
+    pub async fn wait_for_async(&mut self, state: NmtState, patience: Duration) -> Result<(), Error<P::Error>> {
+        let id = self.id;
+        let frame = self.port.receive(patience, &mut |frame| state_of(frame, id) == Some(state)).await;
+        sent(frame.map_err(Error::Client)?.is_some())
+    }
+
+    /// The node's next emergency message, as [`emergency`](Self::emergency) gives it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Client`] where the interface fails.
+    pub async fn emergency_async(&mut self, patience: Duration) -> Result<Option<Emergency>, Error<P::Error>> {
+        let id = self.id;
+        let frame = self.port.receive(patience, &mut |frame| Emergency::of(frame, id).is_some()).await;
+        Ok(frame.map_err(Error::Client)?.and_then(|frame| Emergency::of(&frame, id)))
+    }
+}
