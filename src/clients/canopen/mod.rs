@@ -35,6 +35,7 @@
 //!
 //! The buffer of an SDO transfer is allocated; all else is on the stack.
 
+mod buffered;
 mod emergency;
 mod frame;
 #[cfg(all(feature = "socketcan", target_os = "linux"))]
@@ -43,14 +44,17 @@ mod linux;
 mod linux_async;
 mod nmt;
 mod node;
+mod polled;
 mod port;
 mod sdo;
 
+pub use buffered::Buffered;
 pub use emergency::Emergency;
 pub use frame::CanFrame;
 pub use nmt::{sync, NmtCommand, NmtState};
 pub use node::{Node, TIMEOUT};
-pub use port::{AsyncCanPort, Buffered, CanPort, Polled};
+pub use polled::Polled;
+pub use port::{AsyncCanPort, CanPort};
 #[cfg(all(feature = "socketcan", target_os = "linux"))]
 pub use socketcan;
 

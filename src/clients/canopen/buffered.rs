@@ -1,0 +1,156 @@
+//! Interfaces that forget nothing.
+
+use core::time::Duration;
+
+use super::frame::CanFrame;
+use super::port::{AsyncCanPort, CanPort};
+
+/// An interface that keeps up to `N` frames which came while others were waited for: an emergency message during an SDO
+/// transfer isn't lost.
+///
+/// Of more than `N`, the oldest are lost, and [counted](Buffered::lost).
+#[derive(Clone, Debug)]
+pub struct Buffered<P, const N: usize> {
+    port: P,
+    kept: Kept<N>,
+}
+
+/// Frames in the order in which they came: `frames[..count]`.
+#[derive(Clone, Debug)]
+struct Kept<const N: usize> {
+    frames: [Option<CanFrame>; N],
+    count: usize,
+    lost: usize,
+}
+
+impl<const N: usize> Kept<N> {
+    const fn new() -> Self {
+        Self { frames: [None; N], count: 0, lost: 0 }
+    }
+
+    fn push(&mut self, frame: CanFrame) {
+        if self.count == N {
+            self.lost = self.lost.saturating_add(1);
+            self.remove(0);
+        }
+        if let Some(place) = self.frames.get_mut(self.count) {
+            *place = Some(frame);
+            self.count += 1;
+        }
+    }
+
+    fn remove(&mut self, at: usize) -> Option<CanFrame> {
+        let frame = self.frames.get_mut(at)?.take();
+        self.frames[at..].rotate_left(1);
+        self.count = self.count.saturating_sub(1);
+        frame
+    }
+
+    fn take(&mut self, wanted: &mut dyn FnMut(&CanFrame) -> bool) -> Option<CanFrame> {
+        let at = self.frames.iter().flatten().position(wanted)?;
+        self.remove(at)
+    }
+
+    /// Whether `frame` is wanted; it is kept where it isn't.
+    fn check(&mut self, frame: &CanFrame, wanted: &mut dyn FnMut(&CanFrame) -> bool) -> bool {
+        let is_wanted = wanted(frame);
+        if !is_wanted {
+            self.push(*frame);
+        }
+        is_wanted
+    }
+}
+
+impl<P, const N: usize> Buffered<P, N> {
+    /// The interface `port`, with no frame kept.
+    pub const fn new(port: P) -> Self {
+        Self { port, kept: Kept::new() }
+    }
+
+    /// How many frames were lost because `N` others were kept.
+    pub const fn lost(&self) -> usize {
+        self.kept.lost
+    }
+
+    /// Forgets the frames that are kept.
+    pub fn clear(&mut self) {
+        self.kept = Kept { lost: self.kept.lost, ..Kept::new() };
+    }
+
+    /// Gives the interface back; what is kept is lost.
+    pub fn into_inner(self) -> P {
+        self.port
+    }
+}
+
+impl<P: CanPort, const N: usize> CanPort for Buffered<P, N> {
+    type Error = P::Error;
+
+    fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, P::Error> {
+        self.port.send(frame, patience)
+    }
+
+    fn receive(
+        &mut self,
+        patience: Duration,
+        wanted: &mut dyn FnMut(&CanFrame) -> bool,
+    ) -> Result<Option<CanFrame>, P::Error> {
+        if let Some(frame) = self.kept.take(wanted) {
+            return Ok(Some(frame));
+        }
+        let kept = &mut self.kept;
+        self.port.receive(patience, &mut |frame| kept.check(frame, wanted))
+    }
+}
+
+impl<P: AsyncCanPort, const N: usize> AsyncCanPort for Buffered<P, N> {
+    type Error = P::Error;
+
+    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, P::Error> {
+        self.port.send(frame, patience).await
+    }
+
+    async fn receive(
+        &mut self,
+        patience: Duration,
+        wanted: &mut dyn FnMut(&CanFrame) -> bool,
+    ) -> Result<Option<CanFrame>, P::Error> {
+        if let Some(frame) = self.kept.take(wanted) {
+            return Ok(Some(frame));
+        }
+        let kept = &mut self.kept;
+        self.port.receive(patience, &mut |frame| kept.check(frame, wanted)).await
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(id: u16) -> CanFrame {
+        CanFrame::new(id, &[]).expect("a frame")
+    }
+
+    #[test]
+    fn frames_are_kept_in_their_order() {
+        let mut kept = Kept::<2>::new();
+        for id in [1, 2, 3] {
+            assert!(!kept.check(&frame(id), &mut |_| false));
+        }
+        assert!(kept.check(&frame(9), &mut |_| true));
+        assert_eq!((kept.count, kept.lost), (2, 1));
+        assert_eq!(kept.take(&mut |frame| frame.id() == 3), Some(frame(3)));
+        assert_eq!(kept.take(&mut |frame| frame.id() == 1), None);
+        kept.push(frame(4));
+        assert_eq!(kept.take(&mut |_| true), Some(frame(2)));
+        assert_eq!(kept.take(&mut |_| true), Some(frame(4)));
+        assert_eq!((kept.take(&mut |_| true), kept.count, kept.lost), (None, 0, 1));
+    }
+
+    #[test]
+    fn nothing_is_kept_in_no_room() {
+        let mut kept = Kept::<0>::new();
+        kept.push(frame(1));
+        assert_eq!((kept.take(&mut |_| true), kept.lost), (None, 1));
+    }
+}
