@@ -94,6 +94,28 @@ pub struct Record {
     pub index: u16,
     /// The value's offset in the record, in bytes.
     pub offset: u16,
+    /// Whether the value is a text or other bytes, one after the other; a number has its most significant byte first.
+    pub is_bytes: bool,
+}
+
+impl Record {
+    /// A number `offset` bytes behind the start of a record of the application process 0.
+    #[must_use]
+    pub const fn new(slot: u16, subslot: u16, index: u16, offset: u16) -> Self {
+        Self { api: 0, slot, subslot, index, offset, is_bytes: false }
+    }
+
+    /// The same in another application process (API).
+    #[must_use]
+    pub const fn of_api(self, api: u32) -> Self {
+        Self { api, ..self }
+    }
+
+    /// The same place for a text or other bytes.
+    #[must_use]
+    pub const fn bytes(self) -> Self {
+        Self { is_bytes: true, ..self }
+    }
 }
 
 /// The number of a parameter of a serial protocol.

@@ -5,6 +5,8 @@ use core::fmt;
 
 use crate::abort::AbortCode;
 use crate::bus::Object;
+use crate::profinet::parameter_access::ParameterError;
+use crate::profinet::NotAllowed;
 
 /// Why an access failed. `E` is the client's own error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -31,6 +33,10 @@ pub enum Error<E> {
     Length(LengthError),
     /// The text isn't valid for the item's type.
     Text(TextError),
+    /// A field of a PROFINET record has a value that isn't allowed. Nothing was sent.
+    NotAllowed(NotAllowed),
+    /// An access to a parameter of a PROFIdrive drive was refused, or went wrong.
+    Parameter(ParameterError),
 }
 
 /// A number of bytes other than the expected one.
@@ -69,6 +75,8 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
             Self::OutOfRange(error) => error.fmt(f),
             Self::Length(error) => error.fmt(f),
             Self::Text(error) => error.fmt(f),
+            Self::NotAllowed(error) => error.fmt(f),
+            Self::Parameter(error) => error.fmt(f),
         }
     }
 }

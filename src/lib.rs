@@ -115,7 +115,7 @@ pub use initial::{AddNodeId, Initial};
 pub use item::Item;
 pub use location::{
     Absent, Location, On, OnCanOpen, OnCanOpenAndCoE, OnCanOpenAndModbus, OnCanOpenCoEAndModbus, OnCoE, OnCoEAndModbus,
-    OnModbus, OnSerial,
+    OnModbus, OnProfinet, OnSerial,
 };
 pub use machine::{Step, Transition};
 pub use node_id::NodeId;

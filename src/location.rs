@@ -104,6 +104,9 @@ pub type OnCoEAndModbus = Location<Absent, Object, Register>;
 /// The location of an item that is the same object on CANopen and on CANopen over EtherCAT, and a register on Modbus.
 pub type OnCanOpenCoEAndModbus = Location<Object, Object, Register>;
 
+/// The location of an item that exists on PROFINET only, as a part of a record.
+pub type OnProfinet = Location<Absent, Absent, Absent, Record>;
+
 /// The location of an item that exists on a serial protocol only.
 pub type OnSerial = Location<Absent, Absent, Absent, Absent, Parameter>;
 
@@ -163,6 +166,14 @@ impl OnCanOpenCoEAndModbus {
     }
 }
 
+impl OnProfinet {
+    /// A part of a record of a PROFINET device.
+    #[must_use]
+    pub const fn record(part: Record) -> Self {
+        Location { canopen: Absent, coe: Absent, modbus: Absent, profinet: part, serial: Absent }
+    }
+}
+
 impl OnSerial {
     /// A parameter of a serial protocol.
     #[must_use]
@@ -211,7 +222,7 @@ mod tests {
             canopen: Object { index: 1, sub_index: 2 },
             coe: Object { index: 3, sub_index: 4 },
             modbus: Register::holding(5),
-            profinet: Record { api: 0, slot: 1, subslot: 1, index: 6, offset: 7 },
+            profinet: Record::new(1, 1, 6, 7),
             serial: Parameter(8),
         };
         assert_eq!(On::<CanOpen>::address(&everywhere).index, 1);

@@ -8,6 +8,11 @@
 //!
 //! Inputs go from the device to the controller, outputs from the controller to the device.
 //!
+//! A controller library carries the bytes: an adapter to it implements [`RecordClient`] for records and [`ImageClient`] for the
+//! process image (or [`AsyncRecordClient`] and [`AsyncImageClient`]). On the one stand [`RecordAccess`], for records as structs and
+//! items within them, and [`parameter_access`], for the parameters of PROFIdrive; [`Plan::layout`] says where the data of a
+//! submodule are in the other.
+//!
 //! ```
 //! use lexibus::profinet::{Dap, IoLengths, Module, ModuleUse, Places, Plan, PlanError, Submodule, SubmoduleUse};
 //!
@@ -61,11 +66,16 @@ mod descriptor;
 mod diagnosis;
 mod f_parameters;
 mod f_record;
+mod image;
 mod io;
 #[cfg(feature = "serde")]
 pub mod octets;
+pub mod parameter_access;
 mod plan;
 mod record;
+mod record_access;
+mod record_client;
+mod status;
 
 pub use descriptor::{Dap, IoLengths, Module, ModuleUse, Places, Record, Submodule, SubmoduleUse};
 pub use diagnosis::{
@@ -74,6 +84,10 @@ pub use diagnosis::{
 };
 pub use f_parameters::{FCrcLength, FParameters, FPassivation, Sil};
 pub use f_record::{FField, FLimit, FRecord};
+pub use image::{AsyncImageClient, ImageClient, IoPlace, IoSpan};
 pub use io::{FTrailer, IoData, IoObject, IoObjectMut, IoStatus, WithStatus};
 pub use plan::{Expected, Plan, PlanError, RecordWrite, Records, Replacement};
 pub use record::{check, NotAllowed, RecordData, RecordError};
+pub use record_access::RecordAccess;
+pub use record_client::{AsyncRecordClient, RecordAddress, RecordClient, SubmoduleAddress};
+pub use status::PnioStatus;

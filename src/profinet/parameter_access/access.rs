@@ -1,0 +1,277 @@
+//! Requests and responses over a record client.
+
+use super::error::ParameterError;
+use super::format::ParameterValue;
+use super::request::{change_request, read_request, Change, ParameterAddress};
+use super::response::Response;
+use crate::abort::AbortCode;
+use crate::error::Error;
+use crate::profinet::record_client::{AsyncRecordClient, RecordAddress, RecordClient, SubmoduleAddress};
+
+/// The record for parameters of the axis whose submodule it belongs to.
+pub const LOCAL: u16 = 0xB02E;
+
+/// The record for parameters of any axis.
+pub const GLOBAL: u16 = 0xB02F;
+
+/// Number of the application process (API) of PROFIdrive.
+pub const API: u32 = 0x3A00;
+
+/// How long requests and responses of the calls of [`ParameterAccess`] for one parameter are at most, in bytes: what fits into
+/// the parameter channel of every drive.
+pub const BLOCK_LEN: usize = 240;
+
+/// How often a response is read where nothing else is said.
+const POLLS: u32 = 200;
+
+/// Reads and changes parameters of a drive, through a submodule that has a record for it.
+///
+/// A call writes a request and reads the response until the drive has one: as long as the record is empty, or the client says
+/// that the device is busy ([`RecordClient::is_busy`]), at most so many times ([`with_polls`](Self::with_polls)), with
+/// [`RecordClient::pause`] in between. A drive works at one request at a time.
+///
+/// # Errors
+///
+/// Each call fails as the client does. When there is no response after the last time, that is the client's error, or the abort
+/// code [`AbortCode::TIMEOUT`] where the record was empty. [`Error::Parameter`] is what the drive refuses, and what its response
+/// lacks; [`Error::Length`] says that a request or a response has too few bytes, or more than the buffer.
+#[derive(Clone, Debug)]
+pub struct ParameterAccess<C> {
+    client: C,
+    record: RecordAddress,
+    polls: u32,
+    reference: u8,
+}
+
+impl<C> ParameterAccess<C> {
+    /// Through the record [`LOCAL`] of the submodule in `subslot` of `slot`, which belongs to the application process of
+    /// PROFIdrive. In most drives the slot is that of the axis, and the subslot 1.
+    pub const fn new(client: C, slot: u16, subslot: u16) -> Self {
+        Self::with_record(client, SubmoduleAddress::new(API, slot, subslot).record(LOCAL))
+    }
+
+    /// Through another record: [`GLOBAL`], that of another application process, or a vendor's own.
+    pub const fn with_record(client: C, record: RecordAddress) -> Self {
+        Self { client, record, polls: POLLS, reference: 0 }
+    }
+
+    /// The same with another number of times that a response is read before that fails. 0 is taken for 1.
+    #[must_use]
+    pub fn with_polls(self, polls: u32) -> Self {
+        Self { polls, ..self }
+    }
+
+    /// The client.
+    pub fn client(&mut self) -> &mut C {
+        &mut self.client
+    }
+
+    /// Gives the client back.
+    pub fn into_client(self) -> C {
+        self.client
+    }
+
+    /// A reference for the next request: from 1 to 255, and then again.
+    pub fn next_reference(&mut self) -> u8 {
+        self.reference = self.reference.checked_add(1).unwrap_or(1);
+        self.reference
+    }
+
+    /// A request that reads values of one parameter.
+    fn reading<'b>(
+        &mut self,
+        buffer: &'b mut [u8],
+        axis: u8,
+        address: ParameterAddress,
+    ) -> Result<&'b [u8], ParameterError> {
+        read_request(buffer, self.next_reference(), axis, &[address])
+    }
+
+    /// A request that changes values of one parameter.
+    fn changing<'b, T: ParameterValue + Copy>(
+        &mut self,
+        buffer: &'b mut [u8],
+        (axis, pnu, subindex): (u8, u16, u16),
+        values: &[T],
+    ) -> Result<&'b [u8], ParameterError> {
+        let mut bytes = [0; BLOCK_LEN];
+        let mut length = 0;
+        for value in values {
+            let own = value.to_bytes();
+            let own = own.as_ref();
+            let to = bytes.get_mut(length..).and_then(|rest| rest.get_mut(..own.len()));
+            to.ok_or(ParameterError::Values(T::FORMAT))?.copy_from_slice(own);
+            length += own.len();
+        }
+        let elements = elements::<T>(values)?;
+        let address = ParameterAddress::values(pnu, subindex, elements);
+        let change = Change::new(address, T::FORMAT, bytes.get(..length).unwrap_or_default());
+        change_request(buffer, self.next_reference(), axis, &[change])
+    }
+}
+
+fn elements<T: ParameterValue>(values: &[T]) -> Result<u8, ParameterError> {
+    u8::try_from(values.len()).ok().filter(|count| *count > 0).ok_or(ParameterError::Values(T::FORMAT))
+}
+
+/// The values of a response with one parameter.
+fn copy<T: ParameterValue>(response: &Response<'_>, to: &mut [T]) -> Result<(), ParameterError> {
+    let values = response.values()?;
+    for (place, to) in to.iter_mut().enumerate() {
+        *to = values.get(place)?;
+    }
+    Ok(())
+}
+
+/// What an attempt to read a response means: its length, or that there is none yet, with what to say after the last one.
+fn response_length<E>(
+    outcome: Result<usize, Error<E>>,
+    is_busy: impl FnOnce(&E) -> bool,
+) -> Result<Result<usize, Error<E>>, Error<E>> {
+    match outcome {
+        Ok(0) => Ok(Err(Error::Abort(AbortCode::TIMEOUT))),
+        Ok(length) => Ok(Ok(length)),
+        Err(Error::Client(error)) if is_busy(&error) => Ok(Err(Error::Client(error))),
+        Err(error) => Err(error),
+    }
+}
+
+/// The response of `length` bytes in `buffer`.
+fn decoded<'b, E>(request: &[u8], buffer: &'b [u8], length: usize) -> Result<Response<'b>, Error<E>> {
+    let data = buffer.get(..length).ok_or(crate::LengthError::new(buffer.len(), length))?;
+    Ok(Response::decode(request, data)?)
+}
+
+impl<C: RecordClient> ParameterAccess<C> {
+    /// Reads one value of a parameter of `axis`. The subindex of a parameter that is no array is 0.
+    pub fn read<T: ParameterValue>(&mut self, axis: u8, pnu: u16, subindex: u16) -> Result<T, Error<C::Error>> {
+        let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
+        let request = self.reading(&mut request, axis, ParameterAddress::value(pnu, subindex))?;
+        Ok(self.request(request, &mut response)?.values()?.get(0)?)
+    }
+
+    /// Reads values of an array, from `subindex` on, until `values` are full.
+    pub fn read_array<T: ParameterValue>(
+        &mut self,
+        axis: u8,
+        pnu: u16,
+        subindex: u16,
+        values: &mut [T],
+    ) -> Result<(), Error<C::Error>> {
+        let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
+        let address = ParameterAddress::values(pnu, subindex, elements(values)?);
+        let request = self.reading(&mut request, axis, address)?;
+        Ok(copy(&self.request(request, &mut response)?, values)?)
+    }
+
+    /// Changes one value of a parameter of `axis`.
+    pub fn write<T: ParameterValue + Copy>(
+        &mut self,
+        axis: u8,
+        pnu: u16,
+        subindex: u16,
+        value: T,
+    ) -> Result<(), Error<C::Error>> {
+        self.write_array(axis, pnu, subindex, &[value])
+    }
+
+    /// Changes values of an array, from `subindex` on.
+    pub fn write_array<T: ParameterValue + Copy>(
+        &mut self,
+        axis: u8,
+        pnu: u16,
+        subindex: u16,
+        values: &[T],
+    ) -> Result<(), Error<C::Error>> {
+        let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
+        let request = self.changing(&mut request, (axis, pnu, subindex), values)?;
+        Ok(self.request(request, &mut response)?.done()?)
+    }
+
+    /// Sends any request, of [`read_request`] or [`change_request`] with the [next reference](Self::next_reference), and returns
+    /// the response, which is in `buffer` then. What the drive refuses is in the response.
+    pub fn request<'b>(&mut self, request: &[u8], buffer: &'b mut [u8]) -> Result<Response<'b>, Error<C::Error>> {
+        self.client.write_record(self.record, request)?;
+        let mut left = self.polls.max(1);
+        loop {
+            let outcome = self.client.read_record(self.record, buffer);
+            match response_length(outcome, |error| self.client.is_busy(error))? {
+                Ok(length) => return decoded(request, buffer, length),
+                Err(error) if left == 1 => return Err(error),
+                Err(_) => left -= 1,
+            }
+            self.client.pause();
+        }
+    }
+}
+
+impl<C: AsyncRecordClient> ParameterAccess<C> {
+    /// Reads one value, as [`read`](Self::read) does.
+    pub async fn read_async<T: ParameterValue>(
+        &mut self,
+        axis: u8,
+        pnu: u16,
+        subindex: u16,
+    ) -> Result<T, Error<C::Error>> {
+        let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
+        let request = self.reading(&mut request, axis, ParameterAddress::value(pnu, subindex))?;
+        Ok(self.request_async(request, &mut response).await?.values()?.get(0)?)
+    }
+
+    /// Reads values of an array, as [`read_array`](Self::read_array) does.
+    pub async fn read_array_async<T: ParameterValue>(
+        &mut self,
+        axis: u8,
+        pnu: u16,
+        subindex: u16,
+        values: &mut [T],
+    ) -> Result<(), Error<C::Error>> {
+        let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
+        let address = ParameterAddress::values(pnu, subindex, elements(values)?);
+        let request = self.reading(&mut request, axis, address)?;
+        Ok(copy(&self.request_async(request, &mut response).await?, values)?)
+    }
+
+    /// Changes one value, as [`write`](Self::write) does.
+    pub async fn write_async<T: ParameterValue + Copy>(
+        &mut self,
+        axis: u8,
+        pnu: u16,
+        subindex: u16,
+        value: T,
+    ) -> Result<(), Error<C::Error>> {
+        self.write_array_async(axis, pnu, subindex, &[value]).await
+    }
+
+    /// Changes values of an array, as [`write_array`](Self::write_array) does.
+    pub async fn write_array_async<T: ParameterValue + Copy>(
+        &mut self,
+        axis: u8,
+        pnu: u16,
+        subindex: u16,
+        values: &[T],
+    ) -> Result<(), Error<C::Error>> {
+        let (mut request, mut response) = ([0; BLOCK_LEN], [0; BLOCK_LEN]);
+        let request = self.changing(&mut request, (axis, pnu, subindex), values)?;
+        Ok(self.request_async(request, &mut response).await?.done()?)
+    }
+
+    /// Sends any request, as [`request`](Self::request) does.
+    pub async fn request_async<'b>(
+        &mut self,
+        request: &[u8],
+        buffer: &'b mut [u8],
+    ) -> Result<Response<'b>, Error<C::Error>> {
+        self.client.write_record(self.record, request).await?;
+        let mut left = self.polls.max(1);
+        loop {
+            let outcome = self.client.read_record(self.record, buffer).await;
+            match response_length(outcome, |error| self.client.is_busy(error))? {
+                Ok(length) => return decoded(request, buffer, length),
+                Err(error) if left == 1 => return Err(error),
+                Err(_) => left -= 1,
+            }
+            self.client.pause().await;
+        }
+    }
+}

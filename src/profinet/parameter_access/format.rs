@@ -1,0 +1,156 @@
+//! Formats of values, and the types of Rust that have them.
+
+use core::fmt;
+
+use crate::error::LengthError;
+
+/// The format of a parameter's values, by its number: a data type of IEC 61158, one of PROFIdrive, or only a length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Format(pub u8);
+
+macro_rules! formats {
+    ($($name:ident = $number:literal, $text:literal, $size:expr;)*) => {
+        impl Format {
+            $(
+                #[doc = concat!("The format ", stringify!($number), ": ", $text, ".")]
+                pub const $name: Self = Self($number);
+            )*
+
+            /// Its name; `None` where the number isn't that of a known one.
+            #[must_use]
+            pub const fn name(self) -> Option<&'static str> {
+                match self.0 {
+                    $($number => Some($text),)*
+                    _ => None,
+                }
+            }
+
+            /// How many bytes a value takes; `None` where that isn't known. Of a string, a value is one letter.
+            #[must_use]
+            pub const fn size(self) -> Option<usize> {
+                match self.0 {
+                    $($number => $size,)*
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+formats! {
+    BOOLEAN = 1, "Boolean", Some(1);
+    INTEGER8 = 2, "Integer8", Some(1);
+    INTEGER16 = 3, "Integer16", Some(2);
+    INTEGER32 = 4, "Integer32", Some(4);
+    UNSIGNED8 = 5, "Unsigned8", Some(1);
+    UNSIGNED16 = 6, "Unsigned16", Some(2);
+    UNSIGNED32 = 7, "Unsigned32", Some(4);
+    FLOAT32 = 8, "Float32", Some(4);
+    VISIBLE_STRING = 9, "VisibleString", Some(1);
+    OCTET_STRING = 10, "OctetString", Some(1);
+    TIME_OF_DAY = 12, "TimeOfDay", None;
+    FLOAT64 = 15, "Float64", Some(8);
+    DATE = 50, "Date", Some(7);
+    INTEGER64 = 55, "Integer64", Some(8);
+    UNSIGNED64 = 56, "Unsigned64", Some(8);
+    N2 = 113, "N2", Some(2);
+    N4 = 114, "N4", Some(4);
+    V2 = 115, "V2", Some(2);
+    L2 = 116, "L2", Some(2);
+    R2 = 117, "R2", Some(2);
+    T2 = 118, "T2", Some(2);
+    T4 = 119, "T4", Some(4);
+    D2 = 120, "D2", Some(2);
+    E2 = 121, "E2", Some(2);
+    C4 = 122, "C4", Some(4);
+    X2 = 123, "X2", Some(2);
+    X4 = 124, "X4", Some(4);
+    ZERO = 0x40, "Zero", Some(1);
+    BYTE = 0x41, "Byte", Some(1);
+    WORD = 0x42, "Word", Some(2);
+    DOUBLE_WORD = 0x43, "Double word", Some(4);
+    ERROR = 0x44, "Error", Some(2);
+}
+
+impl fmt::Display for Format {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "format {} ({})", self.0, self.name().unwrap_or("unknown"))
+    }
+}
+
+/// A type of Rust for values of parameters. A newtype implements it by handing over to its number.
+pub trait ParameterValue: Sized {
+    /// The format in which it is written.
+    const FORMAT: Format;
+
+    /// Its bytes, the most significant one first.
+    type Bytes: AsRef<[u8]>;
+
+    /// Whether it can be read from values of this format: its own, others of the same number of bits with the same sign,
+    /// and those that only say a length.
+    #[must_use]
+    fn reads(format: Format) -> bool;
+
+    /// Its bytes.
+    fn to_bytes(self) -> Self::Bytes;
+
+    /// The value of these bytes.
+    ///
+    /// # Errors
+    ///
+    /// When there are fewer bytes or more.
+    fn from_bytes(bytes: &[u8]) -> Result<Self, LengthError>;
+}
+
+macro_rules! values {
+    ($($type:ident $size:literal: $own:ident $(| $other:ident)*;)*) => {$(
+        impl ParameterValue for $type {
+            const FORMAT: Format = Format::$own;
+            type Bytes = [u8; $size];
+
+            fn reads(format: Format) -> bool {
+                matches!(format, Format::$own $(| Format::$other)*)
+            }
+
+            fn to_bytes(self) -> [u8; $size] {
+                self.to_be_bytes()
+            }
+
+            fn from_bytes(bytes: &[u8]) -> Result<Self, LengthError> {
+                let bytes = bytes.try_into().map_err(|_| LengthError::new($size, bytes.len()))?;
+                Ok(Self::from_be_bytes(bytes))
+            }
+        }
+    )*};
+}
+
+values! {
+    u8 1: UNSIGNED8 | BYTE;
+    u16 2: UNSIGNED16 | WORD | V2 | L2 | R2 | T2 | D2;
+    u32 4: UNSIGNED32 | DOUBLE_WORD | T4;
+    u64 8: UNSIGNED64;
+    i8 1: INTEGER8 | BYTE;
+    i16 2: INTEGER16 | WORD | N2 | E2 | X2;
+    i32 4: INTEGER32 | DOUBLE_WORD | N4 | C4 | X4;
+    i64 8: INTEGER64;
+    f32 4: FLOAT32 | DOUBLE_WORD;
+    f64 8: FLOAT64;
+}
+
+/// One byte, 0 or 1. Any other value than 0 is read as `true`.
+impl ParameterValue for bool {
+    const FORMAT: Format = Format::BOOLEAN;
+    type Bytes = [u8; 1];
+
+    fn reads(format: Format) -> bool {
+        matches!(format, Format::BOOLEAN | Format::BYTE)
+    }
+
+    fn to_bytes(self) -> [u8; 1] {
+        [u8::from(self)]
+    }
+
+    fn from_bytes(bytes: &[u8]) -> Result<Self, LengthError> {
+        u8::from_bytes(bytes).map(|byte| byte != 0)
+    }
+}

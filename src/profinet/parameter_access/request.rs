@@ -1,0 +1,185 @@
+//! What a controller sends.
+
+use super::error::ParameterError;
+use super::format::Format;
+use crate::error::LengthError;
+
+/// How many parameters a request has at most.
+pub const MAX_PARAMETERS: usize = 39;
+
+/// The kind of a request that reads.
+pub(super) const READ: u8 = 0x01;
+/// The kind of a request that changes.
+pub(super) const CHANGE: u8 = 0x02;
+/// Length of what a request and its response begin with: reference, kind, axis, number of parameters.
+pub(super) const HEADER_LEN: usize = 4;
+/// Length of a parameter's address.
+const ADDRESS_LEN: usize = 6;
+
+/// What of a parameter is read or changed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Attribute {
+    /// Its values.
+    #[default]
+    Value = 0x10,
+    /// Elements of its description.
+    Description = 0x20,
+    /// Its texts.
+    Text = 0x30,
+}
+
+/// Which elements of a parameter are read or changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct ParameterAddress {
+    /// What of them.
+    pub attribute: Attribute,
+    /// How many of them.
+    pub elements: u8,
+    /// Number of the parameter (PNU).
+    pub pnu: u16,
+    /// Subindex of the first one; 0 for a parameter that is no array.
+    pub subindex: u16,
+}
+
+impl ParameterAddress {
+    /// One value.
+    #[must_use]
+    pub const fn value(pnu: u16, subindex: u16) -> Self {
+        Self::values(pnu, subindex, 1)
+    }
+
+    /// The values of several elements of an array, from `subindex` on.
+    #[must_use]
+    pub const fn values(pnu: u16, subindex: u16, elements: u8) -> Self {
+        Self { attribute: Attribute::Value, elements, pnu, subindex }
+    }
+
+    /// The same elements of another attribute.
+    #[must_use]
+    pub const fn of(self, attribute: Attribute) -> Self {
+        Self { attribute, ..self }
+    }
+}
+
+/// A parameter and what becomes of it.
+///
+/// ```
+/// use lexibus::profinet::parameter_access::{Change, ParameterAddress, ParameterValue};
+///
+/// let ramp = 1500_u16.to_be_bytes();
+/// let change = Change::new(ParameterAddress::value(1120, 0), u16::FORMAT, &ramp);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Change<'v> {
+    /// The parameter.
+    pub address: ParameterAddress,
+    /// The format of the values.
+    pub format: Format,
+    /// The values, one after the other.
+    pub values: &'v [u8],
+}
+
+impl<'v> Change<'v> {
+    /// A change of `address` to `values`.
+    #[must_use]
+    pub const fn new(address: ParameterAddress, format: Format, values: &'v [u8]) -> Self {
+        Self { address, format, values }
+    }
+}
+
+/// Puts a request that reads `parameters` of `axis` (also called drive object, DO-ID) to the start of `buffer` and returns it.
+///
+/// `reference` tells the request from others and comes back in the response.
+///
+/// # Errors
+///
+/// When `reference` is 0, `parameters` are none or more than [`MAX_PARAMETERS`], or don't fit into `buffer`.
+pub fn read_request<'b>(
+    buffer: &'b mut [u8],
+    reference: u8,
+    axis: u8,
+    parameters: &[ParameterAddress],
+) -> Result<&'b [u8], ParameterError> {
+    let mut to = Writer::new(buffer);
+    to.header(reference, READ, axis, parameters.len())?;
+    parameters.iter().for_each(|parameter| to.address(parameter));
+    to.finish()
+}
+
+/// Puts a request that makes `changes` to parameters of `axis` (also called drive object, DO-ID) to the start of `buffer` and
+/// returns it.
+///
+/// # Errors
+///
+/// When `reference` is 0, `changes` are none or more than [`MAX_PARAMETERS`], or don't fit into `buffer`; when values aren't of
+/// their format.
+pub fn change_request<'b>(
+    buffer: &'b mut [u8],
+    reference: u8,
+    axis: u8,
+    changes: &[Change<'_>],
+) -> Result<&'b [u8], ParameterError> {
+    let mut to = Writer::new(buffer);
+    to.header(reference, CHANGE, axis, changes.len())?;
+    changes.iter().for_each(|change| to.address(&change.address));
+    for change in changes {
+        to.values(change)?;
+    }
+    to.finish()
+}
+
+/// Writes as long as there is room, and counts on beyond it.
+struct Writer<'b> {
+    buffer: &'b mut [u8],
+    length: usize,
+}
+
+impl<'b> Writer<'b> {
+    fn new(buffer: &'b mut [u8]) -> Self {
+        Self { buffer, length: 0 }
+    }
+
+    fn put(&mut self, bytes: &[u8]) {
+        let to = self.buffer.get_mut(self.length..).and_then(|rest| rest.get_mut(..bytes.len()));
+        if let Some(to) = to {
+            to.copy_from_slice(bytes);
+        }
+        self.length += bytes.len();
+    }
+
+    fn header(&mut self, reference: u8, id: u8, axis: u8, count: usize) -> Result<(), ParameterError> {
+        if reference == 0 {
+            return Err(ParameterError::NoRequest);
+        }
+        let allowed = u8::try_from(count).ok().filter(|_| (1..=MAX_PARAMETERS).contains(&count));
+        self.put(&[reference, id, axis, allowed.ok_or(ParameterError::Count(count))?]);
+        Ok(())
+    }
+
+    fn address(&mut self, address: &ParameterAddress) {
+        let ([a, b], [c, d]) = (address.pnu.to_be_bytes(), address.subindex.to_be_bytes());
+        let bytes: [u8; ADDRESS_LEN] = [address.attribute as u8, address.elements, a, b, c, d];
+        self.put(&bytes);
+    }
+
+    fn values(&mut self, change: &Change<'_>) -> Result<(), ParameterError> {
+        let error = ParameterError::Values(change.format);
+        let size = change.format.size().ok_or(error)?;
+        let count = u8::try_from(change.values.len() / size).map_err(|_| error)?;
+        if count == 0 || change.values.len() % size != 0 {
+            return Err(error);
+        }
+        self.put(&[change.format.0, count]);
+        self.put(change.values);
+        if change.values.len() % 2 == 1 {
+            self.put(&[0]);
+        }
+        Ok(())
+    }
+
+    fn finish(self) -> Result<&'b [u8], ParameterError> {
+        let error = LengthError::new(self.length, self.buffer.len());
+        let buffer: &'b [u8] = self.buffer;
+        Ok(buffer.get(..self.length).ok_or(error)?)
+    }
+}

@@ -1,0 +1,227 @@
+//! Typed records and items, through a record client.
+
+use super::record::{NotAllowed, RecordData, RecordError};
+use super::record_client::{AsyncRecordClient, RecordAddress, RecordClient, SubmoduleAddress};
+use crate::bus::{Profinet, Record};
+use crate::client::{AsyncClient, Client};
+use crate::error::{Error, LengthError};
+
+/// Reads and writes records as structs, and items that are parts of records.
+///
+/// `N` is the length of the longest record in bytes, for which it has a buffer.
+///
+/// ```
+/// use lexibus::profinet::{RecordAccess, RecordClient, RecordData, SubmoduleAddress};
+/// use lexibus::Error;
+///
+/// /// Any generated record, read, changed and written back.
+/// fn change<C: RecordClient, T: RecordData>(client: C, change: impl FnOnce(&mut T)) -> Result<(), Error<C::Error>> {
+///     let mut records = RecordAccess::<_, 64>::new(client);
+///     let input = SubmoduleAddress::new(0, 2, 1);
+///     let mut record = records.read::<T>(input)?;
+///     change(&mut record);
+///     records.write(input, &record)
+/// }
+/// ```
+///
+/// It is a [`Client`] where `C` is a [`RecordClient`], and an [`AsyncClient`] where it is an [`AsyncRecordClient`]. An item is
+/// at most a part of a record: who writes it reads the record first and writes all of it; nobody else should write it meanwhile. A
+/// text is read as far as the caller's buffer goes.
+///
+/// What doesn't fit into the buffer doesn't compile:
+///
+/// ```compile_fail,E0080
+/// use lexibus::profinet::{FRecord, RecordAccess, RecordClient, RecordData, SubmoduleAddress};
+///
+/// fn read<C: RecordClient>(client: C) {
+///     let _ = RecordAccess::<_, 4>::new(client).read::<Long>(SubmoduleAddress::new(0, 2, 1));
+/// }
+/// # struct Long;
+/// # impl RecordData for Long {
+/// #     const INDEX: u16 = 1;
+/// #     const LEN: usize = 5;
+/// #     const TRANSFER_SEQUENCE: u16 = 0;
+/// #     fn decode(_: &[u8]) -> Result<Self, lexibus::LengthError> { Ok(Self) }
+/// #     fn encode_into<'b>(&self, data: &'b mut [u8]) -> Result<&'b [u8], lexibus::profinet::RecordError> { Ok(data) }
+/// # }
+/// # struct Never;
+/// # impl RecordClient for Never {
+/// #     type Error = ();
+/// #     fn read_record(&mut self, _: lexibus::profinet::RecordAddress, _: &mut [u8]) -> Result<usize, lexibus::Error<()>> { Ok(0) }
+/// #     fn write_record(&mut self, _: lexibus::profinet::RecordAddress, _: &[u8]) -> Result<(), lexibus::Error<()>> { Ok(()) }
+/// # }
+/// # read(Never);
+/// ```
+#[derive(Clone, Debug)]
+pub struct RecordAccess<C, const N: usize> {
+    client: C,
+    buffer: [u8; N],
+}
+
+impl<C, const N: usize> RecordAccess<C, N> {
+    /// The device that `client` talks to.
+    pub const fn new(client: C) -> Self {
+        Self { client, buffer: [0; N] }
+    }
+
+    /// The client.
+    pub fn client(&mut self) -> &mut C {
+        &mut self.client
+    }
+
+    /// Gives the client back.
+    pub fn into_client(self) -> C {
+        self.client
+    }
+
+    /// The first `length` bytes of the buffer, which a client says it filled.
+    fn filled(&self, length: usize) -> Result<&[u8], LengthError> {
+        self.buffer.get(..length).ok_or(LengthError::new(N, length))
+    }
+
+    /// The value of an item in the record of this length.
+    fn part(&self, length: usize, place: Record, value: &mut [u8]) -> Result<usize, LengthError> {
+        let at = usize::from(place.offset);
+        let rest = self.filled(length)?.get(at..).unwrap_or_default();
+        let count = if place.is_bytes { value.len().min(rest.len()) } else { value.len() };
+        let own = rest.get(..count).filter(|own| !own.is_empty() || value.is_empty());
+        let own = own.ok_or(LengthError::new(at + value.len().max(1), length))?;
+        copy(value, own, place.is_bytes);
+        Ok(count)
+    }
+
+    /// Puts the value of an item into the record of this length.
+    fn replace(&mut self, length: usize, place: Record, value: &[u8]) -> Result<&[u8], LengthError> {
+        self.filled(length)?;
+        let at = usize::from(place.offset);
+        let error = LengthError::new(at + value.len(), length);
+        let record = self.buffer.get_mut(..length).ok_or(error)?;
+        let to = record.get_mut(at..).and_then(|rest| rest.get_mut(..value.len())).ok_or(error)?;
+        copy(to, value, place.is_bytes);
+        Ok(record)
+    }
+}
+
+/// Copies a value between a record and what a client deals in, where a number has its least significant byte first.
+fn copy(to: &mut [u8], from: &[u8], is_bytes: bool) {
+    to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
+    if !is_bytes {
+        to.reverse();
+    }
+}
+
+/// Holds at compile time.
+struct Fits<T, const N: usize>(core::marker::PhantomData<T>);
+
+impl<T: RecordData, const N: usize> Fits<T, N> {
+    const CHECKED: () = assert!(T::LEN <= N, "the record is longer than the buffer of its `RecordAccess`");
+}
+
+impl<C: RecordClient, const N: usize> RecordAccess<C, N> {
+    /// Reads the record `T` of a submodule.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`RecordClient::read_record`], and [`Error::Length`] where the device's record is shorter than `T`.
+    pub fn read<T: RecordData>(&mut self, submodule: SubmoduleAddress) -> Result<T, Error<C::Error>> {
+        let () = Fits::<T, N>::CHECKED;
+        let length = self.client.read_record(submodule.record(T::INDEX), &mut self.buffer)?;
+        Ok(T::decode(self.filled(length)?)?)
+    }
+
+    /// Writes the record `T` of a submodule.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotAllowed`] where a field has a value that isn't allowed; nothing was sent then. Else those of
+    /// [`RecordClient::write_record`].
+    pub fn write<T: RecordData>(&mut self, submodule: SubmoduleAddress, record: &T) -> Result<(), Error<C::Error>> {
+        let () = Fits::<T, N>::CHECKED;
+        let data = record.encode_into(&mut self.buffer)?;
+        self.client.write_record(submodule.record(T::INDEX), data)
+    }
+}
+
+impl<C: AsyncRecordClient, const N: usize> RecordAccess<C, N> {
+    /// Reads the record `T` of a submodule.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`RecordClient::read_record`], and [`Error::Length`] where the device's record is shorter than `T`.
+    pub async fn read_async<T: RecordData>(&mut self, submodule: SubmoduleAddress) -> Result<T, Error<C::Error>> {
+        let () = Fits::<T, N>::CHECKED;
+        let length = self.client.read_record(submodule.record(T::INDEX), &mut self.buffer).await?;
+        Ok(T::decode(self.filled(length)?)?)
+    }
+
+    /// Writes the record `T` of a submodule.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotAllowed`] where a field has a value that isn't allowed; nothing was sent then. Else those of
+    /// [`RecordClient::write_record`].
+    pub async fn write_async<T: RecordData>(
+        &mut self,
+        submodule: SubmoduleAddress,
+        record: &T,
+    ) -> Result<(), Error<C::Error>> {
+        let () = Fits::<T, N>::CHECKED;
+        let data = record.encode_into(&mut self.buffer)?;
+        self.client.write_record(submodule.record(T::INDEX), data).await
+    }
+}
+
+impl From<Record> for RecordAddress {
+    fn from(part: Record) -> Self {
+        Self { api: part.api, slot: part.slot, subslot: part.subslot, index: part.index }
+    }
+}
+
+impl<C: RecordClient, const N: usize> Client for RecordAccess<C, N> {
+    type Bus = Profinet;
+    type Error = C::Error;
+
+    fn read(&mut self, address: Record, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
+        let length = self.client.read_record(address.into(), &mut self.buffer)?;
+        Ok(self.part(length, address, buffer)?)
+    }
+
+    fn write(&mut self, address: Record, data: &[u8]) -> Result<(), Error<C::Error>> {
+        let length = self.client.read_record(address.into(), &mut self.buffer)?;
+        self.replace(length, address, data)?;
+        let record = self.buffer.get(..length).unwrap_or_default();
+        self.client.write_record(address.into(), record)
+    }
+}
+
+impl<C: AsyncRecordClient, const N: usize> AsyncClient for RecordAccess<C, N> {
+    type Bus = Profinet;
+    type Error = C::Error;
+
+    async fn read(&mut self, address: Record, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
+        let length = self.client.read_record(address.into(), &mut self.buffer).await?;
+        Ok(self.part(length, address, buffer)?)
+    }
+
+    async fn write(&mut self, address: Record, data: &[u8]) -> Result<(), Error<C::Error>> {
+        let length = self.client.read_record(address.into(), &mut self.buffer).await?;
+        self.replace(length, address, data)?;
+        let record = self.buffer.get(..length).unwrap_or_default();
+        self.client.write_record(address.into(), record).await
+    }
+}
+
+impl<E> From<NotAllowed> for Error<E> {
+    fn from(error: NotAllowed) -> Self {
+        Self::NotAllowed(error)
+    }
+}
+
+impl<E> From<RecordError> for Error<E> {
+    fn from(error: RecordError) -> Self {
+        match error {
+            RecordError::NotAllowed(error) => Self::NotAllowed(error),
+            RecordError::Length(error) => Self::Length(error),
+        }
+    }
+}

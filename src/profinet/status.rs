@@ -1,0 +1,115 @@
+//! Why a device refused a record.
+
+use core::error;
+use core::fmt;
+
+/// The PNIO status of a record that wasn't read or written (IEC 61158-6-10): error code, error decode, error code 1 and error
+/// code 2, the first in the uppermost byte.
+///
+/// Controller libraries hand it out as one number of 32 bits, or as four bytes. A [`RecordClient`](super::RecordClient) may
+/// have it as its error, or in it.
+///
+/// ```
+/// use lexibus::profinet::PnioStatus;
+///
+/// let status = PnioStatus(0xDE80_B000);
+/// assert_eq!(status.to_string(), "0xDE80B000: invalid index");
+/// assert!(!status.is_busy() && PnioStatus(0xDE80_B500).is_busy());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PnioStatus(pub u32);
+
+impl PnioStatus {
+    /// What was asked for: 0xDE to read a record, 0xDF to write one.
+    #[must_use]
+    pub const fn error_code(self) -> u8 {
+        self.0.to_be_bytes()[0]
+    }
+
+    /// What the rest is about: 0x80 to read or write a record, 0x81 all other services.
+    #[must_use]
+    pub const fn error_decode(self) -> u8 {
+        self.0.to_be_bytes()[1]
+    }
+
+    /// The reason.
+    #[must_use]
+    pub const fn error_code_1(self) -> u8 {
+        self.0.to_be_bytes()[2]
+    }
+
+    /// More about the reason, where the device says more.
+    #[must_use]
+    pub const fn error_code_2(self) -> u8 {
+        self.0.to_be_bytes()[3]
+    }
+
+    /// Whether the device says that it can't answer yet: it is busy, a resource of it is, or the state isn't the right one, which
+    /// is what a drive says whose answer to a parameter request isn't there yet.
+    #[must_use]
+    pub const fn is_busy(self) -> bool {
+        self.error_decode() == 0x80 && matches!(self.error_code_1(), 0xA7 | 0xB5 | 0xC2)
+    }
+
+    /// What the reason means, as far as it has a meaning for every device.
+    #[must_use]
+    pub const fn text(self) -> Option<&'static str> {
+        if self.error_decode() != 0x80 {
+            return None;
+        }
+        Some(match self.error_code_1() {
+            0xA0 => "read error",
+            0xA1 => "write error",
+            0xA2 => "module failure",
+            0xA7 => "busy",
+            0xA8 => "version conflict",
+            0xA9 => "feature not supported",
+            0xB0 => "invalid index",
+            0xB1 => "wrong length of the record",
+            0xB2 => "invalid slot or subslot",
+            0xB3 => "type conflict",
+            0xB4 => "invalid area or API",
+            0xB5 => "state conflict",
+            0xB6 => "access denied",
+            0xB7 => "invalid range",
+            0xB8 => "invalid parameter",
+            0xB9 => "invalid type",
+            0xBA => "backup",
+            0xC0 => "read constrain conflict",
+            0xC1 => "write constrain conflict",
+            0xC2 => "resource busy",
+            0xC3 => "resource unavailable",
+            _ => return None,
+        })
+    }
+}
+
+impl fmt::Display for PnioStatus {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:#010X}: {}", self.0, self.text().unwrap_or("unknown PNIO status"))
+    }
+}
+
+impl error::Error for PnioStatus {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::string::ToString;
+
+    #[test]
+    fn four_bytes() {
+        let status = PnioStatus(0xDF80_B102);
+        assert_eq!((status.error_code(), status.error_decode()), (0xDF, 0x80));
+        assert_eq!((status.error_code_1(), status.error_code_2()), (0xB1, 2));
+        assert_eq!(status.to_string(), "0xDF80B102: wrong length of the record");
+    }
+
+    #[test]
+    fn reasons_of_other_services_are_not_mistaken() {
+        let status = PnioStatus(0xDB81_B500);
+        assert!(!status.is_busy());
+        assert_eq!(status.to_string(), "0xDB81B500: unknown PNIO status");
+        assert_eq!(PnioStatus(0xDE80_BF00).text(), None);
+    }
+}
