@@ -119,6 +119,18 @@ pub struct IoPlace {
 }
 
 impl IoPlace {
+    /// The same as the device has it, which reads outputs and writes inputs: for simulated ones.
+    #[must_use]
+    pub const fn of_device(self) -> Self {
+        Self {
+            inputs: self.outputs,
+            outputs: self.inputs,
+            inputs_consumer: self.outputs_consumer,
+            outputs_consumer: self.inputs_consumer,
+            ..self
+        }
+    }
+
     /// The inputs `T` of the submodule and their provider status, in the frame of inputs.
     ///
     /// # Errors

@@ -89,7 +89,12 @@ impl fmt::Display for ParameterError {
 
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the drive refused parameter {} of the request: {}", self.parameter, self.number)?;
+        // The first is the only one, mostly.
+        match self.parameter {
+            0 => f.write_str("the drive refused: ")?,
+            place => write!(f, "the drive refused the parameter at place {place} of the request: ")?,
+        }
+        self.number.fmt(f)?;
         match self.information {
             Some(information) => write!(f, " ({information})"),
             None => Ok(()),

@@ -101,7 +101,7 @@ fn responses_with_several_parameters() {
     let refusal = Refusal { parameter: 2, number: ErrorNumber::NO_SUBINDEX, information: Some(9) };
     assert_eq!(answers[2], Answer::Refused(refusal));
     assert_eq!((response.refusal(), response.done()), (Some(refusal), Err(ParameterError::Refused(refusal))));
-    let text = "the drive refused parameter 2 of the request: 0x0003: there is no such subindex (9)";
+    let text = "the drive refused the parameter at place 2 of the request: 0x0003: there is no such subindex (9)";
     assert_eq!(refusal.to_string(), text);
 }
 
