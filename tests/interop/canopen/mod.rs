@@ -1,0 +1,75 @@
+//! A node of the library `canopen`, made of an EDS that Lexibus exported, on a CAN bus that is a pseudo-terminal.
+
+mod demo_drive;
+mod network;
+mod pdo;
+mod refusals;
+mod types;
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use lexibus::clients::canopen;
+use lexibus::NodeId;
+use lexibus_codegen::backend::eds::{export, Flavour};
+use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::source::Source;
+use serde_json::{json, Value};
+
+use crate::pty::Pty;
+use crate::python::{python, Script};
+use crate::slcan::Slcan;
+
+lexibus::dictionary! {
+    /// The node that has an object of every type.
+    mod all_types = "tests/interop/all-types.toml";
+}
+
+/// How long a frame may take: Python is slow on a busy machine.
+pub const PATIENCE: Duration = Duration::from_secs(10);
+
+/// The number of the node.
+pub const NODE: u8 = 5;
+
+/// The client of the node.
+pub type Node = canopen::Node<Slcan>;
+
+/// What can go wrong on the way to it.
+pub type Error = lexibus::Error<std::io::Error>;
+
+pub fn node_id() -> NodeId {
+    NodeId::new(NODE).expect("a node-ID")
+}
+
+/// A node, made of the EDS of the description in `file`; `test` names the test that has it. `None` where there is no Python.
+pub fn start(test: &str, file: &str) -> Option<(Script, Node)> {
+    let python = python()?;
+    let eds = exported(test, file);
+    let line = Pty::open();
+    let arguments = [line.path(), eds.to_str().expect("UTF-8"), &NODE.to_string()];
+    let (script, _) = Script::start(python, "canopen_node.py", &arguments);
+    Some((script, Node::new(Slcan::new(line), node_id()).with_timeout(PATIENCE)))
+}
+
+/// The exported EDS, in a file of this test's own.
+fn exported(test: &str, file: &str) -> PathBuf {
+    let source = Source::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).expect("a description");
+    let compilation = check(source, &Options::default());
+    let catalog = compilation.catalog.expect("a catalogue");
+    let eds = export(&catalog, &catalog.devices[0], Flavour::Eds).expect("a CANopen device");
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("interop-{test}.eds"));
+    std::fs::write(&path, eds.text).expect("a temporary file");
+    path
+}
+
+impl Script {
+    /// What the node holds at an object, as the library decodes it.
+    pub fn get(&mut self, index: u16, sub: u8) -> Value {
+        self.ask(json!({ "do": "get", "index": index, "sub": sub }))
+    }
+
+    /// Has the node hold a value at an object, as the library encodes it.
+    pub fn set(&mut self, index: u16, sub: u8, value: Value) {
+        self.ask(json!({ "do": "set", "index": index, "sub": sub, "value": value }));
+    }
+}

@@ -1,0 +1,106 @@
+//! What the node refuses arrives as the abort code that it sent, and what the accessor refuses isn't sent.
+//!
+//! The library itself checks rights, lengths and whether an object exists; limits are checked by the script, with those that the
+//! library read from the exported EDS.
+
+use lexibus::{AbortCode, Fixed, Item, OnCanOpen, Rw};
+use serde_json::json;
+
+use super::all_types::AllTypes;
+use super::{start, Error, Node};
+
+const FILE: &str = "tests/interop/all-types.toml";
+
+/// An object as somebody sees it who knows nothing of its rights and limits.
+type Naive<V> = Item<V, Rw, OnCanOpen>;
+
+const fn naive<V: Fixed>(index: u16, sub_index: u8) -> Naive<V> {
+    Naive::object(index, sub_index, "")
+}
+
+#[track_caller]
+pub fn assert_aborted<T: std::fmt::Debug>(result: Result<T, Error>, code: AbortCode) {
+    assert!(matches!(result, Err(Error::Abort(got)) if got == code), "{result:?} instead of {code}");
+}
+
+#[test]
+fn values_out_of_range() -> Result<(), Error> {
+    let Some((mut script, node)) = start("out-of-range", FILE) else { return Ok(()) };
+    let mut device = AllTypes::new(node);
+    // The limits went through the EDS.
+    assert_eq!(script.ask(json!({ "do": "limits", "index": 0x2203 })), json!([-100, 200]));
+    assert_eq!(script.ask(json!({ "do": "limits", "index": 0x2204 })), json!([10, 0xFFFF_FFF0_u32]));
+    for value in [-100, 200] {
+        device.limited_signed().write(value)?;
+        assert_eq!(script.get(0x2203, 0), value);
+    }
+    for value in [10, 0xFFFF_FFF0] {
+        device.limited_unsigned().write(value)?;
+        assert_eq!(script.get(0x2204, 0), value);
+    }
+    // The accessor sends nothing.
+    assert!(matches!(device.limited_signed().write(-101), Err(Error::OutOfRange(_))));
+    assert!(matches!(device.limited_unsigned().write(9), Err(Error::OutOfRange(_))));
+    // The device refuses what somebody else sends.
+    let signed: Naive<i16> = naive(0x2203, 0);
+    let unsigned: Naive<u32> = naive(0x2204, 0);
+    assert_aborted(signed.at(device.client()).write(-101), AbortCode::TOO_LOW);
+    assert_aborted(signed.at(device.client()).write(201), AbortCode::TOO_HIGH);
+    assert_aborted(unsigned.at(device.client()).write(9), AbortCode::TOO_LOW);
+    assert_aborted(unsigned.at(device.client()).write(u32::MAX), AbortCode::TOO_HIGH);
+    // What it held, it still holds.
+    assert_eq!(device.limited_signed().read()?, 200);
+    assert_eq!(device.limited_unsigned().read()?, 0xFFFF_FFF0);
+    Ok(())
+}
+
+#[test]
+fn rights() -> Result<(), Error> {
+    let Some((mut script, node)) = start("rights", FILE) else { return Ok(()) };
+    let mut device = AllTypes::new(node);
+    assert_eq!(device.fixed().read()?, 0x1234);
+    assert_eq!(device.measured().read()?, -5);
+    device.password().write(0xC0DE_CAFE)?;
+    assert_eq!(script.get(0x2202, 0), 0xC0DE_CAFE_u32);
+    // Accessors for these don't compile.
+    assert_aborted(naive::<u16>(0x2200, 0).at(device.client()).write(1), AbortCode::READ_ONLY);
+    assert_aborted(naive::<i32>(0x2201, 0).at(device.client()).write(1), AbortCode::READ_ONLY);
+    assert_aborted(naive::<u32>(0x2202, 0).at(device.client()).read(), AbortCode::WRITE_ONLY);
+    // After its last segment, for that is when this library looks.
+    let text = lexibus::Object { index: 0x1008, sub_index: 0 };
+    let written = lexibus::Client::write(device.client(), text, b"something longer than a frame");
+    assert_aborted(written, AbortCode::READ_ONLY);
+    Ok(())
+}
+
+#[test]
+fn what_is_not_there() -> Result<(), Error> {
+    let Some((mut script, node)) = start("not-there", FILE) else { return Ok(()) };
+    let mut device = AllTypes::new(node);
+    let node: &mut Node = device.client();
+    assert_aborted(naive::<u8>(0x2FFF, 0).at(node).read(), AbortCode::NO_OBJECT);
+    assert_aborted(naive::<u64>(0x2FFF, 0).at(node).write(1), AbortCode::NO_OBJECT);
+    assert_aborted(naive::<u32>(0x1018, 5).at(node).read(), AbortCode::NO_SUB_INDEX);
+    assert_aborted(naive::<u16>(0x1400, 3).at(node).write(1), AbortCode::NO_SUB_INDEX);
+    assert_aborted(device.never_set().read(), AbortCode::NO_RESOURCE);
+    script.set(0x2206, 0, json!(""));
+    assert_aborted(device.empty().read_into(&mut [0; 10]).map(str::len), AbortCode::NO_DATA);
+    Ok(())
+}
+
+#[test]
+fn lengths() -> Result<(), Error> {
+    let Some((mut script, node)) = start("lengths", FILE) else { return Ok(()) };
+    let mut device = AllTypes::new(node);
+    assert_aborted(naive::<u16>(0x2007, 0).at(device.client()).write(1), AbortCode::LENGTH);
+    assert_aborted(naive::<u64>(0x2007, 0).at(device.client()).write(1), AbortCode::LENGTH);
+    script.set(0x2007, 0, json!(0x1234_5678));
+    let short = naive::<u16>(0x2007, 0).at(device.client()).read();
+    assert!(matches!(short, Err(Error::Length(error)) if (error.expected, error.actual) == (2, 4)), "{short:?}");
+    // A text that has no room in the buffer, and the transfer after it.
+    script.set(0x2009, 0, json!("a text of thirty letters, say."));
+    let long = device.visible_string().read_into(&mut [0; 10]).map(str::len);
+    assert!(matches!(long, Err(Error::Length(error)) if (error.expected, error.actual) == (10, 30)), "{long:?}");
+    assert_eq!(device.unsigned32().read()?, 0x1234_5678);
+    Ok(())
+}

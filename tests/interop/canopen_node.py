@@ -1,0 +1,205 @@
+"""A node of the library `canopen`, made of an EDS: python canopen_node.py TTY EDS NODE-ID.
+
+It is on the CAN bus that python-can's `slcan` interface speaks to over a serial line. What the test tells it to set and asks
+it for (talk.py) goes through the encoders and decoders of the library, never through code of the test.
+"""
+
+import logging
+import queue
+import sys
+from datetime import datetime, timedelta
+
+import canopen
+from canopen import timestamp
+from canopen.objectdictionary import NUMBER_TYPES, ODVariable, datatypes
+from canopen.profiles.p402 import State402
+from canopen.sdo import SdoAbortedError
+
+from talk import serve
+
+logging.disable(logging.WARNING)
+
+TIMEOUT = 10
+EPOCH = datetime(1970, 1, 1) + timedelta(seconds=timestamp.OFFSET)
+
+NO_OBJECT = 0x06020000
+NOT_MAPPABLE = 0x06040041
+PDO_LENGTH = 0x06040042
+TOO_HIGH = 0x06090031
+TOO_LOW = 0x06090032
+DEVICE_STATE = 0x08000022
+
+INVALID = 1 << 31
+
+CONTROLWORD = 0x6040
+STATUSWORD = 0x6041
+
+
+def to_json(variable, value):
+    """A value as the library decoded it. The library leaves times and byte strings as bytes."""
+    if variable.data_type == datatypes.TIME_OF_DAY:
+        milliseconds, days = timestamp.TIME_OF_DAY_STRUCT.unpack(value)
+        return (EPOCH + timedelta(days=days, milliseconds=milliseconds)).isoformat(timespec="milliseconds")
+    if variable.data_type == datatypes.TIME_DIFFERENCE:
+        milliseconds, days = timestamp.TIME_OF_DAY_STRUCT.unpack(value)
+        return timedelta(days=days, milliseconds=milliseconds) // timedelta(milliseconds=1)
+    return value.hex() if isinstance(value, (bytes, bytearray)) else value
+
+
+def from_json(variable, value):
+    """The opposite."""
+    if variable.data_type == datatypes.TIME_OF_DAY:
+        value = datetime.fromisoformat(value) - EPOCH
+    elif variable.data_type == datatypes.TIME_DIFFERENCE:
+        value = timedelta(milliseconds=value)
+    elif variable.data_type in (datatypes.OCTET_STRING, datatypes.DOMAIN):
+        return bytes.fromhex(value)
+    if isinstance(value, timedelta):
+        rest = value - timedelta(days=value.days)
+        return timestamp.TIME_OF_DAY_STRUCT.pack(rest // timedelta(milliseconds=1), value.days)
+    return value
+
+
+class Node:
+    """The node, and what the test may have it do."""
+
+    def __init__(self, tty, eds, node_id):
+        self.network = canopen.Network()
+        self.network.connect(interface="slcan", channel=tty, bitrate=500_000, sleep_after_open=0)
+        self.node = self.network.create_node(node_id, eds)
+        self.node.add_write_callback(self.check_limits)
+        self.node.add_write_callback(self.check_pdo)
+        self.node.add_write_callback(self.control)
+        self.received = {}
+        self.node.nmt.state = "INITIALISING"
+        self.node.nmt.state = "PRE-OPERATIONAL"
+
+    # What the library leaves to the device: these refuse as CiA 301 wants it.
+
+    def check_limits(self, od, data, **_):
+        """Limits of the EDS, as the library read them. It reads those of integers of 8, 16, 32 and 64 bits."""
+        if od.data_type not in NUMBER_TYPES:
+            return
+        value = od.decode_raw(data)
+        if od.max is not None and value > od.max:
+            raise SdoAbortedError(TOO_HIGH)
+        if od.min is not None and value < od.min:
+            raise SdoAbortedError(TOO_LOW)
+
+    def check_pdo(self, index, subindex, od, data, **_):
+        """The order in which a PDO is mapped (CiA 301 7.5.2.36): disable, clear, map, count, enable."""
+        is_communication = 0x1400 <= index < 0x1600 or 0x1800 <= index < 0x1A00
+        is_mapping = 0x1600 <= index < 0x1800 or 0x1A00 <= index < 0x1C00
+        if is_communication and subindex == 1:
+            old, new = self.number(index, 1), od.decode_raw(data)
+            if not (old | new) & INVALID and old != new:
+                raise SdoAbortedError(DEVICE_STATE)
+        elif is_mapping:
+            if not self.number(index - 0x200, 1) & INVALID:
+                raise SdoAbortedError(DEVICE_STATE)
+            if subindex == 0:
+                self.check_mapping(index, od.decode_raw(data))
+            elif self.number(index, 0) != 0:
+                raise SdoAbortedError(DEVICE_STATE)
+
+    def check_mapping(self, index, count):
+        length = 0
+        for number in range(1, count + 1):
+            entry = self.number(index, number)
+            variable = self.variable(entry >> 16, entry >> 8 & 0xFF)
+            goes = variable.writable if index < 0x1800 else variable.readable
+            if not variable.pdo_mappable or not goes:
+                raise SdoAbortedError(NOT_MAPPABLE)
+            length += entry & 0xFF
+        if length > 64:
+            raise SdoAbortedError(PDO_LENGTH)
+
+    def control(self, index, od, data, **_):
+        """The state machine of a drive, by the library's tables of it."""
+        if index != CONTROLWORD:
+            return
+        command = od.decode_raw(data) & 0x8F
+        states = self.states(self.number(STATUSWORD, 0))
+        for (before, after), code in State402.TRANSITIONTABLE.items():
+            if before in states and code == command:
+                self.drive(after)
+                return
+
+    @staticmethod
+    def states(statusword):
+        return {name for name, (mask, value) in State402.SW_MASK.items() if statusword & mask == value}
+
+    def variable(self, index, subindex):
+        try:
+            entry = self.node.object_dictionary[index]
+            return entry if isinstance(entry, ODVariable) else entry[subindex]
+        except KeyError:
+            raise SdoAbortedError(NO_OBJECT) from None
+
+    def number(self, index, subindex):
+        """What the node holds there, as a number."""
+        return self.variable(index, subindex).decode_raw(self.node.get_data(index, subindex))
+
+    # Commands.
+
+    def get(self, index, sub=0):
+        """What the node holds at an object."""
+        variable = self.variable(index, sub)
+        return to_json(variable, variable.decode_raw(self.node.get_data(index, sub)))
+
+    def set(self, index, value, sub=0):
+        """Has the node hold a value at an object, whatever a bus may do."""
+        variable = self.variable(index, sub)
+        self.node.set_data(index, sub, variable.encode_raw(from_json(variable, value)))
+
+    def drive(self, state):
+        """Has the drive be in a state; the other bits of the Statusword are set."""
+        mask, value = State402.SW_MASK[state]
+        self.set(STATUSWORD, 0xFFFF & ~mask | value)
+
+    def limits(self, index, sub=0):
+        variable = self.variable(index, sub)
+        return [variable.min, variable.max]
+
+    def pdo(self, direction, number):
+        """Has the node use the PDO as it is configured in its objects; gives its parameters."""
+        pdo = {"rx": self.node.rpdo, "tx": self.node.tpdo}[direction][number]
+        pdo.read()
+        if direction == "rx" and number not in self.received:
+            self.received[number] = queue.Queue()
+            pdo.add_callback(lambda pdo: self.received[number].put([to_json(entry.od, entry.raw) for entry in pdo]))
+        return {
+            "cob_id": pdo.cob_id,
+            "enabled": pdo.enabled,
+            "type": pdo.trans_type,
+            "bits": pdo.length,
+            "entries": [[entry.index, entry.subindex, entry.length] for entry in pdo],
+        }
+
+    def receive(self, number):
+        """The values of the next RPDO that came, or comes."""
+        return self.received[number].get(timeout=TIMEOUT)
+
+    def transmit(self, number, values):
+        """Sends a TPDO with these values."""
+        pdo = self.node.tpdo[number]
+        for entry, value in zip(pdo, values, strict=True):
+            entry.raw = from_json(entry.od, value)
+        pdo.transmit()
+
+    def state(self):
+        return self.node.nmt.state
+
+    def emergency(self, code, register, data):
+        self.node.emcy.send(code, register, bytes.fromhex(data))
+
+
+def main():
+    tty, eds, node_id = sys.argv[1:]
+    node = Node(tty, eds, int(node_id))
+    commands = ["get", "set", "limits", "pdo", "receive", "transmit", "state", "emergency", "drive"]
+    serve({name: getattr(node, name) for name in commands})
+    node.network.disconnect()
+
+
+main()

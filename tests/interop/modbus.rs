@@ -1,0 +1,332 @@
+//! Servers of `pymodbus`, over TCP and over RTU, with blocking clients and others.
+//!
+//! Each scenario is written once, in a macro, for the four ways to the server.
+
+use std::net::SocketAddr;
+use std::time::Duration;
+
+use lexibus::clients::modbus::tokio_modbus::{ExceptionCode, Slave};
+use lexibus::clients::modbus::{rtu, sync, tcp, ModbusClient, ModbusError};
+use serde_json::{json, Value};
+use tokio_serial::SerialStream;
+
+use crate::pty::Cable;
+use crate::python::{python, Script};
+
+lexibus::dictionary! {
+    /// The server.
+    mod registers = "tests/interop/registers.toml";
+}
+
+use registers::types::{Mode, Status, StatusDirection as Direction};
+use registers::Registers;
+
+/// How long anything may take: Python is slow on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// The number of the server.
+const DEVICE: Slave = Slave(1);
+
+/// RTU wants silence between frames, which depends on this.
+const BAUD: u32 = 115_200;
+
+type Error = lexibus::Error<ModbusError>;
+
+impl Script {
+    /// What lies at a place of the server, as the library decodes it.
+    fn at(&mut self, name: &str) -> Value {
+        self.ask(json!({ "do": "get", "name": name }))
+    }
+
+    /// Puts a value to a place of the server, as the library encodes it.
+    fn put(&mut self, name: &str, value: Value) {
+        self.ask(json!({ "do": "set", "name": name, "value": value }));
+    }
+
+    /// The functions of the requests since this was asked last.
+    fn functions(&mut self) -> Value {
+        self.ask(json!({ "do": "functions" }))
+    }
+}
+
+/// A server over TCP.
+fn over_tcp() -> Option<(Script, SocketAddr)> {
+    let (script, port) = Script::start(python()?, "modbus_server.py", &["tcp"]);
+    let port = port.as_u64().and_then(|port| port.try_into().ok()).expect("a port");
+    Some((script, SocketAddr::from(([127, 0, 0, 1], port))))
+}
+
+/// A server at one end of a serial line; its other end.
+fn over_rtu() -> Option<(Script, Cable)> {
+    let python = python()?;
+    let cable = Cable::open();
+    let (script, _) = Script::start(python, "modbus_server.py", &["rtu", cable.ends()[1]]);
+    Some((script, cable))
+}
+
+/// `$way` calls a method of an accessor, and waits for what it gives.
+macro_rules! blocking {
+    ($accessor:expr, read) => {
+        $accessor.read()
+    };
+    ($accessor:expr, read_into $buffer:expr) => {
+        $accessor.read_into($buffer)
+    };
+    ($accessor:expr, read_scaled) => {
+        $accessor.read_scaled()
+    };
+    ($accessor:expr, write $value:expr) => {
+        $accessor.write($value)
+    };
+    ($accessor:expr, write_scaled $value:expr) => {
+        $accessor.write_scaled($value)
+    };
+}
+
+macro_rules! awaited {
+    ($accessor:expr, read) => {
+        $accessor.read_async().await
+    };
+    ($accessor:expr, read_into $buffer:expr) => {
+        $accessor.read_into_async($buffer).await
+    };
+    ($accessor:expr, read_scaled) => {
+        $accessor.read_scaled_async().await
+    };
+    ($accessor:expr, write $value:expr) => {
+        $accessor.write_async($value).await
+    };
+    ($accessor:expr, write_scaled $value:expr) => {
+        $accessor.write_scaled_async($value).await
+    };
+}
+
+/// Both directions: what is written lies there, and what lies there is read.
+macro_rules! exchange {
+    ($way:ident, $script:ident, $device:ident, $($place:ident: [$($value:expr),*];)*) => {$(
+        $(
+            $way!($device.$place(), write $value)?;
+            assert_eq!($script.at(stringify!($place)), json!($value), "{} written", stringify!($place));
+        )*
+        $(
+            $script.put(stringify!($place), json!($value));
+            assert_eq!($way!($device.$place(), read)?, $value, "{} read", stringify!($place));
+        )*
+    )*};
+}
+
+/// The same of texts.
+macro_rules! exchange_texts {
+    ($way:ident, $script:ident, $device:ident, $($place:ident)*) => {$(
+        for text in ["a", "bc", "def", "nineteen characters", "exactly 20 letters, "] {
+            $way!($device.$place(), write text)?;
+            assert_eq!($script.at(stringify!($place)), text, "{} written", stringify!($place));
+            let text: String = text.chars().rev().collect();
+            $script.put(stringify!($place), text.as_str().into());
+            assert_eq!($way!($device.$place(), read_into &mut [0; 32])?, text, "{} read", stringify!($place));
+        }
+    )*};
+}
+
+macro_rules! numbers {
+    ($way:ident, $script:ident, $device:ident) => {
+        exchange! { $way, $script, $device,
+            high_u16: [0xA55A, 1];
+            high_i16: [-2, i16::MIN];
+            high_u32: [0x1234_5678, u32::MAX - 1];
+            high_i32: [-0x1234_5678, i32::MIN + 1];
+            high_f32: [-1.5, 16_777_215.0];
+            high_u64: [0x0123_4567_89AB_CDEF_u64, u64::MAX - 1];
+            high_i64: [-0x0123_4567_89AB_CDEF_i64, i64::MIN + 1];
+            high_f64: [-0.1, 1e300];
+            low_u16: [0xA55A, 1];
+            low_i16: [-2, i16::MIN];
+            low_u32: [0x1234_5678, u32::MAX - 1];
+            low_i32: [-0x1234_5678, i32::MIN + 1];
+            low_f32: [-1.5, 16_777_215.0];
+            low_u64: [0x0123_4567_89AB_CDEF_u64, u64::MAX - 1];
+            low_i64: [-0x0123_4567_89AB_CDEF_i64, i64::MIN + 1];
+            low_f64: [-0.1, 1e300];
+            swapped_u16: [0x1234, 0xFF00];
+            swapped_u32: [0x1234_5678, u32::MAX - 1];
+            swapped_low_i32: [-0x1234_5678, i32::MIN + 1];
+            swapped_low_f64: [-0.1, 1e300];
+        }
+        exchange_texts! { $way, $script, $device, high_text low_text swapped_text }
+    };
+}
+
+macro_rules! parts_and_meanings {
+    ($way:ident, $script:ident, $device:ident) => {
+        $script.put("word_300", json!(0x1234));
+        assert_eq!($way!($device.lower_byte(), read)?, 0x34);
+        assert_eq!($way!($device.upper_byte(), read)?, 0x12);
+        $way!($device.upper_byte(), write -2)?;
+        assert_eq!($script.at("word_300"), 0xFE34);
+        $way!($device.lower_byte(), write 0x56)?;
+        assert_eq!($script.at("word_300"), 0xFE56);
+        $script.put("word_301", json!(0x0F2F));
+        assert_eq!($way!($device.three_bits(), read)?, 2);
+        $way!($device.three_bits(), write 5)?;
+        $way!($device.one_bit(), write true)?;
+        assert_eq!($script.at("word_301"), 0x8F5F);
+
+        exchange! { $way, $script, $device, temperature: [-400, 215]; }
+        assert_eq!($way!($device.temperature(), read_scaled)?, 21.5);
+        $way!($device.temperature(), write_scaled -12.3)?;
+        assert_eq!($script.at("temperature"), -123);
+        assert!(matches!($way!($device.temperature(), write 1251), Err(Error::OutOfRange(_))));
+        $way!($device.mode(), write Mode::ByHand)?;
+        assert_eq!($script.at("mode"), 2);
+        $script.put("mode", json!(7));
+        assert_eq!($way!($device.mode(), read)?, Mode::Unknown(7));
+        let status = Status::new().with_running(true).with_direction(Direction::Backward);
+        $way!($device.status(), write status)?;
+        assert_eq!($script.at("status"), 0b1001);
+        $script.put("status", json!(0b0110));
+        let status = $way!($device.status(), read)?;
+        assert_eq!((status.running(), status.fault(), status.direction()), (false, true, Direction::Forward));
+        // What lies behind three words stays.
+        $script.put("words_305", json!(0x1111_2222_3333_4444_u64));
+        assert_eq!($way!($device.three_words(), read)?, 0x1111_2222_3333);
+        $way!($device.three_words(), write 0xFEDC_BA98_7654)?;
+        assert_eq!($script.at("words_305"), 0xFEDC_BA98_7654_4444_u64);
+    };
+}
+
+macro_rules! other_tables {
+    ($way:ident, $script:ident, $device:ident) => {
+        $script.put("input_i16", json!(-2));
+        assert_eq!($way!($device.input_i16(), read)?, -2);
+        $script.put("input_u32", json!(0x89AB_CDEF_u32));
+        assert_eq!($way!($device.input_u32(), read)?, 0x89AB_CDEF);
+        $script.put("input_low_f32", json!(-1.5));
+        assert_eq!($way!($device.input_low_f32(), read)?, -1.5);
+        $script.put("input_text", json!("a text of inputs"));
+        assert_eq!($way!($device.input_text(), read_into &mut [0; 32])?, "a text of inputs");
+
+        $way!($device.coil(), write true)?;
+        $way!($device.coils(), write 0b1000_0110)?;
+        $way!($device.more_coils(), write 0b1001_0000_0001)?;
+        assert_eq!($script.at("coils"), json!([0, 9, 10, 15, 19, 27, 30]));
+        $way!($device.coil(), write false)?;
+        $way!($device.next_coil(), write true)?;
+        assert_eq!($script.at("coils"), json!([1, 9, 10, 15, 19, 27, 30]));
+        $script.put("coils", json!([1, 8, 11, 20, 30]));
+        assert!(!$way!($device.coil(), read)?);
+        assert!($way!($device.next_coil(), read)?);
+        assert_eq!($way!($device.coils(), read)?, 0b0000_1001);
+        assert_eq!($way!($device.more_coils(), read)?, 0b1000_0000_0010);
+        $script.put("discretes", json!([2, 5, 14, 15]));
+        assert!($way!($device.discrete(), read)?);
+        assert_eq!($way!($device.discretes(), read)?, 0b10_0000_0001);
+    };
+}
+
+/// What the server refuses is its exception.
+macro_rules! refusals {
+    ($way:ident, $script:ident, $device:ident) => {
+        let refused: [Result<(), Error>; 5] = [
+            $way!($device.missing(), read).map(|_| ()),
+            $way!($device.missing(), write 1),
+            $way!($device.half_missing(), read).map(|_| ()),
+            $way!($device.half_missing(), write 1),
+            $way!($device.protected(), write 1),
+        ];
+        for refused in refused {
+            let is_exception = matches!(
+                refused,
+                Err(Error::Client(ModbusError::Exception(ExceptionCode::IllegalDataAddress)))
+            );
+            assert!(is_exception, "{refused:?}");
+        }
+        // The next request is answered as ever.
+        assert_eq!($way!($device.protected(), read)?, 0);
+    };
+}
+
+/// Which functions ask for it.
+macro_rules! functions {
+    ($way:ident, $script:ident, $device:ident) => {
+        $script.functions();
+        $way!($device.high_u16(), write 1)?;
+        $way!($device.low_u32(), write 1)?;
+        $way!($device.lower_byte(), write 1)?;
+        $way!($device.low_u32(), read)?;
+        $way!($device.input_u32(), read)?;
+        $way!($device.coil(), write true)?;
+        $way!($device.coils(), write 1)?;
+        $way!($device.coils(), read)?;
+        $way!($device.discretes(), read)?;
+        assert_eq!($script.functions(), json!([6, 16, 3, 6, 3, 4, 5, 15, 1, 2]));
+    };
+}
+
+macro_rules! all_scenarios {
+    ($way:ident, $script:ident, $device:ident) => {
+        numbers! { $way, $script, $device }
+        parts_and_meanings! { $way, $script, $device }
+        other_tables! { $way, $script, $device }
+        refusals! { $way, $script, $device }
+        functions! { $way, $script, $device }
+    };
+}
+
+#[test]
+fn tcp_blocking() -> Result<(), Error> {
+    let Some((mut script, address)) = over_tcp() else { return Ok(()) };
+    let context = sync::tcp::connect_slave_with_timeout(address, DEVICE, Some(PATIENCE)).expect("a connection");
+    let mut device = Registers::new(ModbusClient::new(context));
+    all_scenarios! { blocking, script, device }
+    Ok(())
+}
+
+#[test]
+fn rtu_blocking() -> Result<(), Error> {
+    let Some((mut script, cable)) = over_rtu() else { return Ok(()) };
+    let line = tokio_serial::new(cable.ends()[0], BAUD);
+    let context = sync::rtu::connect_slave_with_timeout(&line, DEVICE, Some(PATIENCE)).expect("a serial line");
+    let mut device = Registers::new(ModbusClient::new(context));
+    all_scenarios! { blocking, script, device }
+    Ok(())
+}
+
+/// Runs `work`, but not for ever.
+fn run(work: impl std::future::Future<Output = Result<(), Error>>) -> Result<(), Error> {
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
+    runtime.block_on(async { tokio::time::timeout(3 * PATIENCE, work).await.expect("in time") })
+}
+
+#[test]
+fn tcp_not_blocking() -> Result<(), Error> {
+    let Some((mut script, address)) = over_tcp() else { return Ok(()) };
+    run(async {
+        let context = tcp::connect_slave(address, DEVICE).await.expect("a connection");
+        let mut device = Registers::new(ModbusClient::new(context));
+        all_scenarios! { awaited, script, device }
+        Ok(())
+    })
+}
+
+#[test]
+fn rtu_not_blocking() -> Result<(), Error> {
+    let Some((mut script, cable)) = over_rtu() else { return Ok(()) };
+    run(async {
+        let line = SerialStream::open(&tokio_serial::new(cable.ends()[0], BAUD)).expect("a serial line");
+        let mut device = Registers::new(ModbusClient::new(rtu::attach_slave(line, DEVICE)));
+        all_scenarios! { awaited, script, device }
+        Ok(())
+    })
+}
+
+/// A device that knows function 16 only.
+#[test]
+fn single_registers_by_function_16() -> Result<(), Error> {
+    let Some((mut script, address)) = over_tcp() else { return Ok(()) };
+    let context = sync::tcp::connect_slave_with_timeout(address, DEVICE, Some(PATIENCE)).expect("a connection");
+    let mut device = Registers::new(ModbusClient::new(context).with_single_writes(false));
+    device.high_u16().write(0x1234)?;
+    assert_eq!(script.at("high_u16"), 0x1234);
+    assert_eq!(script.functions(), json!([16]));
+    Ok(())
+}

@@ -1,0 +1,84 @@
+//! Serial lines between processes: pseudo-terminals.
+
+use std::fs::File;
+use std::io::{Read, Write};
+use std::os::fd::{AsFd, OwnedFd};
+use std::path::PathBuf;
+use std::thread;
+use std::time::Duration;
+
+use nix::poll::{poll, PollFd, PollFlags, PollTimeout};
+use nix::pty::openpty;
+use nix::sys::termios::{cfmakeraw, tcgetattr, tcsetattr, SetArg};
+use nix::unistd::ttyname;
+
+/// One end of a serial line that this process holds; the other is a terminal that anyone can open by its path.
+pub struct Pty {
+    near: File,
+    /// Held, for a line whose far end nobody has open is broken.
+    far: OwnedFd,
+    path: PathBuf,
+}
+
+impl Pty {
+    /// A line that carries bytes as they are.
+    pub fn open() -> Self {
+        let ends = openpty(None, None).expect("a pseudo-terminal");
+        let mut settings = tcgetattr(&ends.slave).expect("settings");
+        cfmakeraw(&mut settings);
+        tcsetattr(&ends.slave, SetArg::TCSANOW, &settings).expect("raw");
+        let path = ttyname(&ends.slave).expect("a path");
+        Self { near: ends.master.into(), far: ends.slave, path }
+    }
+
+    /// The far end.
+    pub fn path(&self) -> &str {
+        self.path.to_str().expect("UTF-8")
+    }
+
+    /// Reads what is there, or what comes within `patience`; gives how much that is.
+    pub fn read(&mut self, buffer: &mut [u8], patience: Duration) -> std::io::Result<usize> {
+        match self.is(PollFlags::POLLIN, patience)? {
+            true => self.near.read(buffer),
+            false => Ok(0),
+        }
+    }
+
+    /// Writes everything; `false` where the line was full for as long as `patience`.
+    pub fn write(&mut self, data: &[u8], patience: Duration) -> std::io::Result<bool> {
+        let is_free = self.is(PollFlags::POLLOUT, patience)?;
+        if is_free {
+            self.near.write_all(data)?;
+        }
+        Ok(is_free)
+    }
+
+    fn is(&self, state: PollFlags, patience: Duration) -> std::io::Result<bool> {
+        let timeout = PollTimeout::try_from(patience).unwrap_or(PollTimeout::MAX);
+        Ok(poll(&mut [PollFd::new(self.near.as_fd(), state)], timeout)? > 0)
+    }
+}
+
+/// A serial line whose two ends are terminals, as a cable between two computers is.
+pub struct Cable {
+    ends: [PathBuf; 2],
+    /// With these closed, the threads that carry the bytes end.
+    _far: [OwnedFd; 2],
+}
+
+impl Cable {
+    /// A line that carries bytes as they are.
+    pub fn open() -> Self {
+        let (left, right) = (Pty::open(), Pty::open());
+        let both = |pty: &Pty| (pty.near.try_clone().expect("a handle"), pty.near.try_clone().expect("a handle"));
+        let ((mut from_left, mut to_left), (mut from_right, mut to_right)) = (both(&left), both(&right));
+        thread::spawn(move || std::io::copy(&mut from_left, &mut to_right));
+        thread::spawn(move || std::io::copy(&mut from_right, &mut to_left));
+        Self { ends: [left.path, right.path], _far: [left.far, right.far] }
+    }
+
+    /// The two terminals.
+    pub fn ends(&self) -> [&str; 2] {
+        [&self.ends[0], &self.ends[1]].map(|path| path.to_str().expect("UTF-8"))
+    }
+}

@@ -1,0 +1,103 @@
+//! A script in Python that the tests talk to.
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::{channel, Receiver};
+use std::sync::OnceLock;
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
+
+use serde_json::Value;
+
+/// How long an answer may take: Python starts slowly on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// The folder of these tests.
+const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/interop");
+
+/// The Python that `setup.sh` made, or the one that `LEXIBUS_PYTHON` names; `None`, with a message, where it lacks what the
+/// scripts need.
+pub fn python() -> Option<&'static Path> {
+    static PYTHON: OnceLock<Option<PathBuf>> = OnceLock::new();
+    let python = PYTHON.get_or_init(find).as_deref();
+    if python.is_none() {
+        eprintln!("skipped: no Python with canopen, pymodbus and pyserial; tests/interop/setup.sh makes one");
+    }
+    python
+}
+
+fn find() -> Option<PathBuf> {
+    let own = || Path::new(env!("CARGO_MANIFEST_DIR")).join("target/python/bin/python");
+    let python = std::env::var_os("LEXIBUS_PYTHON").map_or_else(own, PathBuf::from);
+    let imports = Command::new(&python).args(["-c", "import canopen, pymodbus, serial"]).output();
+    imports.is_ok_and(|output| output.status.success()).then_some(python)
+}
+
+/// A script that runs, and answers commands. It is ended when this is dropped.
+pub struct Script {
+    child: Child,
+    commands: ChildStdin,
+    answers: Receiver<String>,
+    complaints: Option<JoinHandle<String>>,
+}
+
+impl Script {
+    /// Runs `script` of this folder, until it is ready. Gives what it says of itself then.
+    pub fn start(python: &Path, script: &str, arguments: &[&str]) -> (Self, Value) {
+        let mut child = Command::new(python)
+            .arg(Path::new(FOLDER).join(script))
+            .args(arguments)
+            .env("PYTHONDONTWRITEBYTECODE", "1")
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("Python runs");
+        let commands = child.stdin.take().expect("a pipe");
+        let output = BufReader::new(child.stdout.take().expect("a pipe"));
+        let mut errors = child.stderr.take().expect("a pipe");
+        let (sender, answers) = channel();
+        thread::spawn(move || output.lines().map_while(Result::ok).try_for_each(|line| sender.send(line)));
+        let complaints = Some(thread::spawn(move || {
+            let mut text = Vec::new();
+            let _ = errors.read_to_end(&mut text);
+            String::from_utf8_lossy(&text).into_owned()
+        }));
+        let mut script = Self { child, commands, answers, complaints };
+        let mut ready = script.answer();
+        (script, ready["ready"].take())
+    }
+
+    /// What the script answers to a command.
+    pub fn ask(&mut self, command: Value) -> Value {
+        writeln!(self.commands, "{command}").expect("the script reads");
+        let mut answer = self.answer();
+        match answer["error"].as_str() {
+            Some(error) => panic!("{command}: {error}"),
+            None => answer["ok"].take(),
+        }
+    }
+
+    fn answer(&mut self) -> Value {
+        match self.answers.recv_timeout(PATIENCE) {
+            Ok(line) => serde_json::from_str(&line).unwrap_or_else(|error| panic!("{error} in {line:?}")),
+            Err(error) => {
+                self.end();
+                let complaints = self.complaints.take().and_then(|thread| thread.join().ok()).unwrap_or_default();
+                panic!("no answer: {error}\n{complaints}")
+            }
+        }
+    }
+
+    fn end(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+impl Drop for Script {
+    fn drop(&mut self) {
+        self.end();
+    }
+}
