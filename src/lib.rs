@@ -87,6 +87,7 @@ pub mod interface;
 mod item;
 mod location;
 mod machine;
+pub mod modbus;
 mod node_id;
 pub mod pdo;
 pub mod profinet;

@@ -71,13 +71,24 @@ pub struct Register {
     pub bytes_swapped: bool,
     /// The bits of the number that the value is, where it isn't all of it. Who writes it has to read the others first.
     pub part: Option<RegisterPart>,
+    /// How many registers of 16 bits one address stands for: 1 on most devices; 2 where a device gives each of its registers
+    /// of 32 bits one address. What follows a value of 32 bits is at `address + 1` there, and its words are two more.
+    pub words_per_address: u8,
 }
 
 impl Register {
     /// `count` registers or bits of a table that hold a number, the most significant word first.
     #[must_use]
     pub const fn new(table: RegisterTable, address: u16, count: u16) -> Self {
-        Self { table, address, count, order: WordOrder::HighFirst, bytes_swapped: false, part: None }
+        Self {
+            table,
+            address,
+            count,
+            order: WordOrder::HighFirst,
+            bytes_swapped: false,
+            part: None,
+            words_per_address: 1,
+        }
     }
 
     /// One holding register.
@@ -114,6 +125,42 @@ impl Register {
     #[must_use]
     pub const fn part(self, first: u8, bits: u8) -> Self {
         Self { part: Some(RegisterPart { first, bits }), ..self }
+    }
+
+    /// The same registers of a device on which one address stands for so many of them.
+    #[must_use]
+    pub const fn words_per_address(self, words: u8) -> Self {
+        Self { words_per_address: words, ..self }
+    }
+
+    /// How many addresses the value takes.
+    ///
+    /// ```
+    /// use lexibus::Register;
+    ///
+    /// assert_eq!(Register::high_first(8, 2).addresses(), 2);
+    /// assert_eq!(Register::high_first(0x8009, 2).words_per_address(2).addresses(), 1);
+    /// ```
+    #[must_use]
+    pub const fn addresses(&self) -> u16 {
+        self.count.div_ceil(self.step())
+    }
+
+    /// How many registers, or bits, the next address is away.
+    pub(crate) const fn step(&self) -> u16 {
+        match (self.table, self.words_per_address) {
+            (RegisterTable::Coil | RegisterTable::DiscreteInput, _) | (_, 0) => 1,
+            (_, words) => words as u16,
+        }
+    }
+
+    /// How many words of its addresses come before those of the value, where it doesn't have all of them: the lower half of
+    /// a register of 32 bits is its second word, if the more significant one comes first.
+    pub(crate) const fn skipped(&self) -> usize {
+        match self.order {
+            WordOrder::HighFirst => (self.addresses() as usize * self.step() as usize) - self.count as usize,
+            WordOrder::LowFirst | WordOrder::Bytes => 0,
+        }
     }
 
     /// Puts the value that is in `words` to the start of `buffer`, the least significant byte first (a text from its first

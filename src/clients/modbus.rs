@@ -13,16 +13,34 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! A [`ModbusClient`] of a context of [`sync`] is a [`Client`]; one of a context of [`tcp`] or [`rtu`] is an [`AsyncClient`].
-//! Where a value is a part of a register, the register is read before it is written; nobody else should write it meanwhile.
+//! A [`ModbusClient`] of a context of [`sync`] is a [`Client`] and a [`RegisterClient`]; one of a context of [`tcp`] or
+//! [`rtu`] is an [`AsyncClient`] and an [`AsyncRegisterClient`].
+//!
+//! Not every device takes every request. Generated bindings say which ones, in the constant `MODBUS` that
+//! [`with_limits`](ModbusClient::with_limits) takes; what the device doesn't take is refused before anything is sent, or sent as
+//! what it does take:
+//!
+//! ```
+//! use lexibus::clients::modbus::ModbusClient;
+//! use lexibus::modbus::{Limits, TableLimits};
+//!
+//! // Function 6 isn't among them, so one register is written with function 16, too.
+//! const MODBUS: Limits = Limits {
+//!     holding: TableLimits { functions: &[3, 16], max_write: 2, ..TableLimits::HOLDING },
+//!     ..Limits::STANDARD
+//! };
+//! # let context = ();
+//! let device = ModbusClient::new(context).with_limits(MODBUS);
+//! ```
+//!
+//! Where a value is a part of a register, the register is read before it is written, and nobody else should write it
+//! meanwhile; where the limits name function 22, the device does both at once.
 
 use std::error;
 use std::fmt;
-use std::vec;
-use std::vec::Vec;
 
 use tokio_modbus::client::{Client as _, Context};
-use tokio_modbus::{ExceptionCode, Request, Response};
+use tokio_modbus::{ExceptionCode, Response};
 
 pub use tokio_modbus;
 pub use tokio_modbus::client::{rtu, sync, tcp};
@@ -30,22 +48,35 @@ pub use tokio_modbus::client::{rtu, sync, tcp};
 use crate::bus::Modbus;
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
+use crate::modbus::{AsyncRegisterClient, Limits, RegisterClient};
 use crate::register::{Register, RegisterTable};
+
+mod request;
+
+use request::{Answer, Writes};
 
 /// A device behind a context of `tokio-modbus`.
 #[derive(Debug)]
 pub struct ModbusClient<T> {
     context: T,
+    limits: Limits,
     single: bool,
 }
 
 impl<T> ModbusClient<T> {
     /// The device that `context` talks to. One register is written with function 6, several with function 16.
     pub const fn new(context: T) -> Self {
-        Self { context, single: true }
+        Self { context, limits: Limits::STANDARD, single: true }
     }
 
-    /// Whether one register is written with function 6. Some devices know function 16 only.
+    /// The same device, of which it is known which requests it takes.
+    #[must_use]
+    pub fn with_limits(self, limits: Limits) -> Self {
+        Self { limits, ..self }
+    }
+
+    /// Whether one register is written with function 6. Some devices know function 16 only. Where the
+    /// [limits](Self::with_limits) don't have function 16, it is 6 all the same.
     #[must_use]
     pub fn with_single_writes(self, single: bool) -> Self {
         Self { single, ..self }
@@ -70,6 +101,20 @@ pub enum ModbusError {
     Exception(ExceptionCode),
     /// Inputs and discrete inputs can only be read. Nothing was sent.
     ReadOnly,
+    /// The device doesn't take the function that this needs. Nothing was sent.
+    Function {
+        /// The table.
+        table: RegisterTable,
+        /// The function.
+        function: u8,
+    },
+    /// The value is longer than what the device takes in one request. Nothing was sent.
+    TooLong {
+        /// How many registers, or bits, the value has.
+        count: u16,
+        /// How many one request may be about.
+        max: u16,
+    },
     /// The transport failed, or the answer is none to the request.
     Bus(tokio_modbus::Error),
 }
@@ -79,6 +124,18 @@ impl fmt::Display for ModbusError {
         match self {
             Self::Exception(code) => write!(f, "the device refused: {code}"),
             Self::ReadOnly => f.write_str("inputs of Modbus can only be read"),
+            Self::Function { table, function } => {
+                let table = match table {
+                    RegisterTable::Holding => "holding registers",
+                    RegisterTable::Input => "input registers",
+                    RegisterTable::Coil => "coils",
+                    RegisterTable::DiscreteInput => "discrete inputs",
+                };
+                write!(f, "this needs function {function}, which the device doesn't take for {table}")
+            }
+            Self::TooLong { count, max } => {
+                write!(f, "the value has {count} registers or bits, and a request may be about {max} at most")
+            }
             Self::Bus(error) => error.fmt(f),
         }
     }
@@ -93,116 +150,41 @@ impl error::Error for ModbusError {
     }
 }
 
+impl From<ModbusError> for Error<ModbusError> {
+    fn from(error: ModbusError) -> Self {
+        Self::Client(error)
+    }
+}
+
 type Reply = tokio_modbus::Result<Response>;
-
-fn response(reply: Reply) -> Result<Response, Error<ModbusError>> {
-    match reply {
-        Ok(Ok(response)) => Ok(response),
-        Ok(Err(code)) => Err(Error::Client(ModbusError::Exception(code))),
-        Err(error) => Err(Error::Client(ModbusError::Bus(error))),
-    }
-}
-
-/// What asks for a value.
-fn read_request(register: Register) -> Request<'static> {
-    let Register { address, count, .. } = register;
-    match register.table {
-        RegisterTable::Holding => Request::ReadHoldingRegisters(address, count),
-        RegisterTable::Input => Request::ReadInputRegisters(address, count),
-        RegisterTable::Coil => Request::ReadCoils(address, count),
-        RegisterTable::DiscreteInput => Request::ReadDiscreteInputs(address, count),
-    }
-}
-
-/// The registers of an answer.
-fn words(reply: Reply, count: u16) -> Result<Vec<u16>, Error<ModbusError>> {
-    match response(reply)? {
-        Response::ReadHoldingRegisters(words) | Response::ReadInputRegisters(words)
-            if words.len() == usize::from(count) =>
-        {
-            Ok(words)
-        }
-        _ => Err(Error::UnexpectedReply),
-    }
-}
-
-/// Puts the value of an answer to the start of `buffer`.
-fn value(register: Register, reply: Reply, buffer: &mut [u8]) -> Result<usize, Error<ModbusError>> {
-    if matches!(register.table, RegisterTable::Holding | RegisterTable::Input) {
-        return Ok(register.decode(&words(reply, register.count)?, buffer)?);
-    }
-    let (Response::ReadCoils(bits) | Response::ReadDiscreteInputs(bits)) = response(reply)? else {
-        return Err(Error::UnexpectedReply);
-    };
-    // What is missing to a whole byte comes along.
-    let bits = bits.get(..usize::from(register.count)).ok_or(Error::UnexpectedReply)?;
-    for (byte, bits) in buffer.iter_mut().zip(bits.chunks(8)) {
-        *byte = bits.iter().rev().fold(0, |byte, bit| byte << 1 | u8::from(*bit));
-    }
-    Ok(bits.len().div_ceil(8))
-}
-
-/// Whether the registers are read before they are written, because only a part of them changes.
-fn is_part(register: Register) -> bool {
-    register.table == RegisterTable::Holding && register.part.is_some()
-}
-
-/// What writes a value: `held` is what the registers hold, where only a part of them changes.
-fn write_request(
-    register: Register,
-    held: Option<Vec<u16>>,
-    data: &[u8],
-    single: bool,
-) -> Result<Request<'static>, Error<ModbusError>> {
-    match register.table {
-        RegisterTable::Holding => {
-            let mut words = held.unwrap_or_else(|| vec![0; usize::from(register.count)]);
-            register.encode(data, &mut words)?;
-            Ok(match words.as_slice() {
-                [word] if single => Request::WriteSingleRegister(register.address, *word),
-                _ => Request::WriteMultipleRegisters(register.address, words.into()),
-            })
-        }
-        RegisterTable::Coil => Ok(write_coils(register, data)),
-        RegisterTable::Input | RegisterTable::DiscreteInput => Err(Error::Client(ModbusError::ReadOnly)),
-    }
-}
-
-/// What writes bits.
-fn write_coils(register: Register, data: &[u8]) -> Request<'static> {
-    let bit = |at: usize| data.get(at / 8).is_some_and(|byte| byte >> (at % 8) & 1 == 1);
-    match register.count {
-        1 => Request::WriteSingleCoil(register.address, bit(0)),
-        count => Request::WriteMultipleCoils(register.address, (0..usize::from(count)).map(bit).collect()),
-    }
-}
-
-/// Whether the answer to a write says that it was done.
-fn written(reply: Reply) -> Result<(), Error<ModbusError>> {
-    match response(reply)? {
-        Response::WriteSingleRegister(..)
-        | Response::WriteMultipleRegisters(..)
-        | Response::WriteSingleCoil(..)
-        | Response::WriteMultipleCoils(..) => Ok(()),
-        _ => Err(Error::UnexpectedReply),
-    }
-}
 
 impl<T: sync::Client> Client for ModbusClient<T> {
     type Bus = Modbus;
     type Error = ModbusError;
 
     fn read(&mut self, register: Register, buffer: &mut [u8]) -> Result<usize, Error<ModbusError>> {
-        value(register, self.context.call(read_request(register)), buffer)
+        let mut answer = Answer::new(register, &self.limits)?;
+        while let Some(request) = answer.request() {
+            answer.add(self.context.call(request))?;
+        }
+        answer.value(buffer)
     }
 
     fn write(&mut self, register: Register, data: &[u8]) -> Result<(), Error<ModbusError>> {
-        let held = match is_part(register) {
-            true => Some(words(self.context.call(read_request(register)), register.count)?),
-            false => None,
+        let writes = Writes::new(register, &self.limits, self.single)?;
+        let held = match writes.held(&self.limits)? {
+            Some(mut answer) => {
+                while let Some(request) = answer.request() {
+                    answer.add(self.context.call(request))?;
+                }
+                Some(answer.into_words())
+            }
+            None => None,
         };
-        let request = write_request(register, held, data, self.single)?;
-        written(self.context.call(request))
+        for request in writes.requests(held, data)? {
+            request::written(self.context.call(request))?;
+        }
+        Ok(())
     }
 }
 
@@ -211,16 +193,40 @@ impl AsyncClient for ModbusClient<Context> {
     type Error = ModbusError;
 
     async fn read(&mut self, register: Register, buffer: &mut [u8]) -> Result<usize, Error<ModbusError>> {
-        value(register, self.context.call(read_request(register)).await, buffer)
+        let mut answer = Answer::new(register, &self.limits)?;
+        while let Some(request) = answer.request() {
+            answer.add(self.context.call(request).await)?;
+        }
+        answer.value(buffer)
     }
 
     async fn write(&mut self, register: Register, data: &[u8]) -> Result<(), Error<ModbusError>> {
-        let held = match is_part(register) {
-            true => Some(words(self.context.call(read_request(register)).await, register.count)?),
-            false => None,
+        let writes = Writes::new(register, &self.limits, self.single)?;
+        let held = match writes.held(&self.limits)? {
+            Some(mut answer) => {
+                while let Some(request) = answer.request() {
+                    answer.add(self.context.call(request).await)?;
+                }
+                Some(answer.into_words())
+            }
+            None => None,
         };
-        let request = write_request(register, held, data, self.single)?;
-        written(self.context.call(request).await)
+        for request in writes.requests(held, data)? {
+            request::written(self.context.call(request).await)?;
+        }
+        Ok(())
+    }
+}
+
+impl<T: sync::Client> RegisterClient for ModbusClient<T> {
+    fn limits(&self) -> &Limits {
+        &self.limits
+    }
+}
+
+impl AsyncRegisterClient for ModbusClient<Context> {
+    fn limits(&self) -> &Limits {
+        &self.limits
     }
 }
 

@@ -9,6 +9,12 @@ use tokio_modbus::prelude::SlaveContext;
 use tokio_modbus::Slave;
 
 use super::*;
+use crate::modbus::{Span, TableLimits};
+use std::string::String;
+use std::vec::Vec;
+
+use tokio_modbus::Request;
+
 use crate::{Flags, Item, OnModbus, Ro, Rw};
 
 type Here<V, A> = Item<V, A, OnModbus>;
@@ -25,11 +31,13 @@ struct Device {
     holding: HashMap<u16, u16>,
     coils: HashMap<u16, bool>,
     functions: Vec<u8>,
+    requests: Vec<String>,
 }
 
 impl Device {
     fn answer(&mut self, request: Request<'_>) -> Reply {
         self.functions.push(request.function_code().value());
+        self.requests.push(std::format!("{request:?}"));
         let span = |first: u16, count: u16| first..first + count;
         Ok(Ok(match request {
             Request::ReadHoldingRegisters(999, _) => return Ok(Err(ExceptionCode::IllegalDataAddress)),
@@ -42,7 +50,7 @@ impl Device {
             Request::ReadCoils(first, count) => {
                 let mut bits: Vec<bool> =
                     span(first, count).map(|at| self.coils.get(&at).copied().unwrap_or(false)).collect();
-                bits.resize(8, false);
+                bits.resize(bits.len().next_multiple_of(8), false);
                 Response::ReadCoils(bits)
             }
             Request::WriteSingleRegister(at, word) => {
@@ -56,6 +64,15 @@ impl Device {
             Request::WriteSingleCoil(at, bit) => {
                 self.coils.insert(at, bit);
                 Response::WriteSingleCoil(at, bit)
+            }
+            Request::WriteMultipleCoils(first, bits) => {
+                self.coils.extend((first..).zip(bits.iter().copied()));
+                Response::WriteMultipleCoils(first, bits.len() as u16)
+            }
+            Request::MaskWriteRegister(at, and, or) => {
+                let held = self.holding.entry(at).or_default();
+                *held = *held & and | or & !and;
+                Response::MaskWriteRegister(at, and, or)
             }
             _ => return Ok(Err(ExceptionCode::IllegalFunction)),
         }))
@@ -159,4 +176,122 @@ fn without_blocking() {
         assert!(VALVE.at(&mut device).read_async().await.unwrap());
         assert!(MISSING.at(&mut device).read_async().await.is_err());
     });
+}
+
+fn limited(holding: TableLimits) -> ModbusClient<Device> {
+    ModbusClient::new(Device::default()).with_limits(Limits { holding, ..Limits::STANDARD })
+}
+
+#[test]
+fn what_the_device_takes() {
+    let mut device = limited(TableLimits { functions: &[3, 16], ..TableLimits::HOLDING });
+    TORQUE.at(&mut device).write(-5).unwrap();
+    assert_eq!(device.context().functions, [16]);
+    // Function 6 only: one register, even if the caller would rather have 16.
+    let mut device = limited(TableLimits { functions: &[3, 6], ..TableLimits::HOLDING }).with_single_writes(false);
+    TORQUE.at(&mut device).write(-5).unwrap();
+    let refused = SPEED.at(&mut device).write(70_000);
+    assert!(matches!(refused, Err(Error::Client(ModbusError::Function { function: 16, .. }))));
+    assert_eq!(device.context().functions, [6]);
+    // Nothing can be read, so a part can't be written either.
+    let mut device = limited(TableLimits { functions: &[6, 16], ..TableLimits::HOLDING });
+    for refused in [TORQUE.at(&mut device).read().map(|_| ()), UPPER.at(&mut device).write(1)] {
+        let Err(Error::Client(error)) = refused else { panic!("it isn't readable") };
+        assert_eq!(
+            std::format!("{error}"),
+            "this needs function 3, which the device doesn't take for holding registers"
+        );
+    }
+    assert_eq!(device.context().functions, []);
+}
+
+#[test]
+fn widths() {
+    const LONG: Here<u64, Rw> = Here::register(Register::high_first(20, 4), "Long", Flags::NONE);
+    let narrow = TableLimits { max_read: 2, max_write: 3, ..TableLimits::HOLDING };
+    let mut device = limited(narrow);
+    SPEED.at(&mut device).write(70_000).unwrap();
+    assert!(matches!(LONG.at(&mut device).write(1), Err(Error::Client(ModbusError::TooLong { count: 4, max: 3 }))));
+    let Err(Error::Client(error)) = LONG.at(&mut device).read() else { panic!("it is too long") };
+    assert_eq!(std::format!("{error}"), "the value has 4 registers or bits, and a request may be about 2 at most");
+    assert_eq!(device.context().functions, [16]);
+
+    let mut device = limited(TableLimits { split: true, ..narrow });
+    LONG.at(&mut device).write(0x0001_0002_0003_0004).unwrap();
+    assert_eq!(LONG.at(&mut device).read().unwrap(), 0x0001_0002_0003_0004);
+    assert_eq!(
+        device.context().requests,
+        [
+            "WriteMultipleRegisters(20, [1, 2, 3])",
+            "WriteSingleRegister(23, 4)",
+            "ReadHoldingRegisters(20, 2)",
+            "ReadHoldingRegisters(22, 2)"
+        ]
+    );
+
+    let mut device = limited(TableLimits { functions: &[3, 6], split: true, ..TableLimits::HOLDING });
+    SPEED.at(&mut device).write(0x0001_0002).unwrap();
+    assert_eq!(device.context().requests, ["WriteSingleRegister(10, 2)", "WriteSingleRegister(11, 1)"]);
+}
+
+#[test]
+fn addresses_of_32_bits_are_never_taken_apart() {
+    const WIDE: Here<u64, Rw> = Here::register(Register::high_first(20, 4).words_per_address(2), "Wide", Flags::NONE);
+    let mut device = limited(TableLimits { max_write: 3, split: true, ..TableLimits::HOLDING });
+    WIDE.at(&mut device).write(0x0001_0002_0003_0004).unwrap();
+    assert_eq!(device.context().requests, ["WriteMultipleRegisters(20, [1, 2])", "WriteMultipleRegisters(21, [3, 4])"]);
+    let mut device = limited(TableLimits { max_write: 1, split: true, ..TableLimits::HOLDING });
+    assert!(WIDE.at(&mut device).write(1).is_err());
+    assert_eq!(device.context().functions, []);
+}
+
+#[test]
+fn a_device_that_changes_bits_itself() {
+    let mut device = limited(TableLimits { functions: &[3, 6, 22], ..TableLimits::HOLDING });
+    device.context().holding.insert(13, 0x1234);
+    UPPER.at(&mut device).write(0xAB).unwrap();
+    assert_eq!(device.context().holding[&13], 0xAB34);
+    const SWAPPED: Here<u8, Rw> = Here::register(Register::holding(13).swapped().part(8, 4), "Swapped", Flags::NONE);
+    SWAPPED.at(&mut device).write(0xC).unwrap();
+    assert_eq!((device.context().holding[&13], SWAPPED.at(&mut device).read().unwrap()), (0xAB3C, 0xC));
+    assert_eq!(device.context().functions, [22, 22, 3]);
+}
+
+#[test]
+fn several_coils() {
+    const VALVES: Here<u16, Rw> = Here::register(Register::new(RegisterTable::Coil, 3, 10), "Valves", Flags::NONE);
+    let mut device = ModbusClient::new(Device::default());
+    VALVES.at(&mut device).write(0x2A5).unwrap();
+    assert_eq!(device.context().functions, [15]);
+    let coil = TableLimits { functions: &[1, 5], ..TableLimits::COIL };
+    let mut device = ModbusClient::new(Device::default()).with_limits(Limits { coil, ..Limits::STANDARD });
+    VALVE.at(&mut device).write(true).unwrap();
+    let refused = VALVES.at(&mut device).write(1);
+    assert!(matches!(refused, Err(Error::Client(ModbusError::Function { function: 15, .. }))));
+    let coil = TableLimits { split: true, ..coil };
+    let mut device = ModbusClient::new(Device::default()).with_limits(Limits { coil, ..Limits::STANDARD });
+    VALVES.at(&mut device).write(0x2A5).unwrap();
+    assert!(device.context().functions.iter().all(|&function| function == 5));
+    assert_eq!(VALVES.at(&mut device).read().unwrap(), 0x2A5);
+}
+
+#[test]
+fn blocks() {
+    const READABLE: &[Span] = &[Span::new(10, 13)];
+    let mut device = limited(TableLimits { readable: READABLE, ..TableLimits::HOLDING });
+    SPEED.at(&mut device).write(70_000).unwrap();
+    device.context().holding.insert(13, 0x1234);
+    device.context().coils.insert(3, true);
+    device.context().requests.clear();
+    let values = device.read_block((UPPER, VALVE, SPEED, LEVEL)).unwrap();
+    assert_eq!(values, (0x12, true, 70_000, 8));
+    assert_eq!(
+        device.context().requests,
+        ["ReadHoldingRegisters(10, 4)", "ReadCoils(3, 1)", "ReadInputRegisters(4, 1)"]
+    );
+    let context = Box::new(device.into_context()) as Box<dyn tokio_modbus::client::Client>;
+    let mut device = ModbusClient::new(Context::from(context));
+    let values = now(device.read_block_async([TORQUE, TORQUE])).unwrap();
+    assert_eq!(values, [0, 0]);
+    assert!(now(device.read_block_async((MISSING,))).is_err());
 }

@@ -1,0 +1,216 @@
+//! What is sent for a value, and what becomes of the answers.
+
+use std::vec;
+use std::vec::Vec;
+
+use tokio_modbus::{Request, Response};
+
+use super::{ModbusError, Reply};
+use crate::error::Error;
+use crate::modbus::Limits;
+use crate::register::{Register, RegisterTable};
+
+/// Parts of a value that are read or written one after the other; one part, unless the limits say otherwise.
+#[derive(Clone, Copy, Debug)]
+struct Pieces {
+    register: Register,
+    /// How many registers, or bits, each piece has at most.
+    size: u16,
+}
+
+impl Pieces {
+    fn new(register: Register, max: u16, split: bool) -> Result<Self, ModbusError> {
+        let count = register.count;
+        // An address is never taken apart.
+        let size = if count > max { max - max % register.step() } else { max };
+        if count > max && !(split && size > 0) {
+            return Err(ModbusError::TooLong { count, max });
+        }
+        Ok(Self { register, size })
+    }
+
+    /// Address and count of the piece that begins with register, or bit, `first` of the value.
+    fn at(&self, first: u16) -> Option<(u16, u16)> {
+        let left = self.register.count.checked_sub(first).filter(|&left| left > 0)?;
+        Some((self.register.address.wrapping_add(first / self.register.step()), left.min(self.size)))
+    }
+}
+
+/// The function that reads a table.
+fn read_function(table: RegisterTable) -> u8 {
+    match table {
+        RegisterTable::Coil => 1,
+        RegisterTable::DiscreteInput => 2,
+        RegisterTable::Holding => 3,
+        RegisterTable::Input => 4,
+    }
+}
+
+fn response(reply: Reply) -> Result<Response, Error<ModbusError>> {
+    match reply {
+        Ok(Ok(response)) => Ok(response),
+        Ok(Err(code)) => Err(Error::Client(ModbusError::Exception(code))),
+        Err(error) => Err(Error::Client(ModbusError::Bus(error))),
+    }
+}
+
+/// A value that is being read.
+pub(super) struct Answer {
+    pieces: Pieces,
+    words: Vec<u16>,
+    bits: Vec<bool>,
+}
+
+impl Answer {
+    pub(super) fn new(register: Register, limits: &Limits) -> Result<Self, ModbusError> {
+        let (own, function) = (limits.of(register.table), read_function(register.table));
+        if !own.takes(function) {
+            return Err(ModbusError::Function { table: register.table, function });
+        }
+        let pieces = Pieces::new(register, limits.max_read(register.table), own.split)?;
+        Ok(Self { pieces, words: Vec::new(), bits: Vec::new() })
+    }
+
+    /// What comes next: address and count.
+    fn next(&self) -> Option<(u16, u16)> {
+        self.pieces.at(u16::try_from(self.words.len() + self.bits.len()).ok()?)
+    }
+
+    /// What asks for it.
+    pub(super) fn request(&self) -> Option<Request<'static>> {
+        let (address, count) = self.next()?;
+        Some(match self.pieces.register.table {
+            RegisterTable::Holding => Request::ReadHoldingRegisters(address, count),
+            RegisterTable::Input => Request::ReadInputRegisters(address, count),
+            RegisterTable::Coil => Request::ReadCoils(address, count),
+            RegisterTable::DiscreteInput => Request::ReadDiscreteInputs(address, count),
+        })
+    }
+
+    /// Takes the answer to that.
+    pub(super) fn add(&mut self, reply: Reply) -> Result<(), Error<ModbusError>> {
+        let count = self.next().map_or(0, |(_, count)| usize::from(count));
+        match response(reply)? {
+            Response::ReadHoldingRegisters(words) | Response::ReadInputRegisters(words) if words.len() == count => {
+                self.words.extend(words);
+            }
+            Response::ReadCoils(bits) | Response::ReadDiscreteInputs(bits) => {
+                // What is missing to a whole byte comes along.
+                self.bits.extend(bits.get(..count).ok_or(Error::UnexpectedReply)?);
+            }
+            _ => return Err(Error::UnexpectedReply),
+        }
+        Ok(())
+    }
+
+    /// Puts the value to the start of `buffer`.
+    pub(super) fn value(&self, buffer: &mut [u8]) -> Result<usize, Error<ModbusError>> {
+        if matches!(self.pieces.register.table, RegisterTable::Holding | RegisterTable::Input) {
+            return Ok(self.pieces.register.decode(&self.words, buffer)?);
+        }
+        for (byte, bits) in buffer.iter_mut().zip(self.bits.chunks(8)) {
+            *byte = bits.iter().rev().fold(0, |byte, bit| byte << 1 | u8::from(*bit));
+        }
+        Ok(self.bits.len().div_ceil(8))
+    }
+
+    /// The registers.
+    pub(super) fn into_words(self) -> Vec<u16> {
+        self.words
+    }
+}
+
+/// How a value is written.
+pub(super) struct Writes {
+    pieces: Pieces,
+    /// The function for a piece of one register or bit, where it isn't that for several.
+    single: bool,
+    /// Whether the device changes some bits of a register by itself.
+    masks: bool,
+}
+
+impl Writes {
+    pub(super) fn new(register: Register, limits: &Limits, single: bool) -> Result<Self, ModbusError> {
+        let table = register.table;
+        let (one, several) = match table {
+            RegisterTable::Holding => (6, 16),
+            RegisterTable::Coil => (5, 15),
+            RegisterTable::Input | RegisterTable::DiscreteInput => return Err(ModbusError::ReadOnly),
+        };
+        let own = limits.of(table);
+        let masks = table == RegisterTable::Holding && register.part.is_some() && register.count == 1 && own.names(22);
+        let takes_several = own.takes(several);
+        let single = own.takes(one) && (single || table == RegisterTable::Coil || !takes_several);
+        let is_single = register.count == 1 || own.split;
+        if !(masks || takes_several || single && is_single) {
+            return Err(ModbusError::Function { table, function: several });
+        }
+        let max = if takes_several { limits.max_write(table) } else { 1 };
+        Ok(Self { pieces: Pieces::new(register, max, own.split)?, single, masks })
+    }
+
+    /// What has to be read first, because only a part of it changes.
+    pub(super) fn held(&self, limits: &Limits) -> Result<Option<Answer>, ModbusError> {
+        let register = self.pieces.register;
+        let is_read = register.table == RegisterTable::Holding && register.part.is_some() && !self.masks;
+        is_read.then(|| Answer::new(register, limits)).transpose()
+    }
+
+    /// The requests that write `data`. `held` is what the registers hold, where that was read.
+    pub(super) fn requests(
+        &self,
+        held: Option<Vec<u16>>,
+        data: &[u8],
+    ) -> Result<Vec<Request<'static>>, Error<ModbusError>> {
+        let register = self.pieces.register;
+        if register.table == RegisterTable::Coil {
+            return Ok(self.coils(data));
+        }
+        if self.masks {
+            // What a part leaves alone of ones is the mask, what it makes of zeros are its bits.
+            let (mut kept, mut bits) = ([u16::MAX], [0]);
+            register.encode(&[], &mut kept)?;
+            register.encode(data, &mut bits)?;
+            return Ok(vec![Request::MaskWriteRegister(register.address, kept[0], bits[0])]);
+        }
+        let mut words = held.unwrap_or_else(|| vec![0; usize::from(register.count)]);
+        register.encode(data, &mut words)?;
+        Ok(self.pieces(&words, |address, words| match words {
+            [word] if self.single => Request::WriteSingleRegister(address, *word),
+            _ => Request::WriteMultipleRegisters(address, words.to_vec().into()),
+        }))
+    }
+
+    fn coils(&self, data: &[u8]) -> Vec<Request<'static>> {
+        let bit = |at: usize| data.get(at / 8).is_some_and(|byte| byte >> (at % 8) & 1 == 1);
+        let bits: Vec<bool> = (0..usize::from(self.pieces.register.count)).map(bit).collect();
+        self.pieces(&bits, |address, bits| match bits {
+            [bit] if self.single => Request::WriteSingleCoil(address, *bit),
+            _ => Request::WriteMultipleCoils(address, bits.to_vec().into()),
+        })
+    }
+
+    /// A request for each piece.
+    fn pieces<T>(&self, all: &[T], request: impl Fn(u16, &[T]) -> Request<'static>) -> Vec<Request<'static>> {
+        let mut requests = Vec::new();
+        let mut first = 0;
+        while let Some((address, count)) = self.pieces.at(first) {
+            let (from, behind) = (usize::from(first), usize::from(first) + usize::from(count));
+            requests.extend(all.get(from..behind).map(|piece| request(address, piece)));
+            first = first.saturating_add(count);
+        }
+        requests
+    }
+}
+
+/// Whether the answer to a write says that it was done.
+pub(super) fn written(reply: Reply) -> Result<(), Error<ModbusError>> {
+    match response(reply)? {
+        Response::WriteSingleRegister(..)
+        | Response::WriteMultipleRegisters(..)
+        | Response::MaskWriteRegister(..)
+        | Response::WriteSingleCoil(..)
+        | Response::WriteMultipleCoils(..) => Ok(()),
+        _ => Err(Error::UnexpectedReply),
+    }
+}

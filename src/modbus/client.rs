@@ -1,0 +1,97 @@
+//! Clients that read blocks.
+
+use super::block::Block;
+use super::limits::Limits;
+use super::reading::{Reading, MAX_BYTES};
+use crate::bus::Modbus;
+use crate::client::{AsyncClient, Client};
+use crate::error::Error;
+
+/// A client that reads several items at once.
+///
+/// Blocks are read through [`Client::read`], for any number of registers or bits, so there is nothing to implement. A
+/// client that knows the device's [`Limits`] says so:
+///
+/// ```
+/// # use lexibus::{Client, Error, Modbus, Register};
+/// use lexibus::modbus::{Limits, RegisterClient};
+///
+/// struct Line(Limits);
+/// # impl Client for Line {
+/// #     type Bus = Modbus;
+/// #     type Error = ();
+/// #     fn read(&mut self, _: Register, _: &mut [u8]) -> Result<usize, Error<()>> { Err(Error::Client(())) }
+/// #     fn write(&mut self, _: Register, _: &[u8]) -> Result<(), Error<()>> { Err(Error::Client(())) }
+/// # }
+///
+/// impl RegisterClient for Line {
+///     fn limits(&self) -> &Limits {
+///         &self.0
+///     }
+/// }
+/// ```
+pub trait RegisterClient: Client<Bus = Modbus> {
+    /// Which requests the device takes.
+    fn limits(&self) -> &Limits {
+        &Limits::STANDARD
+    }
+
+    /// Reads items with as few requests as the device allows; the [module](super) says what goes together. An item that the
+    /// device doesn't have makes its request fail, with all that it asks for.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Client::read`], and [`Error::Length`] where an item is longer than the device reads at once (nothing is
+    /// sent then), or has another number of registers than its type takes.
+    fn read_block<const N: usize, B: Block<N>>(&mut self, block: B) -> Result<B::Values, Error<Self::Error>>
+    where
+        Self: Sized,
+    {
+        let mut reading = Reading::new(&block, self.limits())?;
+        while let Some((request, length)) = reading.request() {
+            let mut answer = [0; MAX_BYTES];
+            let received = self.read(request, &mut answer[..length])?;
+            reading.answered(&answer[..length], received)?;
+        }
+        Ok(block.values(reading.values())?)
+    }
+}
+
+/// A client that reads several items at once without blocking. The same rules as for [`RegisterClient`].
+#[allow(async_fn_in_trait)]
+pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
+    /// Which requests the device takes.
+    fn limits(&self) -> &Limits {
+        &Limits::STANDARD
+    }
+
+    /// Reads items with as few requests as the device allows, as [`RegisterClient::read_block`] does.
+    ///
+    /// # Errors
+    ///
+    /// The same as of [`RegisterClient::read_block`].
+    async fn read_block_async<const N: usize, B: Block<N>>(&mut self, block: B) -> Result<B::Values, Error<Self::Error>>
+    where
+        Self: Sized,
+    {
+        let mut reading = Reading::new(&block, self.limits())?;
+        while let Some((request, length)) = reading.request() {
+            let mut answer = [0; MAX_BYTES];
+            let received = self.read(request, &mut answer[..length]).await?;
+            reading.answered(&answer[..length], received)?;
+        }
+        Ok(block.values(reading.values())?)
+    }
+}
+
+impl<T: RegisterClient> RegisterClient for &mut T {
+    fn limits(&self) -> &Limits {
+        T::limits(self)
+    }
+}
+
+impl<T: AsyncRegisterClient> AsyncRegisterClient for &mut T {
+    fn limits(&self) -> &Limits {
+        T::limits(self)
+    }
+}

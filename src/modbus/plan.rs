@@ -1,0 +1,302 @@
+//! Which requests read several registers.
+
+use super::limits::Limits;
+use crate::error::LengthError;
+use crate::register::{Register, RegisterTable, WordOrder};
+
+/// The fewest requests that read `N` items, computed without allocation and, for constant items, by the compiler.
+///
+/// ```
+/// use lexibus::modbus::{Limits, Plan};
+/// use lexibus::Register;
+///
+/// // What a cycle needs is of one moment only if it is one request:
+/// const CYCLE: [Register; 3] = [Register::low_first(12, 2), Register::holding(10), Register::holding(11)];
+/// const _: () = assert!(matches!(Plan::new(CYCLE, &Limits::STANDARD), Ok(plan) if plan.len() == 1));
+///
+/// let plan = Plan::new(CYCLE, &Limits::STANDARD)?;
+/// assert_eq!((plan.requests()[0].address, plan.requests()[0].count), (10, 4));
+/// # Ok::<(), lexibus::LengthError>(())
+/// ```
+///
+/// Of an item, `location().modbus` is the register.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Plan<const N: usize> {
+    /// The first `len` are requests.
+    requests: [Register; N],
+    /// The request that has the item; `N` before it is known.
+    request_of: [usize; N],
+    len: usize,
+}
+
+impl<const N: usize> Plan<N> {
+    /// The requests that read these items from a device with these limits.
+    ///
+    /// # Errors
+    ///
+    /// [`LengthError`], in bytes, where one request can't read an item: it has more registers than the device gives at once,
+    /// and may not be [split](super::TableLimits::split), or none at all.
+    pub const fn new(items: [Register; N], limits: &Limits) -> Result<Self, LengthError> {
+        let mut at = 0;
+        while at < N {
+            if let Err(error) = check(&items[at], limits) {
+                return Err(error);
+            }
+            at += 1;
+        }
+        let mut plan = Self { requests: items, request_of: [N; N], len: 0 };
+        while let Some(first) = plan.leftmost(&items) {
+            let own = items[first];
+            let end = plan.reach(&items, first, limits);
+            let (mut at, mut taken) = (0, 0);
+            while at < N {
+                let is_within = is_alike(&items[at], &own) && end_of(&items[at]) <= end;
+                if plan.request_of[at] == N && is_within || at == first {
+                    plan.request_of[at] = plan.len;
+                    taken += 1;
+                }
+                at += 1;
+            }
+            plan.requests[plan.len] = if taken == 1 { own } else { joined(&own, end) };
+            plan.len += 1;
+        }
+        Ok(plan)
+    }
+
+    /// The requests. One for a single item is the item's own register; any other is for words as they follow each other,
+    /// in [`WordOrder::LowFirst`], or for bits.
+    #[must_use]
+    pub const fn requests(&self) -> &[Register] {
+        self.requests.split_at(self.len).0
+    }
+
+    /// How many requests there are.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there is nothing to read.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// For each item, the position of its request.
+    pub(super) const fn request_of(&self) -> &[usize; N] {
+        &self.request_of
+    }
+
+    /// The first item that has no request yet, and of those that could share one with it, the one with the lowest address.
+    const fn leftmost(&self, items: &[Register; N]) -> Option<usize> {
+        let (mut at, mut found) = (0, N);
+        while at < N {
+            let is_better =
+                found == N || is_alike(&items[at], &items[found]) && items[at].address < items[found].address;
+            if self.request_of[at] == N && is_better {
+                found = at;
+            }
+            at += 1;
+        }
+        if found == N {
+            None
+        } else {
+            Some(found)
+        }
+    }
+
+    /// Where the request ends that begins with item `first`: as far as other items reach, over addresses that can be read,
+    /// within the limit.
+    const fn reach(&self, items: &[Register; N], first: usize, limits: &Limits) -> u32 {
+        let own = items[first];
+        let max = limits.max_read(own.table);
+        if own.count > max {
+            // What is read in pieces is read alone.
+            return own.address as u32;
+        }
+        let last = own.address as u32 + (max / own.step()) as u32;
+        let mut end = end_of(&own);
+        loop {
+            let (mut at, mut further) = (0, end);
+            while at < N {
+                let (item, item_end) = (&items[at], end_of(&items[at]));
+                if self.request_of[at] == N
+                    && is_alike(item, &own)
+                    && further < item_end
+                    && item_end <= last
+                    && is_known(items, &own, (end, item.address as u32), limits)
+                {
+                    further = item_end;
+                }
+                at += 1;
+            }
+            if further == end {
+                return end;
+            }
+            end = further;
+        }
+    }
+}
+
+/// Whether one request can read the item, or several may.
+const fn check(item: &Register, limits: &Limits) -> Result<(), LengthError> {
+    let max = limits.max_read(item.table);
+    if item.count == 0 || item.count > max && !limits.of(item.table).split {
+        return Err(LengthError::new(bytes(item.table, max), bytes(item.table, item.count)));
+    }
+    Ok(())
+}
+
+/// What reads from the address of `first` up to `end`.
+const fn joined(first: &Register, end: u32) -> Register {
+    // What is joined is within the limit, so it fits.
+    let count = (end - first.address as u32) as u16 * first.step();
+    Register {
+        order: WordOrder::LowFirst,
+        words_per_address: first.words_per_address,
+        ..Register::new(first.table, first.address, count)
+    }
+}
+
+/// The first address behind an item.
+const fn end_of(item: &Register) -> u32 {
+    item.address as u32 + item.addresses() as u32
+}
+
+/// Whether one request can read both, as far as the kind of their addresses goes.
+const fn is_alike(one: &Register, other: &Register) -> bool {
+    one.table as u8 == other.table as u8 && one.step() == other.step()
+}
+
+/// Whether all addresses from `from` on, and before `to`, are of items, or such that can be read along.
+const fn is_known(items: &[Register], kind: &Register, (from, to): (u32, u32), limits: &Limits) -> bool {
+    let spans = limits.of(kind.table).readable;
+    let mut address = from;
+    while address < to {
+        let (mut at, mut end) = (0, address);
+        while at < items.len() {
+            let item = &items[at];
+            if is_alike(item, kind) && item.address as u32 <= address && end_of(item) > end {
+                end = end_of(item);
+            }
+            at += 1;
+        }
+        at = 0;
+        while at < spans.len() {
+            let span = &spans[at];
+            let is_alike = Register { words_per_address: span.words_per_address, ..*kind }.step() == kind.step();
+            if is_alike && span.first as u32 <= address && span.last as u32 >= end {
+                end = span.last as u32 + 1;
+            }
+            at += 1;
+        }
+        if end == address {
+            return false;
+        }
+        address = end;
+    }
+    true
+}
+
+/// How many bytes so many registers, or bits, take.
+pub(super) const fn bytes(table: RegisterTable, count: u16) -> usize {
+    match table {
+        RegisterTable::Coil | RegisterTable::DiscreteInput => count.div_ceil(8) as usize,
+        RegisterTable::Holding | RegisterTable::Input => 2 * count as usize,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::modbus::{Span, TableLimits};
+
+    const fn at(address: u16, count: u16) -> Register {
+        Register::high_first(address, count)
+    }
+
+    const fn limits(holding: TableLimits) -> Limits {
+        Limits { holding, ..Limits::STANDARD }
+    }
+
+    /// Address and count of each request.
+    #[track_caller]
+    fn requests<const N: usize>(items: [Register; N], limits: Limits, expected: &[(u16, u16)]) {
+        let plan = Plan::new(items, &limits).unwrap();
+        assert!(plan.requests().iter().map(|own| (own.address, own.count)).eq(expected.iter().copied()), "{plan:?}");
+    }
+
+    #[test]
+    fn what_follows_each_other() {
+        requests([], Limits::STANDARD, &[]);
+        requests([at(5, 1)], Limits::STANDARD, &[(5, 1)]);
+        requests([at(12, 2), at(10, 2), at(14, 1), at(14, 1)], Limits::STANDARD, &[(10, 5)]);
+        requests([at(12, 2), at(9, 2)], Limits::STANDARD, &[(9, 2), (12, 2)]);
+        requests([at(0xFFFF, 1), at(0xFFFE, 1), at(0, 1)], Limits::STANDARD, &[(0, 1), (0xFFFE, 2)]);
+    }
+
+    #[test]
+    fn tables_are_apart() {
+        let input = Register::new(RegisterTable::Input, 11, 1);
+        let coils = [Register::new(RegisterTable::Coil, 8, 1), Register::new(RegisterTable::Coil, 9, 1999)];
+        requests([at(10, 1), input, at(12, 1)], Limits::STANDARD, &[(10, 1), (11, 1), (12, 1)]);
+        requests(coils, Limits::STANDARD, &[(8, 2000)]);
+    }
+
+    #[test]
+    fn gaps_that_can_be_read() {
+        const HOLDING: TableLimits = TableLimits {
+            readable: &[Span::new(10, 12), Span::new(13, 20), Span::new(30, 40)],
+            ..TableLimits::HOLDING
+        };
+        requests([at(20, 1), at(9, 1)], limits(HOLDING), &[(9, 12)]);
+        requests([at(22, 1), at(10, 1)], limits(HOLDING), &[(10, 1), (22, 1)]);
+        requests([at(10, 1), at(30, 1)], limits(HOLDING), &[(10, 1), (30, 1)]);
+        // Other items fill what nothing is known of.
+        requests([at(10, 1), at(30, 1), at(21, 9)], limits(HOLDING), &[(10, 21)]);
+        // They do even if they are too long to come along.
+        let narrow = TableLimits { max_read: 12, ..HOLDING };
+        requests([at(19, 1), at(30, 1), at(20, 11)], limits(narrow), &[(19, 12)]);
+        requests([at(19, 1), at(30, 1), at(20, 12)], limits(narrow), &[(19, 12), (20, 12)]);
+    }
+
+    #[test]
+    fn limits_of_the_device() {
+        let narrow = TableLimits { max_read: 4, ..TableLimits::HOLDING };
+        requests([at(0, 2), at(2, 2), at(4, 2)], limits(narrow), &[(0, 4), (4, 2)]);
+        requests([at(0, 2), at(2, 3), at(3, 1)], limits(narrow), &[(0, 4), (2, 3)]);
+        assert_eq!(Plan::new([at(0, 1), at(2, 5)], &limits(narrow)), Err(LengthError::new(8, 10)));
+        assert_eq!(Plan::new([at(0, 0)], &limits(narrow)), Err(LengthError::new(8, 0)));
+        // Read in pieces, and alone.
+        requests(
+            [at(2, 5), at(2, 1), at(7, 1)],
+            limits(TableLimits { split: true, ..narrow }),
+            &[(2, 5), (2, 1), (7, 1)],
+        );
+    }
+
+    #[test]
+    fn registers_of_32_bits() {
+        let wide = |address, count| at(address, count).words_per_address(2);
+        // Three registers, six words; and the lower half of one, which is its only word, if it is read alone.
+        requests([wide(0x8002, 2), wide(0x8000, 2), wide(0x8001, 1)], Limits::STANDARD, &[(0x8000, 6)]);
+        requests([wide(0x8002, 1), wide(0x8000, 1)], Limits::STANDARD, &[(0x8000, 1), (0x8002, 1)]);
+        requests([wide(0x8002, 2), at(0x8001, 1)], Limits::STANDARD, &[(0x8002, 2), (0x8001, 1)]);
+        const NARROW: TableLimits = TableLimits {
+            max_read: 5,
+            readable: &[Span::new(0, 9), Span::new(10, 19).words_per_address(2)],
+            ..TableLimits::HOLDING
+        };
+        requests([wide(10, 2), wide(11, 2), wide(12, 2)], limits(NARROW), &[(10, 4), (12, 2)]);
+        let all = TableLimits { max_read: 125, ..NARROW };
+        requests([wide(10, 2), wide(15, 2), wide(9, 2)], limits(all), &[(9, 14)]);
+        requests([wide(2, 2), wide(4, 2)], limits(all), &[(2, 2), (4, 2)]);
+    }
+
+    #[test]
+    fn as_a_constant() {
+        const PLAN: Result<Plan<2>, LengthError> = Plan::new([at(1, 1), at(2, 2)], &Limits::STANDARD);
+        const _: () = assert!(matches!(PLAN, Ok(plan) if plan.len() == 1 && !plan.is_empty()));
+        assert_eq!(PLAN.map(|plan| plan.requests()[0].count), Ok(3));
+    }
+}

@@ -1,0 +1,98 @@
+//! What a block needs between its first request and its last answer.
+
+use super::block::Block;
+use super::limits::Limits;
+use super::plan::{bytes, Plan};
+use crate::bits;
+use crate::error::LengthError;
+use crate::register::{Register, RegisterTable};
+
+/// Bytes of the longest answer: 125 registers, or 2000 bits.
+pub(super) const MAX_BYTES: usize = 250;
+
+/// A block that is being read.
+pub(super) struct Reading<const N: usize> {
+    items: [Register; N],
+    lengths: [usize; N],
+    plan: Plan<N>,
+    /// How many requests were answered.
+    answered: usize,
+    values: [[u8; 8]; N],
+}
+
+impl<const N: usize> Reading<N> {
+    pub(super) fn new<B: Block<N>>(block: &B, limits: &Limits) -> Result<Self, LengthError> {
+        let items = block.registers();
+        let lengths = B::LENGTHS.map(|length| length.min(8));
+        Ok(Self { items, lengths, plan: Plan::new(items, limits)?, answered: 0, values: [[0; 8]; N] })
+    }
+
+    /// What is to be read next, and how many bytes a client gives for it.
+    pub(super) fn request(&self) -> Option<(Register, usize)> {
+        let request = self.plan.requests().get(self.answered)?;
+        let length = match self.only_item() {
+            Some(at) => self.lengths[at],
+            None => bytes(request.table, request.count).min(MAX_BYTES),
+        };
+        Some((*request, length))
+    }
+
+    /// Takes the values out of an answer to that request, which says how many bytes it has.
+    pub(super) fn answered(&mut self, answer: &[u8], length: usize) -> Result<(), LengthError> {
+        if length != answer.len() {
+            return Err(LengthError::new(answer.len(), length));
+        }
+        match (self.only_item(), self.plan.requests().get(self.answered)) {
+            (Some(at), _) => self.values[at][..length].copy_from_slice(answer),
+            (None, Some(request)) => {
+                let request = *request;
+                for at in (0..N).filter(|&at| self.plan.request_of()[at] == self.answered) {
+                    take(answer, &request, &self.items[at], &mut self.values[at][..self.lengths[at]])?;
+                }
+            }
+            (None, None) => {}
+        }
+        self.answered += 1;
+        Ok(())
+    }
+
+    /// The bytes of each value, once there is no further request.
+    pub(super) fn values(&self) -> &[[u8; 8]; N] {
+        &self.values
+    }
+
+    /// The item that has the request for itself. It is read as if there were no block.
+    fn only_item(&self) -> Option<usize> {
+        let mut items = (0..N).filter(|&at| self.plan.request_of()[at] == self.answered);
+        items.next().filter(|_| items.next().is_none())
+    }
+}
+
+/// Puts the value of one item to `value`, which it fills.
+fn take(answer: &[u8], request: &Register, item: &Register, value: &mut [u8]) -> Result<(), LengthError> {
+    let first = usize::from(item.address.saturating_sub(request.address)) * usize::from(item.step());
+    let length = match item.table {
+        RegisterTable::Coil | RegisterTable::DiscreteInput => {
+            let bits: [u8; 8] = bits::get_bits(answer, first, item.count.into());
+            value.iter_mut().zip(bits).for_each(|(to, from)| *to = from);
+            bytes(item.table, item.count)
+        }
+        RegisterTable::Holding | RegisterTable::Input => take_words(answer, first + item.skipped(), item, value)?,
+    };
+    if length == value.len() {
+        Ok(())
+    } else {
+        Err(LengthError::new(value.len(), length))
+    }
+}
+
+/// Puts the value that begins with word `first` of an answer to `value`, and returns how many bytes it has.
+fn take_words(answer: &[u8], first: usize, item: &Register, value: &mut [u8]) -> Result<usize, LengthError> {
+    let mut words = [0; MAX_BYTES / 2];
+    for (word, pair) in words.iter_mut().zip(answer.chunks_exact(2)) {
+        *word = u16::from_le_bytes([pair[0], pair[1]]);
+    }
+    let behind = first + usize::from(item.count);
+    let own = words.get(first..behind).ok_or(LengthError::new(2 * behind, answer.len()))?;
+    item.decode(own, value)
+}
