@@ -39,12 +39,13 @@ fn output_is_as_prettyplease_prints_it() {
     assert!(compared > 500, "only {compared} different devices");
 }
 
-/// Several devices and modules of one file are modules of one another.
+/// Several devices and modules of one file are modules of one another; a register table has what no file of the corpus has.
 #[test]
-fn nested_modules_are_as_prettyplease_prints_them() {
+fn nested_modules_and_tables_are_as_prettyplease_prints_them() {
     let coupler = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/coupler.esi.xml");
     let gateway = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/gateway.esi.xml");
-    for path in [coupler, gateway] {
+    let press = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/press.toml");
+    for path in [coupler, gateway, press] {
         let compilation = check(Source::read(Path::new(path)).expect("the example"), &Options::default());
         let text = compilation.rust(&Options::default().rust).expect("bindings");
         assert_eq!(canonical(path, &text), Ok(()));

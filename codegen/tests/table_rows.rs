@@ -306,8 +306,10 @@ fn buses_and_tables_of_modbus() {
     let text = rust(&facts);
     for line in [
         "NODE_IDS: core::ops::RangeInclusive<u8> = 1..=90;",
-        "HOLDING_FUNCTIONS: &[u8] = &[3, 6, 16];",
-        "HOLDING_MAX_WRITE: u16 = 2;",
+        "pub const MODBUS: rt::modbus::Limits = rt::modbus::Limits {",
+        "        functions: &[3, 6, 16],\n        max_read: 125,\n        max_write: 2,\n        split: false,",
+        "        readable: &[rt::modbus::Span::new(1, 2)],",
+        "    input: rt::modbus::TableLimits::INPUT,",
     ] {
         assert!(text.contains(line), "{text}");
     }
@@ -315,6 +317,10 @@ fn buses_and_tables_of_modbus() {
         facts.replace("[[chapters]]", "[spaces.other]\nmodbus = { table = \"holding\", max_read = 9 }\n[[chapters]]");
     assert!(said(&other)[0].contains("another space says otherwise"));
     assert!(said(&facts.replace("1..90", "0..300"))[0].contains("numbers of nodes"));
+    let wide = said(&facts.replace("max_read = 125", "max_read = 126"));
+    assert!(wide.len() == 1 && wide[0].contains("reads 125 registers at most"), "{wide:?}");
+    assert!(said(&facts.replace("max_write = 2", "max_write = 0"))[0].contains("one register at least"));
+    assert!(rust(&facts.replace("max_write = 2", "split = true")).contains("max_write: 123,\n        split: true,"));
     let coils = rows("a = { reg = \"1-8\", type = \"u8\", access = \"rw\" }").replace("holding", "coil");
     assert_eq!(said(&coils), [""; 0]);
     let inputs = said(&a("").replace("holding", "input"));
@@ -442,4 +448,51 @@ fn all_of_it_compiles() {
         let body: String = body.flat_map(|line| [line, "\n"]).collect();
         assert_eq!(body, prettyplease::unparse(&syn::parse_file(&body).expect("Rust")));
     }
+}
+
+#[test]
+fn what_is_read_along() {
+    let table = rows(
+        "a = { reg = 1, type = \"u16\", access = \"rw\" }\n\
+         b = { reg = \"2-3\", type = \"i32\", access = \"ro\" }\n\
+         c = { reg = 4, type = \"u16\", access = \"wo\" }\n\
+         d = { reg = 5, type = \"u16\", access = \"ro\", effects = [\"alarms are cleared\"] }\n\
+         e = { reg = 6, type = \"u16\", access = \"ro\", models = [\"SM137\"] }\n\
+         f = { reg = 7, part = \"7-0\", type = \"u8\", access = \"ro\" }\n\
+         g = { reg = 7, part = \"15-8\", type = \"u8\", access = \"wo\" }\n\
+         h = { reg = 8, type = \"u16\", access = \"ro\", since = \"2.0\" }\n\
+         i = { reg = 9, type = \"u16\", access = \"const\" }\n\
+         j = { reg = 10, type = \"u16\", access = \"ro\" }\n\
+         k = { reg = \"100-299\", type = \"str(400)\", access = \"ro\" }",
+    );
+    assert_eq!(said(&table), [""; 0]);
+    let text = rust(&table);
+    assert!(text.contains("readable: &[rt::modbus::Span::new(1, 3), rt::modbus::Span::new(9, 10)],"), "{text}");
+    let none = a("").replace("modbus = { table = \"holding\" }", "parameter = true");
+    assert!(!rust(&none).contains("MODBUS"));
+}
+
+#[test]
+fn registers_of_32_bits_have_an_address_each() {
+    let table = rows(
+        "a = { reg = 0, type = \"u32\", access = \"rw\" }\n\
+         b = { reg = 1, type = \"i32\", access = \"ro\" }\n\
+         c = { reg = 2, type = \"i16\", access = \"rw\" }\n\
+         d = { reg = \"3-4\", type = \"u64\", access = \"ro\" }",
+    )
+    .replace("modbus = {", "bits = 32\nmodbus = { add = 0x8000,");
+    assert_eq!(said(&table), [""; 0]);
+    let text = rust(&table);
+    for part in [
+        "rt::Register::high_first(32769, 2).words_per_address(2)",
+        "rt::Register::holding(32770).words_per_address(2)",
+        "rt::Register::high_first(32771, 4).words_per_address(2)",
+        "olding register 32769 of 32 bits, INTEGER32",
+        "olding registers 32771 to 32772 of 32 bits each",
+        "readable: &[rt::modbus::Span::new(32768, 32772).words_per_address(2)],",
+    ] {
+        assert!(text.contains(part), "{part}\n{text}");
+    }
+    let twice = table.replace("reg = \"3-4\"", "reg = \"2-3\"");
+    assert!(said(&twice)[0].contains("occurs twice") || said(&twice)[0].contains("takes"), "{:?}", said(&twice));
 }

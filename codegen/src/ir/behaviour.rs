@@ -186,6 +186,25 @@ pub struct RegisterBinding {
     pub bytes_swapped: bool,
     /// First bit within the register, where the item is a part of it.
     pub bit_offset: Option<u8>,
+    /// How many registers of 16 bits one address stands for: 2 where a device gives each of its registers of 32 bits one.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub words_per_address: u8,
+}
+
+impl RegisterBinding {
+    /// The last address, counted from 0.
+    pub fn last(&self) -> u16 {
+        let addresses = self.count.div_ceil(u16::from(self.words_per_address.max(1)));
+        self.address.saturating_add(addresses.saturating_sub(1))
+    }
+}
+
+fn one() -> u8 {
+    1
+}
+
+fn is_one(value: &u8) -> bool {
+    *value == 1
 }
 
 /// The four tables of Modbus.

@@ -134,6 +134,9 @@ pub struct ModbusTable {
     pub max_read: Option<u16>,
     /// The greatest number that one request writes.
     pub max_write: Option<u16>,
+    /// Whether a value that is longer than that may be read and written in several requests.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub split: bool,
 }
 
 /// What a file says about itself (`[FileInfo]` of CiA 306, ISO15745 ProfileHeader). Texts are kept as written.

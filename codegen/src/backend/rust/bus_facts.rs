@@ -1,6 +1,9 @@
 //! What a master has to know of a device on Modbus, and of the numbers that nodes may have: constants.
 
-use crate::ir::{Device, ModbusTable, RegisterSpace};
+use std::collections::BTreeMap;
+
+use super::data::Data;
+use crate::ir::{Availability, Binding, Device, Item, ModbusTable, RegisterBinding, RegisterSpace};
 
 /// A constant, ready to be written.
 pub(super) struct FactModel {
@@ -9,23 +12,10 @@ pub(super) struct FactModel {
 }
 
 /// The names of these constants, as modules name things.
-pub(super) const RESERVED: [&str; 13] = [
-    "node_ids",
-    "holding_functions",
-    "holding_max_read",
-    "holding_max_write",
-    "input_functions",
-    "input_max_read",
-    "input_max_write",
-    "coil_functions",
-    "coil_max_read",
-    "coil_max_write",
-    "discrete_functions",
-    "discrete_max_read",
-    "discrete_max_write",
-];
+pub(super) const RESERVED: [&str; 2] = ["node_ids", "modbus"];
 
-pub(super) fn models(device: &Device) -> Vec<FactModel> {
+/// `nest` is how far the text is moved to the right afterwards.
+pub(super) fn models(device: &Device, nest: usize) -> Vec<FactModel> {
     let mut facts = Vec::new();
     if let Some((first, last)) = device.node_ids {
         facts.push(FactModel {
@@ -33,30 +23,105 @@ pub(super) fn models(device: &Device) -> Vec<FactModel> {
             code: format!("pub const NODE_IDS: core::ops::RangeInclusive<u8> = {first}..={last};"),
         });
     }
-    for table in &device.modbus {
-        of_table(table, &mut facts);
-    }
+    facts.extend(modbus(device, nest));
     facts
 }
 
-fn of_table(table: &ModbusTable, facts: &mut Vec<FactModel>) {
-    let (name, what) = match table.space {
-        RegisterSpace::Holding => ("HOLDING", "holding registers"),
-        RegisterSpace::Input => ("INPUT", "input registers"),
-        RegisterSpace::Coil => ("COIL", "coils"),
-        RegisterSpace::DiscreteInput => ("DISCRETE", "discrete inputs"),
+/// The tables of Modbus: field and constant of the runtime, and how much Modbus itself reads and writes at once.
+const TABLES: [(RegisterSpace, &str, &str, u16, u16); 4] = [
+    (RegisterSpace::Holding, "holding", "rt::modbus::TableLimits::HOLDING", 125, 123),
+    (RegisterSpace::Input, "input", "rt::modbus::TableLimits::INPUT", 125, 0),
+    (RegisterSpace::Coil, "coil", "rt::modbus::TableLimits::COIL", 2000, 1968),
+    (RegisterSpace::DiscreteInput, "discrete", "rt::modbus::TableLimits::DISCRETE", 2000, 0),
+];
+
+/// `MODBUS`, of a device that has registers.
+fn modbus(device: &Device, nest: usize) -> Option<FactModel> {
+    let has_registers = items(device).any(|item| registers(item).next().is_some());
+    if !has_registers && device.modbus.is_empty() {
+        return None;
+    }
+    let table = |(space, field, standard, max_read, max_write)| {
+        let own = device.modbus.iter().find(|own| own.space == space);
+        let spans = spans(device, space, max_read);
+        let data = match (own, spans.is_empty()) {
+            (None, true) => Data::text(standard),
+            _ => limits(own, (max_read, max_write), spans),
+        };
+        (field, data)
     };
-    if !table.functions.is_empty() {
-        let list: Vec<String> = table.functions.iter().map(u8::to_string).collect();
-        facts.push(FactModel {
-            docs: format!("The functions of Modbus that {what} take."),
-            code: format!("pub const {name}_FUNCTIONS: &[u8] = &[«{}»];", list.join("¦ ")),
-        });
+    const START: &str = "pub const MODBUS: rt::modbus::Limits = ";
+    let data = Data::Struct("rt::modbus::Limits", TABLES.map(table).into());
+    Some(FactModel {
+        docs: "Which requests the device takes on Modbus, and which registers can be read together.".to_owned(),
+        code: format!("{START}{};", data.render(0, START.len(), 1, nest)),
+    })
+}
+
+fn limits(own: Option<&ModbusTable>, (max_read, max_write): (u16, u16), spans: Vec<Data>) -> Data {
+    let functions = own.map_or(&[][..], |own| &own.functions);
+    let number = |given: Option<u16>, standard: u16| Data::text(given.unwrap_or(standard).to_string());
+    Data::Struct(
+        "rt::modbus::TableLimits",
+        vec![
+            ("functions", Data::Slice(functions.iter().map(|own| Data::text(own.to_string())).collect())),
+            ("max_read", number(own.and_then(|own| own.max_read), max_read)),
+            ("max_write", number(own.and_then(|own| own.max_write), max_write)),
+            ("split", Data::flag(own.is_some_and(|own| own.split))),
+            ("readable", Data::Slice(spans)),
+        ],
+    )
+}
+
+/// The addresses of a table that can be read along with their neighbours. What is longer than Modbus reads at once never is.
+fn spans(device: &Device, space: RegisterSpace, longest: u16) -> Vec<Data> {
+    let mut addresses: BTreeMap<u16, Option<u8>> = BTreeMap::new();
+    let all = items(device).flat_map(|item| registers(item).map(move |own| (item, own)));
+    for (item, register) in all.filter(|(_, own)| own.space == space && own.count <= longest) {
+        let kind = is_read_along(item).then_some(register.words_per_address);
+        for address in register.address..=register.last() {
+            // What one item forbids, another one of the same address doesn't allow.
+            let known = addresses.entry(address).or_insert(kind);
+            *known = known.filter(|_| *known == kind);
+        }
     }
-    for (limit, key, verb) in [(table.max_read, "READ", "reads"), (table.max_write, "WRITE", "writes")] {
-        facts.extend(limit.map(|limit| FactModel {
-            docs: format!("The greatest number of {what} that one request {verb}."),
-            code: format!("pub const {name}_MAX_{key}: u16 = {limit};"),
-        }));
+    let mut spans: Vec<(u16, u16, u8)> = Vec::new();
+    for (address, kind) in addresses.into_iter().filter_map(|(address, kind)| Some((address, kind?))) {
+        match spans.last_mut() {
+            Some((_, last, own)) if *own == kind && last.checked_add(1) == Some(address) => *last = address,
+            _ => spans.push((address, address, kind)),
+        }
     }
+    spans.into_iter().map(span).collect()
+}
+
+fn span((first, last, words): (u16, u16, u8)) -> Data {
+    match words {
+        1 => Data::Call("rt::modbus::Span::new", vec![Data::text(first.to_string()), Data::text(last.to_string())]),
+        _ => Data::text(format!("rt::modbus::Span::new({first}, {last}).words_per_address({words})")),
+    }
+}
+
+/// Whether reading the item unasked does no harm: every device has it, at any time, and nothing happens.
+fn is_read_along(item: &Item) -> bool {
+    /// ObjFlags of CiA 306: not to be read on a scan.
+    const REFUSES_SCAN: u32 = 2;
+    let is_everywhere = |own: &Availability| {
+        own.models.is_empty() && own.options.is_empty() && own.since.is_none() && own.until.is_none()
+    };
+    item.access.readable()
+        && item.flags & REFUSES_SCAN == 0
+        && item.availability.as_deref().is_none_or(is_everywhere)
+        && item.behaviour.as_deref().is_none_or(|own| own.side_effects.is_empty() && own.read_states.is_empty())
+}
+
+fn items(device: &Device) -> impl Iterator<Item = &Item> {
+    device.groups.iter().flat_map(|group| &group.items)
+}
+
+fn registers(item: &Item) -> impl Iterator<Item = &RegisterBinding> {
+    item.bindings.iter().filter_map(|binding| match binding {
+        Binding::Register(own) => Some(&**own),
+        _ => None,
+    })
 }

@@ -192,6 +192,9 @@ impl<'i> Place<'i> {
         if let Some(first) = register.bit_offset {
             code += &format!(".part({first}, {})", self.bits);
         }
+        if register.words_per_address > 1 {
+            code += &format!(".words_per_address({})", register.words_per_address);
+        }
         code
     }
 
@@ -251,10 +254,14 @@ fn register_facts(register: &RegisterBinding) -> String {
         RegisterSpace::Coil => "coil",
         RegisterSpace::DiscreteInput => "discrete input",
     };
-    let last = register.address.saturating_add(register.count.saturating_sub(1));
-    let mut facts = match register.count {
-        0 | 1 => format!("{table} {}", register.address),
-        _ => format!("{table}s {} to {last}", register.address),
+    let bits = match register.words_per_address {
+        0 | 1 => String::new(),
+        words => format!(" of {} bits", 16 * u16::from(words)),
+    };
+    let each = if bits.is_empty() { "" } else { " each" };
+    let mut facts = match register.last() {
+        last if last <= register.address => format!("{table} {}{bits}", register.address),
+        last => format!("{table}s {} to {last}{bits}{each}", register.address),
     };
     if let Some(bit) = register.bit_offset {
         facts += &format!(" from bit {bit}");

@@ -378,6 +378,8 @@ tables! {
         pub max_read: Option<At<u16>>,
         /// The greatest number that one request writes.
         pub max_write: Option<At<u16>>,
+        /// Whether a value that is longer than that may be read and written in several requests, one after the other.
+        pub split: Option<bool>,
     }
 
     /// Which object a register is.

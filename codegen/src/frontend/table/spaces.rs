@@ -135,17 +135,17 @@ fn indirect(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) 
 pub(super) fn modbus_tables(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) -> Vec<ModbusTable> {
     let mut found: Vec<ModbusTable> = Vec::new();
     for (name, rule) in tables.iter().filter_map(|(name, table)| Some((name, table.value.modbus.as_ref()?))) {
-        if rule.functions.is_none() && rule.max_read.is_none() && rule.max_write.is_none() {
+        if rule.functions.is_none() && rule.max_read.is_none() && rule.max_write.is_none() && rule.split.is_none() {
             continue;
         }
-        for given in [&rule.max_read, &rule.max_write].into_iter().flatten().filter(|given| given.value == 0) {
-            reader.report(&codes::TABLE_VALUE, reader.span(given), "a request is about one register at least");
-        }
+        let space = modbus(reader, rule).space;
+        widths(reader, rule, space);
         let own = ModbusTable {
-            space: modbus(reader, rule).space,
+            space,
             functions: rule.functions.iter().flat_map(|list| list.value.iter().copied()).collect(),
             max_read: rule.max_read.as_ref().map(|own| own.value),
             max_write: rule.max_write.as_ref().map(|own| own.value),
+            split: rule.split.unwrap_or(false),
         };
         match found.iter().find(|other| other.space == own.space) {
             Some(other) if *other != own => {
@@ -157,6 +157,23 @@ pub(super) fn modbus_tables(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceT
         }
     }
     found
+}
+
+/// Requests have a length, and Modbus itself limits it (MODBUS Application Protocol V1.1b3, 6.1 to 6.12).
+fn widths(reader: &mut Reader<'_, '_>, rule: &ModbusRule, space: RegisterSpace) {
+    let (read, write, what) = match space {
+        RegisterSpace::Coil | RegisterSpace::DiscreteInput => (2000, 1968, "bits"),
+        RegisterSpace::Holding | RegisterSpace::Input => (125, 123, "registers"),
+    };
+    for (given, most, verb) in [(&rule.max_read, read, "reads"), (&rule.max_write, write, "writes")] {
+        let Some(given) = given else { continue };
+        if given.value == 0 {
+            reader.report(&codes::TABLE_VALUE, reader.span(given), "a request is about one register at least");
+        } else if given.value > most {
+            let message = format!("a request of Modbus {verb} {most} {what} at most");
+            reader.report(&codes::TABLE_VALUE, reader.span(given), message);
+        }
+    }
 }
 
 fn modbus(reader: &mut Reader<'_, '_>, rule: &ModbusRule) -> Modbus {
@@ -260,6 +277,8 @@ impl Space {
             low_word_first: numbers.low_word_first.unwrap_or(rule.low_word_first),
             bytes_swapped: numbers.bytes_swapped.unwrap_or(rule.bytes_swapped),
             bit_offset: numbers.bit_offset,
+            // A number of 32 bits is one address, and two registers.
+            words_per_address: if unit == 16 { (self.bits / 16).max(1) } else { 1 },
         })))
     }
 }

@@ -104,7 +104,7 @@ impl Taken {
     /// Registers that begin elsewhere and reach into these.
     fn stretch(&mut self, reader: &mut Reader<'_, '_>, item: &Item, own: &RegisterBinding) {
         let (space, first) = (space_name(own.space), u32::from(own.address));
-        let last = first + u32::from(own.count.max(1)) - 1;
+        let last = u32::from(own.last());
         let before = self.registers.range((space, 0)..(space, first)).next_back();
         let before = before.filter(|(_, other)| other.last >= first);
         let other = before.or_else(|| self.registers.range((space, first)..=(space, last)).next());
