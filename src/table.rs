@@ -1,15 +1,17 @@
-//! The whole dictionary as data, for programs that list it or look entries up at run time.
+//! All items of a device as data, for programs that list them or look them up at run time, and for simulated devices.
 
+use crate::bus::Object;
 use crate::data_type::DataType;
 use crate::flags::Flags;
+use crate::register::Register;
 
-/// One entry of an object dictionary.
+/// One item: an entry of the object dictionary, a register, or both in one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
-    /// The object's index.
-    pub index: u16,
-    /// The entry's sub-index.
-    pub sub_index: u8,
+    /// Where it is in the object dictionary; `None` of a register that is no object.
+    pub object: Option<Object>,
+    /// Where it is on Modbus; `None` of an object that is no register.
+    pub register: Option<Register>,
     /// The name in the source.
     pub name: &'static str,
     /// The type of the value.
@@ -65,10 +67,11 @@ pub enum Bound {
     Real(f64),
 }
 
-/// The entry at `index` and `sub_index`. `entries` are in ascending order of both, as generated tables are.
+/// The entry at `index` and `sub_index`. `entries` are in ascending order of their objects, as generated tables are.
 #[must_use]
 pub fn find(entries: &[Entry], index: u16, sub_index: u8) -> Option<&Entry> {
-    let at = entries.binary_search_by_key(&(index, sub_index), |entry| (entry.index, entry.sub_index)).ok()?;
+    let object = Some(Object::new(index, sub_index));
+    let at = entries.binary_search_by_key(&object, |entry| entry.object).ok()?;
     entries.get(at)
 }
 
@@ -76,10 +79,10 @@ pub fn find(entries: &[Entry], index: u16, sub_index: u8) -> Option<&Entry> {
 mod tests {
     use super::*;
 
-    const fn entry(index: u16, sub_index: u8, name: &'static str) -> Entry {
+    const fn entry(object: Option<Object>, name: &'static str) -> Entry {
         Entry {
-            index,
-            sub_index,
+            object,
+            register: None,
             name,
             data_type: DataType::Unsigned8,
             access: AccessRights::ReadOnly,
@@ -91,7 +94,12 @@ mod tests {
         }
     }
 
-    static ENTRIES: [Entry; 3] = [entry(0x1000, 0, "a"), entry(0x1018, 0, "b"), entry(0x1018, 1, "c")];
+    static ENTRIES: [Entry; 4] = [
+        entry(None, "register"),
+        entry(Some(Object::new(0x1000, 0)), "a"),
+        entry(Some(Object::new(0x1018, 0)), "b"),
+        entry(Some(Object::new(0x1018, 1)), "c"),
+    ];
 
     #[test]
     fn finds_by_index_and_sub_index() {

@@ -27,6 +27,7 @@ mod place;
 mod profinet;
 mod quantity;
 mod scope;
+mod table;
 mod value_type;
 mod variant;
 

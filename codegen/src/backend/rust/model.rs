@@ -14,10 +14,11 @@ use super::pdo::{self, PdoModel};
 use super::place::{Buses, Place as Address};
 use super::quantity;
 use super::scope::{ObjectBus, Scope};
+use super::table::{self, EntryModel};
 use super::value_type::ValueType;
 use super::variant;
 use super::INTERFACE_VERSION;
-use crate::ir::{Access, Device, FileInfo, Group, GroupKind, Item, Module, ObjectCode, Type, Value};
+use crate::ir::{Access, Device, FileInfo, Group, GroupKind, Item, Module, ObjectCode, Value};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// Where a device's code stands.
@@ -133,20 +134,6 @@ pub(super) struct Alias {
     pub text: &'static str,
 }
 
-/// A row of the static table.
-pub(super) struct EntryModel {
-    pub index: u16,
-    pub sub_index: u8,
-    pub name: String,
-    pub data_type: String,
-    pub access: &'static str,
-    pub flags: &'static str,
-    pub initial: String,
-    pub low: String,
-    pub high: String,
-    pub unit: String,
-}
-
 /// Names that modules and methods of objects must not have: the device's own, and those that would hide a primitive
 /// type or the runtime.
 const RESERVED: [&str; 28] = [
@@ -243,7 +230,7 @@ impl<'a> Model<'a> {
             module: None,
             has_views: scope.bus == ObjectBus::CoE && !pdos.is_empty(),
             pdos,
-            table: (options.table != Presence::Never).then(|| table(&scope)),
+            table: (options.table != Presence::Never).then(|| table::models(&scope)),
             table_feature: match &options.table {
                 Presence::Feature(feature) => Some(literal::string(feature)),
                 _ => None,
@@ -380,7 +367,7 @@ pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = &'a Gro
 }
 
 /// The chapters' items that a client can reach, with the titles of their chapters.
-fn registers<'a>(scope: &Scope<'a>) -> Vec<(&'a str, &'a Item)> {
+pub(super) fn registers<'a>(scope: &Scope<'a>) -> Vec<(&'a str, &'a Item)> {
     let chapters = scope.groups.iter().filter(|group| group.kind == GroupKind::Chapter);
     let items = chapters.flat_map(|group| group.items.iter().map(|item| (group.name.as_str(), item)));
     items.filter(|(_, item)| !Address::of(scope, item).buses().is_empty()).collect()
@@ -460,7 +447,7 @@ fn register(scope: &Scope<'_>, locations: &Locations, chapter: &str, own: &Item,
     }
 }
 
-fn is_module(group: &Group) -> bool {
+pub(super) fn is_module(group: &Group) -> bool {
     group.object_code().is_some_and(ObjectCode::has_subs) || group.items.len() != 1
 }
 
@@ -580,7 +567,7 @@ fn constructor(address: &Address<'_>, item: &Item, ty: ValueType, name: &str, na
     format!("new(«{}¦ {name}¦ {range}¦ {initial}¦ {}¦ {flags}»)", address.code(), literal::string(unit))
 }
 
-fn flags(item: &Item) -> &'static str {
+pub(super) fn flags(item: &Item) -> &'static str {
     match (item.mappable.rpdo, item.mappable.tpdo) {
         (true, true) => "rt::Flags::PDO",
         (true, false) => "rt::Flags::RPDO",
@@ -603,127 +590,5 @@ pub(super) fn method_allow<'n>(names: impl Iterator<Item = &'n str>) -> Option<S
         (true, false) => Some("#[allow(clippy::wrong_self_convention)]".into()),
         (false, true) => Some("#[allow(clippy::should_implement_trait)]".into()),
         (true, true) => Some("#[allow(clippy::should_implement_trait, clippy::wrong_self_convention)]".into()),
-    }
-}
-
-/// The table of all entries, by index and sub-index.
-fn table(scope: &Scope<'_>) -> Vec<EntryModel> {
-    let mut rows = Vec::new();
-    for group in addressable(scope) {
-        let by_object = !is_module(group);
-        for item in &group.items {
-            let name = if by_object { &group.name } else { &item.name };
-            rows.push(entry(scope, item, name));
-        }
-    }
-    let registers = registers(scope).into_iter().map(|(_, item)| item).filter(|item| item.object().is_some());
-    rows.extend(registers.map(|item| entry(scope, item, &item.name)));
-    rows.sort_by_key(|row: &EntryModel| (row.index, row.sub_index));
-    rows
-}
-
-fn entry(scope: &Scope<'_>, item: &Item, name: &str) -> EntryModel {
-    let (index, sub_index) = item.object().unwrap_or((0, 0));
-    let (base, ty) = (scope.base(item.ty), scope.value_type(item.ty));
-    let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
-    let limits = variant::widest(item);
-    EntryModel {
-        index,
-        sub_index,
-        name: literal::string(name),
-        data_type: data_type(base),
-        access: match item.access {
-            Access::ReadOnly => "ReadOnly",
-            Access::WriteOnly => "WriteOnly",
-            Access::Constant => "Constant",
-            _ => "ReadWrite",
-        },
-        flags: flags(item),
-        initial: raw_initial(item, base, ty),
-        low: bound(limits.low.as_ref(), base),
-        high: bound(limits.high.as_ref(), base),
-        unit: literal::string(unit),
-    }
-}
-
-fn data_type(ty: Type) -> String {
-    let name = match ty {
-        Type::Unsigned(bits @ (1..=7 | 9..=15)) => return format!("Bits({bits})"),
-        Type::Boolean => "Boolean",
-        Type::Integer(8) => "Integer8",
-        Type::Integer(16) => "Integer16",
-        Type::Integer(24) => "Integer24",
-        Type::Integer(32) => "Integer32",
-        Type::Integer(40) => "Integer40",
-        Type::Integer(48) => "Integer48",
-        Type::Integer(56) => "Integer56",
-        Type::Integer(64) => "Integer64",
-        Type::Unsigned(8) => "Unsigned8",
-        Type::Unsigned(16) => "Unsigned16",
-        Type::Unsigned(24) => "Unsigned24",
-        Type::Unsigned(32) => "Unsigned32",
-        Type::Unsigned(40) => "Unsigned40",
-        Type::Unsigned(48) => "Unsigned48",
-        Type::Unsigned(56) => "Unsigned56",
-        Type::Unsigned(64) => "Unsigned64",
-        Type::Real32 => "Real32",
-        Type::Real64 => "Real64",
-        Type::VisibleString(_) => "VisibleString",
-        Type::OctetString(_) => "OctetString",
-        Type::UnicodeString(_) => "UnicodeString",
-        Type::TimeOfDay => "TimeOfDay",
-        Type::TimeDifference => "TimeDifference",
-        Type::Domain => "Domain",
-        _ => "Opaque",
-    };
-    name.to_owned()
-}
-
-/// The default as the bytes that an SDO upload gives.
-fn raw_initial(item: &Item, base: Type, ty: ValueType) -> String {
-    let formula = item.default.as_ref().and_then(|value| ty.formula(value));
-    if let Some(offset) = formula.and_then(|offset| u64::try_from(offset).ok()) {
-        return format!("rt::table::RawInitial::NodeId({offset:#x})");
-    }
-    let bytes = match item.default.as_ref() {
-        Some(value) if ty.literal(value).is_some() => raw_bytes(value, base),
-        _ => None,
-    };
-    match bytes {
-        Some(bytes) => format!("rt::table::RawInitial::Bytes(«{}»)", literal::bytes(&bytes)),
-        None => "rt::table::RawInitial::Unknown".to_owned(),
-    }
-}
-
-fn raw_bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
-    let length = ty.bits().map(|bits| bits.div_ceil(8) as usize);
-    let number = |value: i128| length.map(|length| value.to_le_bytes()[..length.min(16)].to_vec());
-    match (value, ty) {
-        (_, Type::Real32) => Some((value.as_real()? as f32).to_le_bytes().to_vec()),
-        (_, Type::Real64) => Some(value.as_real()?.to_le_bytes().to_vec()),
-        (Value::Bool(value), _) => Some(vec![u8::from(*value)]),
-        (Value::Int(value), _) => number(*value),
-        (Value::Text(text), Type::UnicodeString(_)) => Some(text.encode_utf16().flat_map(u16::to_le_bytes).collect()),
-        (Value::Text(text), _) => Some(text.as_bytes().to_vec()),
-        (Value::Bytes(bytes), _) => Some(bytes.clone()),
-        (Value::Time { milliseconds, days }, _) => number(i128::from(*milliseconds) | i128::from(*days) << 32),
-        _ => None,
-    }
-}
-
-fn bound(value: Option<&Value>, ty: Type) -> String {
-    let real = matches!(ty, Type::Real32 | Type::Real64);
-    let Some(value) = value else { return "rt::table::Bound::Unlimited".to_owned() };
-    match value {
-        _ if real => match value.as_real().and_then(|value| literal::real(value, 64)) {
-            Some(literal) => format!("rt::table::Bound::Real({literal})"),
-            None => "rt::table::Bound::Unlimited".to_owned(),
-        },
-        Value::Int(value) => match (i64::try_from(*value), u64::try_from(*value)) {
-            (_, Ok(unsigned)) if !ty.is_signed() => format!("rt::table::Bound::Unsigned({unsigned})"),
-            (Ok(signed), _) => format!("rt::table::Bound::Signed({signed})"),
-            _ => "rt::table::Bound::Unlimited".to_owned(),
-        },
-        _ => "rt::table::Bound::Unlimited".to_owned(),
     }
 }

@@ -165,6 +165,29 @@ impl<'i> Place<'i> {
         }
     }
 
+    /// The objects: that of the dictionary, and where CANopen and EtherCAT have different ones, the one on EtherCAT.
+    pub fn objects(&self) -> (Option<(u16, u8)>, Option<(u16, u8)>) {
+        (self.canopen.or(self.coe), self.coe.filter(|coe| self.canopen.is_some_and(|canopen| canopen != *coe)))
+    }
+
+    /// The call that makes the register.
+    pub fn register_code(&self) -> Option<String> {
+        self.modbus.map(|register| self.register(register))
+    }
+
+    /// What registers are sorted by: table, address and first bit.
+    pub fn register_key(&self) -> Option<(u8, u16, Option<u8>)> {
+        self.modbus.map(|register| {
+            let table = match register.space {
+                RegisterSpace::Holding => 0,
+                RegisterSpace::Input => 1,
+                RegisterSpace::Coil => 2,
+                RegisterSpace::DiscreteInput => 3,
+            };
+            (table, register.address, register.bit_offset)
+        })
+    }
+
     fn register(&self, register: &RegisterBinding) -> String {
         let RegisterBinding { address, count, .. } = register;
         let low_first = register.low_word_first && *count > 1 && !self.is_bytes;

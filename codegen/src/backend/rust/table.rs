@@ -1,0 +1,165 @@
+//! The static table of all items that a client can reach.
+
+use super::literal;
+use super::model::{addressable, flags, is_module, registers};
+use super::place::Place;
+use super::scope::Scope;
+use super::value_type::ValueType;
+use super::variant;
+use crate::ir::{Access, Item, Type, Value};
+
+/// A row of the table.
+pub(super) struct EntryModel {
+    pub object: Option<(u16, u8)>,
+    /// The call that makes the register.
+    pub register: Option<String>,
+    pub name: String,
+    pub data_type: String,
+    pub access: &'static str,
+    pub flags: &'static str,
+    pub initial: String,
+    pub low: String,
+    pub high: String,
+    pub unit: String,
+}
+
+/// Registers that are no objects, in the order of their addresses, and then the objects, by index and sub-index.
+pub(super) fn models(scope: &Scope<'_>) -> Vec<EntryModel> {
+    let mut rows = Vec::new();
+    for group in addressable(scope) {
+        let by_object = !is_module(group);
+        for item in &group.items {
+            entries(scope, item, if by_object { &group.name } else { &item.name }, &mut rows);
+        }
+    }
+    for (_, item) in registers(scope) {
+        entries(scope, item, &item.name, &mut rows);
+    }
+    rows.sort_by_key(|(key, _)| *key);
+    rows.into_iter().map(|(_, row)| row).collect()
+}
+
+/// What rows are sorted by: as the runtime sorts objects and registers.
+type Key = (Option<(u16, u8)>, Option<(u8, u16, Option<u8>)>);
+
+/// The row of an item: two where its objects on CANopen and on EtherCAT differ, none of a parameter of a serial protocol.
+fn entries(scope: &Scope<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, EntryModel)>) {
+    let place = Place::of(scope, item);
+    let (object, other) = place.objects();
+    let register = place.register_code();
+    if object.is_some() || register.is_some() {
+        rows.push(((object, place.register_key()), entry(scope, item, name, object, register)));
+    }
+    rows.extend(other.map(|other| ((Some(other), None), entry(scope, item, name, Some(other), None))));
+}
+
+fn entry(
+    scope: &Scope<'_>,
+    item: &Item,
+    name: &str,
+    object: Option<(u16, u8)>,
+    register: Option<String>,
+) -> EntryModel {
+    let (base, ty) = (scope.base(item.ty), scope.value_type(item.ty));
+    let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
+    let limits = variant::widest(item);
+    EntryModel {
+        object,
+        register,
+        name: literal::string(name),
+        data_type: data_type(base),
+        access: match item.access {
+            Access::ReadOnly => "ReadOnly",
+            Access::WriteOnly => "WriteOnly",
+            Access::Constant => "Constant",
+            _ => "ReadWrite",
+        },
+        flags: flags(item),
+        initial: raw_initial(item, base, ty),
+        low: bound(limits.low.as_ref(), base),
+        high: bound(limits.high.as_ref(), base),
+        unit: literal::string(unit),
+    }
+}
+
+fn data_type(ty: Type) -> String {
+    let name = match ty {
+        Type::Unsigned(bits @ (1..=7 | 9..=15)) => return format!("Bits({bits})"),
+        Type::Boolean => "Boolean",
+        Type::Integer(8) => "Integer8",
+        Type::Integer(16) => "Integer16",
+        Type::Integer(24) => "Integer24",
+        Type::Integer(32) => "Integer32",
+        Type::Integer(40) => "Integer40",
+        Type::Integer(48) => "Integer48",
+        Type::Integer(56) => "Integer56",
+        Type::Integer(64) => "Integer64",
+        Type::Unsigned(8) => "Unsigned8",
+        Type::Unsigned(16) => "Unsigned16",
+        Type::Unsigned(24) => "Unsigned24",
+        Type::Unsigned(32) => "Unsigned32",
+        Type::Unsigned(40) => "Unsigned40",
+        Type::Unsigned(48) => "Unsigned48",
+        Type::Unsigned(56) => "Unsigned56",
+        Type::Unsigned(64) => "Unsigned64",
+        Type::Real32 => "Real32",
+        Type::Real64 => "Real64",
+        Type::VisibleString(_) => "VisibleString",
+        Type::OctetString(_) => "OctetString",
+        Type::UnicodeString(_) => "UnicodeString",
+        Type::TimeOfDay => "TimeOfDay",
+        Type::TimeDifference => "TimeDifference",
+        Type::Domain => "Domain",
+        _ => "Opaque",
+    };
+    name.to_owned()
+}
+
+/// The default as the bytes that an SDO upload gives.
+fn raw_initial(item: &Item, base: Type, ty: ValueType) -> String {
+    let formula = item.default.as_ref().and_then(|value| ty.formula(value));
+    if let Some(offset) = formula.and_then(|offset| u64::try_from(offset).ok()) {
+        return format!("rt::table::RawInitial::NodeId({offset:#x})");
+    }
+    let bytes = match item.default.as_ref() {
+        Some(value) if ty.literal(value).is_some() => raw_bytes(value, base),
+        _ => None,
+    };
+    match bytes {
+        Some(bytes) => format!("rt::table::RawInitial::Bytes(«{}»)", literal::bytes(&bytes)),
+        None => "rt::table::RawInitial::Unknown".to_owned(),
+    }
+}
+
+fn raw_bytes(value: &Value, ty: Type) -> Option<Vec<u8>> {
+    let length = ty.bits().map(|bits| bits.div_ceil(8) as usize);
+    let number = |value: i128| length.map(|length| value.to_le_bytes()[..length.min(16)].to_vec());
+    match (value, ty) {
+        (_, Type::Real32) => Some((value.as_real()? as f32).to_le_bytes().to_vec()),
+        (_, Type::Real64) => Some(value.as_real()?.to_le_bytes().to_vec()),
+        (Value::Bool(value), _) => Some(vec![u8::from(*value)]),
+        (Value::Int(value), _) => number(*value),
+        (Value::Text(text), Type::UnicodeString(_)) => Some(text.encode_utf16().flat_map(u16::to_le_bytes).collect()),
+        (Value::Text(text), _) => Some(text.as_bytes().to_vec()),
+        (Value::Bytes(bytes), _) => Some(bytes.clone()),
+        (Value::Time { milliseconds, days }, _) => number(i128::from(*milliseconds) | i128::from(*days) << 32),
+        _ => None,
+    }
+}
+
+fn bound(value: Option<&Value>, ty: Type) -> String {
+    let real = matches!(ty, Type::Real32 | Type::Real64);
+    let Some(value) = value else { return "rt::table::Bound::Unlimited".to_owned() };
+    match value {
+        _ if real => match value.as_real().and_then(|value| literal::real(value, 64)) {
+            Some(literal) => format!("rt::table::Bound::Real({literal})"),
+            None => "rt::table::Bound::Unlimited".to_owned(),
+        },
+        Value::Int(value) => match (i64::try_from(*value), u64::try_from(*value)) {
+            (_, Ok(unsigned)) if !ty.is_signed() => format!("rt::table::Bound::Unsigned({unsigned})"),
+            (Ok(signed), _) => format!("rt::table::Bound::Signed({signed})"),
+            _ => "rt::table::Bound::Unlimited".to_owned(),
+        },
+        _ => "rt::table::Bound::Unlimited".to_owned(),
+    }
+}
