@@ -166,8 +166,8 @@ impl<'i> Place<'i> {
     }
 
     /// The objects: that of the dictionary, and where CANopen and EtherCAT have different ones, the one on EtherCAT.
-    pub fn objects(&self) -> (Option<(u16, u8)>, Option<(u16, u8)>) {
-        (self.canopen.or(self.coe), self.coe.filter(|coe| self.canopen.is_some_and(|canopen| canopen != *coe)))
+    pub fn objects(&self) -> [Option<(u16, u8)>; 2] {
+        [self.canopen.or(self.coe), self.coe.filter(|coe| self.canopen.is_some_and(|canopen| canopen != *coe))]
     }
 
     /// The call that makes the register.

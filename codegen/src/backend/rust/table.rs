@@ -45,7 +45,7 @@ type Key = (Option<(u16, u8)>, Option<(u8, u16, Option<u8>)>);
 /// The row of an item: two where its objects on CANopen and on EtherCAT differ, none of a parameter of a serial protocol.
 fn entries(scope: &Scope<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, EntryModel)>) {
     let place = Place::of(scope, item);
-    let (object, other) = place.objects();
+    let [object, other] = place.objects();
     let register = place.register_code();
     if object.is_some() || register.is_some() {
         rows.push(((object, place.register_key()), entry(scope, item, name, object, register)));
