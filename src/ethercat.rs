@@ -23,7 +23,7 @@ pub use mailbox::{Coe, InitCommand, Mailbox, Transition, Transitions};
 pub use module::{Fit, Increments, Module, PdoGroup, Slot, SlotGroup, SlotObjects, Slots};
 pub use pdo::{Direction, PdoInfo};
 pub use plan::{Place, PlanError, SlotPlan};
-pub use startup::{StartupCommand, StartupData};
+pub use startup::{configure, configure_async, StartupCommand, StartupData};
 pub use sync_manager::{Fmmu, FmmuPurpose, SyncManager, SyncManagerPurpose};
 
 use crate::identity::Identity;
@@ -46,6 +46,13 @@ pub struct Device {
 }
 
 impl Device {
+    /// The commands of the device itself on a change of state.
+    pub fn init_commands(&self, transition: Transition) -> impl Iterator<Item = StartupCommand> {
+        let own = self.mailbox.coe.map_or(&[][..], |coe| coe.init_commands);
+        let due = own.iter().filter(move |command| command.transitions.contains(transition));
+        due.map(move |command| StartupCommand::of_init(command, transition, depends_on::Growth::default()))
+    }
+
     /// The PDO with this mapping object.
     #[must_use]
     pub fn pdo(&self, index: u16) -> Option<&'static PdoInfo> {

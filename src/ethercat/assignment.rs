@@ -3,7 +3,9 @@
 use core::fmt;
 
 use super::depends_on::Growth;
+use super::mailbox::Transition;
 use super::pdo::PdoInfo;
+use super::startup::StartupCommand;
 use super::Device;
 use crate::pdo::SdoWrite;
 
@@ -153,6 +155,14 @@ impl<const N: usize> Assignment<N> {
         self.bits(sync_manager).div_ceil(8) as usize
     }
 
+    /// What a master writes in Pre-Operational before it asks for Safe-Operational: what the description asks for on the
+    /// changes of state IP and PS, then the [`commands`](Self::commands) of the assignment.
+    pub fn startup(&self) -> impl Iterator<Item = StartupCommand> + '_ {
+        let own =
+            [Transition::IP, Transition::PS].into_iter().flat_map(|transition| self.device.init_commands(transition));
+        own.chain(self.commands().map(|write| StartupCommand::of_write(Transition::PS, write)))
+    }
+
     /// The writes that set the assignment up in Pre-Operational: clear the assignment, write each mapping that can be
     /// changed, write the assignment (ETG.1000.6 5.6.7.4). What the device lets nobody write is left out.
     pub fn commands(&self) -> impl Iterator<Item = SdoWrite> + '_ {
@@ -258,5 +268,29 @@ mod tests {
                 SdoWrite::new_u8(0x1C13, 0, 1),
             ]
         );
+    }
+
+    #[test]
+    fn the_start_up_list_begins_with_what_the_description_asks_for() {
+        use super::super::{Coe, Device, InitCommand, Mailbox, Transitions};
+        use crate::ethercat::DependsOn;
+
+        const fn init(transition: Transition, index: u16) -> InitCommand {
+            let transitions = Transitions::of(&[transition]);
+            let depends_on = DependsOn::Nothing;
+            InitCommand { transitions, index, sub_index: 0, complete_access: false, depends_on, data: &[8] }
+        }
+
+        const INIT: &[InitCommand] =
+            &[init(Transition::PS, 0x6060), init(Transition::OP, 0x2000), init(Transition::IP, 0x2001)];
+        const COE: Coe =
+            Coe { sdo_info: false, pdo_assign: false, pdo_config: false, complete_access: false, init_commands: INIT };
+        static OWN: Device = Device { mailbox: Mailbox { coe: Some(COE), ..Mailbox::NONE }, ..DRIVE };
+        let assignment = Assignment::<8>::by_default(&OWN).unwrap();
+        let commands: Vec<_> = assignment.startup().map(|command| (command.object.index, command.transition)).collect();
+        // Of the assignment, nothing can be written.
+        assert_eq!(commands, [(0x2001, Transition::IP), (0x6060, Transition::PS)]);
+        let assignment = Assignment::<8>::by_default(&DRIVE).unwrap();
+        assert_eq!(assignment.startup().count(), assignment.commands().count());
     }
 }

@@ -4,12 +4,11 @@ use core::fmt;
 
 use super::assignment::{assignment_writes, mapping_writes};
 use super::depends_on::Growth;
-use super::mailbox::{InitCommand, Transition};
+use super::mailbox::Transition;
 use super::module::{Increments, Module, Slot};
 use super::pdo::PdoInfo;
-use super::startup::{StartupCommand, StartupData};
+use super::startup::StartupCommand;
 use super::{Device, SyncManager};
-use crate::bus::Object;
 use crate::pdo::{MappedEntry, SdoWrite};
 
 /// Object of the configured module ident list (ETG.5001.1).
@@ -22,7 +21,7 @@ const MODULE_IDENTS: u16 = 0xF030;
 /// plan.plug(0, &modules::eight_inputs::MODULE)?;
 /// plan.check()?;
 /// let place = plan.place(0, 0x1A00);                     // where the inputs of slot 0 are
-/// plan.try_for_each_command(Transition::PS, |command| command.send(&mut client))?;
+/// configure(&mut client, plan.startup())?;               // in Pre-Operational
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SlotPlan<const N: usize> {
@@ -234,8 +233,30 @@ impl<const N: usize> SlotPlan<N> {
         end.div_ceil(8) as usize
     }
 
-    /// Hands every command of a change of state to `visit`, in order: the list of modules, the commands of the device,
-    /// those of the modules, and the mapping and assignment of PDOs.
+    /// What a master writes in Pre-Operational before it asks for Safe-Operational: the commands of the changes of state
+    /// IP and PS.
+    pub fn startup(&self) -> impl Iterator<Item = StartupCommand> + '_ {
+        self.commands(Transition::IP).chain(self.commands(Transition::PS))
+    }
+
+    /// The commands of a change of state, in order: the list of modules, the commands of the device, those of the
+    /// modules, and the mapping and assignment of PDOs.
+    pub fn commands(&self, transition: Transition) -> impl Iterator<Item = StartupCommand> + '_ {
+        let of_write = move |write| StartupCommand::of_write(transition, write);
+        let downloads = self.device.slots.is_some_and(|slots| slots.download_idents.contains(transition));
+        let idents = downloads.then(|| self.idents().map(of_write)).into_iter().flatten();
+        let own = self.device.init_commands(transition);
+        let modules = self.plugged().flat_map(move |(module, slot)| {
+            let growth = self.objects(slot);
+            let due = module.init_commands.iter().filter(move |command| command.transitions.contains(transition));
+            due.map(move |command| StartupCommand::of_init(command, transition, growth))
+        });
+        let assigns = transition == Transition::PS;
+        let assignment = assigns.then(|| self.assignment().map(of_write)).into_iter().flatten();
+        idents.chain(own).chain(modules).chain(assignment)
+    }
+
+    /// Hands every command of a change of state to `visit`, in the order of [`commands`](Self::commands).
     ///
     /// # Errors
     ///
@@ -243,25 +264,9 @@ impl<const N: usize> SlotPlan<N> {
     pub fn try_for_each_command<E>(
         &self,
         transition: Transition,
-        mut visit: impl FnMut(StartupCommand) -> Result<(), E>,
+        visit: impl FnMut(StartupCommand) -> Result<(), E>,
     ) -> Result<(), E> {
-        let is_due = |command: &&InitCommand| command.transitions.contains(transition);
-        let of_write = |write| StartupCommand::of_write(transition, write);
-        if self.device.slots.is_some_and(|slots| slots.download_idents.contains(transition)) {
-            self.idents().map(of_write).try_for_each(&mut visit)?;
-        }
-        let own = self.device.mailbox.coe.map_or(&[][..], |coe| coe.init_commands);
-        let due = own.iter().filter(is_due);
-        due.map(|command| startup(command, transition, Growth::default())).try_for_each(&mut visit)?;
-        for (module, slot) in self.plugged() {
-            let growth = self.objects(slot);
-            let due = module.init_commands.iter().filter(is_due);
-            due.map(|command| startup(command, transition, growth)).try_for_each(&mut visit)?;
-        }
-        if transition == Transition::PS {
-            self.assignment().map(of_write).try_for_each(&mut visit)?;
-        }
-        Ok(())
+        self.commands(transition).try_for_each(visit)
     }
 
     fn slots(&self) -> &'static [Slot] {
@@ -383,16 +388,6 @@ impl Place {
             [SdoWrite::new_u8(index, 0, 0), SdoWrite::new_u32(index, 1, entry.word()), SdoWrite::new_u8(index, 0, 1)]
         });
         own.chain(gap)
-    }
-}
-
-fn startup(command: &InitCommand, transition: Transition, growth: Growth) -> StartupCommand {
-    let index = command.index.wrapping_add(growth.of(command.depends_on));
-    StartupCommand {
-        transition,
-        object: Object { index, sub_index: command.sub_index },
-        complete_access: command.complete_access,
-        data: StartupData::Bytes(command.data),
     }
 }
 
