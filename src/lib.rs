@@ -73,7 +73,7 @@ mod bit_field;
 pub mod bits;
 mod bus;
 mod client;
-#[cfg(any(feature = "canopen", feature = "modbus"))]
+#[cfg(any(feature = "canopen", feature = "ethercat", feature = "modbus"))]
 pub mod clients;
 pub mod codes;
 mod data_type;

@@ -1,0 +1,188 @@
+//! The firmware of a SubDevice: its state machine (ETG.1000.6 6.4), its mailbox and its process data.
+
+use std::collections::VecDeque;
+
+use lexibus::ethercat::{Device, SyncManagerPurpose};
+use lexibus::{AbortCode, MappedEntry};
+
+use super::coe::Server;
+use super::controller::Controller;
+use super::eeprom;
+use super::objects::Dictionary;
+use super::pdos::Pdos;
+
+/// The states.
+const INIT: u8 = 1;
+const PRE_OP: u8 = 2;
+const SAFE_OP: u8 = 4;
+const OP: u8 = 8;
+
+/// Why a change of state is refused (ETG.1000.6 table 11).
+const INVALID_CHANGE: u16 = 0x0011;
+const UNKNOWN_STATE: u16 = 0x0012;
+const INVALID_MAILBOX: u16 = 0x0016;
+const INVALID_OUTPUTS: u16 = 0x001D;
+const INVALID_INPUTS: u16 = 0x001E;
+
+/// A SubDevice.
+pub struct SubDevice {
+    pub(super) controller: Controller,
+    device: &'static Device,
+    objects: Box<dyn Dictionary>,
+    pdos: Pdos,
+    server: Server,
+    /// Messages that wait for the mailbox to the master.
+    messages: VecDeque<Vec<u8>>,
+    state: u8,
+}
+
+impl SubDevice {
+    /// A device that was just switched on: its description, and its objects beside those that configure PDOs.
+    pub fn new(device: &'static Device, objects: impl Dictionary + 'static) -> Self {
+        Self {
+            controller: Controller::new(eeprom::of(device)),
+            device,
+            objects: Box::new(objects),
+            pdos: Pdos::new(device),
+            server: Server::default(),
+            messages: VecDeque::new(),
+            state: INIT,
+        }
+    }
+
+    /// What the firmware does between two frames.
+    pub(super) fn run(&mut self) {
+        self.controller.tick();
+        if let Some(request) = self.controller.request.take() {
+            self.change_state(request);
+        }
+        if self.state != INIT {
+            self.serve_mailbox();
+        }
+        if std::mem::take(&mut self.controller.exchanged) {
+            self.exchange();
+        }
+    }
+
+    fn change_state(&mut self, request: u8) {
+        let code = match (self.state, request & 0x0F) {
+            (_, INIT) => 0,
+            (INIT, PRE_OP) => self.check_mailbox(),
+            (PRE_OP, SAFE_OP) => self.check_process_data(),
+            (PRE_OP | SAFE_OP | OP, PRE_OP) | (SAFE_OP | OP, SAFE_OP) | (SAFE_OP | OP, OP) => 0,
+            (_, PRE_OP | SAFE_OP | OP) => INVALID_CHANGE,
+            _ => UNKNOWN_STATE,
+        };
+        if code == 0 {
+            self.state = request & 0x0F;
+        }
+        self.controller.show_state(self.state, code);
+        if matches!(self.state, SAFE_OP | OP) {
+            self.exchange();
+        }
+    }
+
+    /// Whether the mailboxes are where the description has them.
+    fn check_mailbox(&self) -> u16 {
+        let purposes = [SyncManagerPurpose::MailboxOut, SyncManagerPurpose::MailboxIn];
+        let mut mailboxes = self.device.sync_managers.iter().filter(|own| purposes.contains(&own.purpose));
+        let is_right = mailboxes.all(|own| {
+            let set = self.controller.manager(own.number);
+            let sizes = own.min_size.unwrap_or(1)..=own.max_size.unwrap_or(u16::MAX);
+            set.enabled
+                && set.range.start == usize::from(own.start_address)
+                && sizes.contains(&(set.range.len() as u16))
+        });
+        if is_right {
+            0
+        } else {
+            INVALID_MAILBOX
+        }
+    }
+
+    /// Whether the sync managers are as long as what is assigned to them.
+    fn check_process_data(&self) -> u16 {
+        let wrong = self.device.sync_managers.iter().filter(|own| own.carries_data()).find(|own| {
+            let set = self.controller.manager(own.number);
+            let bytes = self.pdos.bytes(own.number);
+            set.range.len() != bytes || set.enabled != (bytes > 0)
+        });
+        match wrong.map(|own| own.purpose) {
+            None => 0,
+            Some(SyncManagerPurpose::Outputs) => INVALID_OUTPUTS,
+            Some(_) => INVALID_INPUTS,
+        }
+    }
+
+    fn serve_mailbox(&mut self) {
+        let number =
+            |purpose| self.device.sync_managers.iter().find(|own| own.purpose == purpose).map(|own| own.number);
+        let (out, back) = (number(SyncManagerPurpose::MailboxOut), number(SyncManagerPurpose::MailboxIn));
+        let (Some(out), Some(back)) = (out, back) else { return };
+        let back = self.controller.manager(back);
+        let request = self.controller.take(&self.controller.manager(out));
+        let answer = request.and_then(|message| {
+            let mut objects =
+                Objects { is_pre_op: self.state == PRE_OP, pdos: &mut self.pdos, own: &mut *self.objects };
+            self.server.answer(&message, back.range.len(), &mut objects)
+        });
+        while let Some(emergency) = self.objects.emergency() {
+            self.messages.push_back(self.server.emergency(emergency));
+        }
+        self.messages.extend(answer);
+        if let Some(message) = self.messages.pop_front() {
+            if !self.controller.put(&back, &message) {
+                self.messages.push_front(message);
+            }
+        }
+    }
+
+    /// Outputs to the application, and its inputs back.
+    fn exchange(&mut self) {
+        if !matches!(self.state, SAFE_OP | OP) {
+            return;
+        }
+        let of = |purpose| self.device.sync_managers.iter().filter(move |own| own.purpose == purpose);
+        if self.state == OP {
+            for own in of(SyncManagerPurpose::Outputs) {
+                let data = self.controller.load(&self.controller.manager(own.number));
+                self.pdos.scatter(own.number, &data, &mut *self.objects);
+            }
+        }
+        self.objects.cycle(self.state == OP);
+        for own in of(SyncManagerPurpose::Inputs) {
+            let data = self.pdos.gather(own.number, &mut *self.objects);
+            let manager = self.controller.manager(own.number);
+            self.controller.store(&manager, &data);
+        }
+    }
+}
+
+/// All objects of a device.
+struct Objects<'d> {
+    pdos: &'d mut Pdos,
+    own: &'d mut dyn Dictionary,
+    is_pre_op: bool,
+}
+
+impl Dictionary for Objects<'_> {
+    fn read(&mut self, index: u16, sub_index: u8) -> Result<Vec<u8>, u32> {
+        if self.pdos.has(index) {
+            self.pdos.read(index, sub_index)
+        } else {
+            self.own.read(index, sub_index)
+        }
+    }
+
+    fn write(&mut self, index: u16, sub_index: u8, data: &[u8]) -> Result<(), u32> {
+        if !self.pdos.has(index) {
+            return self.own.write(index, sub_index, data);
+        }
+        if !self.is_pre_op {
+            return Err(AbortCode::DEVICE_STATE.0);
+        }
+        // Index 0 is a gap.
+        let exists = |entry: MappedEntry| entry.index == 0 || self.own.read(entry.index, entry.sub_index).is_ok();
+        self.pdos.write(index, sub_index, data, exists)
+    }
+}

@@ -1,0 +1,181 @@
+//! The mailbox of a SubDevice: one message out, one message in (ETG.1000.4 6.7, ETG.1000.6 5.3).
+
+use core::ops::Deref;
+
+use ethercrab::error::{Error as BusError, MailboxError, TimeoutError};
+use ethercrab::{Command, EtherCrabWireWrite, MainDevice, RegisterAddress};
+
+use super::protocol::{Answer, Emergency, Request, MAILBOX_HEADER};
+use crate::error::Error;
+
+/// So many sync managers are looked at: mailboxes are the first two of four.
+const MANAGERS: u16 = 4;
+
+/// Bytes of the registers of a sync manager.
+const REGISTERS: u16 = 8;
+
+/// Where the state is in them, and the bit that tells that the mailbox is full.
+const STATE: u16 = 5;
+const FULL: u8 = 0x08;
+
+/// A buffer in the memory of the slave controller.
+#[derive(Clone, Copy, Debug)]
+struct Buffer {
+    /// The register with its state.
+    state: u16,
+    address: u16,
+    length: u16,
+}
+
+#[derive(Debug)]
+pub(super) struct Mailbox<'m> {
+    maindevice: &'m MainDevice<'m>,
+    station: u16,
+    pub(super) patience: u32,
+    /// To the device, and from it; read from the registers when first needed.
+    buffers: Option<(Buffer, Buffer)>,
+    pub(super) emergency: Option<Emergency>,
+}
+
+/// What one message is to whoever waits for an answer.
+pub(super) enum Sought<T> {
+    /// The answer.
+    Found(T),
+    /// Something that has nothing to do with it.
+    Other,
+    /// The device refused, or answered something else.
+    Failed(Error<BusError>),
+}
+
+impl<T> Sought<T> {
+    /// A message that isn't the awaited answer.
+    pub(super) fn of(answer: Answer<'_>) -> Self {
+        match answer {
+            Answer::Abort(code) => Sought::Failed(Error::Abort(code)),
+            Answer::Foreign | Answer::Emergency(_) => Sought::Other,
+            _ => Sought::Failed(Error::UnexpectedReply),
+        }
+    }
+}
+
+impl<'m> Mailbox<'m> {
+    pub(super) const fn new(maindevice: &'m MainDevice<'m>, station: u16, patience: u32) -> Self {
+        Self { maindevice, station, patience, buffers: None, emergency: None }
+    }
+
+    /// How many bytes a message to the device may have.
+    pub(super) async fn room(&mut self) -> Result<usize, Error<BusError>> {
+        Ok(usize::from(self.buffers().await?.0.length))
+    }
+
+    /// Sends `request` with `data` behind it, and hands what comes back to `seek` until that has found the answer. Messages
+    /// of other protocols are passed over.
+    pub(super) async fn exchange<T>(
+        &mut self,
+        request: &Request,
+        data: &[u8],
+        mut seek: impl FnMut(Answer<'_>) -> Sought<T>,
+    ) -> Result<T, Error<BusError>> {
+        let (out, back) = self.buffers().await?;
+        self.clear(back).await?;
+        self.wait(out, false, TimeoutError::MailboxEcho).await?;
+        let message = Message { head: request.head(), data, length: usize::from(out.length) };
+        let written = Command::fpwr(self.station, out.address).send_receive_slice(self.maindevice, message);
+        written.await.map_err(Error::Client)?;
+        for _ in 0..self.patience {
+            self.wait(back, true, TimeoutError::MailboxResponse).await?;
+            let received = self.take(back).await?;
+            let answer = Answer::parse(&received);
+            if let Answer::Emergency(emergency) = answer {
+                self.emergency = Some(emergency);
+            }
+            match seek(answer) {
+                Sought::Found(found) => return Ok(found),
+                Sought::Failed(error) => return Err(error),
+                Sought::Other => {}
+            }
+        }
+        Err(late(TimeoutError::MailboxResponse))
+    }
+
+    /// Takes out what is left of an earlier transfer.
+    async fn clear(&mut self, back: Buffer) -> Result<(), Error<BusError>> {
+        for _ in 0..self.patience {
+            if !self.is_full(back).await? {
+                return Ok(());
+            }
+            let received = self.take(back).await?;
+            if let Answer::Emergency(emergency) = Answer::parse(&received) {
+                self.emergency = Some(emergency);
+            }
+        }
+        Err(late(TimeoutError::MailboxEcho))
+    }
+
+    async fn take(&self, back: Buffer) -> Result<impl Deref<Target = [u8]> + 'm, Error<BusError>> {
+        let read = Command::fprd(self.station, back.address).receive_slice(self.maindevice, back.length);
+        read.await.map_err(Error::Client)
+    }
+
+    async fn wait(&self, buffer: Buffer, full: bool, missed: TimeoutError) -> Result<(), Error<BusError>> {
+        for _ in 0..self.patience {
+            if self.is_full(buffer).await? == full {
+                return Ok(());
+            }
+        }
+        Err(late(missed))
+    }
+
+    async fn is_full(&self, buffer: Buffer) -> Result<bool, Error<BusError>> {
+        let state = Command::fprd(self.station, buffer.state).receive::<u8>(self.maindevice);
+        Ok(state.await.map_err(Error::Client)? & FULL != 0)
+    }
+
+    async fn buffers(&mut self) -> Result<(Buffer, Buffer), Error<BusError>> {
+        if let Some(known) = self.buffers {
+            return Ok(known);
+        }
+        let first = u16::from(RegisterAddress::Sm0);
+        let registers = Command::fprd(self.station, first).receive_slice(self.maindevice, MANAGERS * REGISTERS);
+        let registers = registers.await.map_err(Error::Client)?;
+        let missing = |error| Error::Client(BusError::Mailbox(error));
+        let out = find(&registers, first, true).ok_or(missing(MailboxError::NoWriteMailbox))?;
+        let back = find(&registers, first, false).ok_or(missing(MailboxError::NoReadMailbox))?;
+        Ok(*self.buffers.insert((out, back)))
+    }
+}
+
+/// The first sync manager that is an enabled mailbox of this direction.
+fn find(registers: &[u8], first: u16, to_device: bool) -> Option<Buffer> {
+    let managers = registers.chunks_exact(usize::from(REGISTERS)).zip((first..).step_by(usize::from(REGISTERS)));
+    managers.filter_map(|(registers, at)| Some((registers.first_chunk::<7>()?, at))).find_map(|(registers, at)| {
+        let [start_low, start_high, length_low, length_high, control, _, enable] = *registers;
+        let length = u16::from_le_bytes([length_low, length_high]);
+        let is_mailbox = control & 0x03 == 0x02 && enable & 1 != 0 && usize::from(length) > MAILBOX_HEADER;
+        let is_it = is_mailbox && (control & 0x0C == 0x04) == to_device;
+        is_it.then_some(Buffer { state: at + STATE, address: u16::from_le_bytes([start_low, start_high]), length })
+    })
+}
+
+fn late(what: TimeoutError) -> Error<BusError> {
+    Error::Client(BusError::Timeout(what))
+}
+
+/// A message that fills the mailbox to its last byte, with which the device gets it.
+struct Message<'d> {
+    head: &'d [u8],
+    data: &'d [u8],
+    length: usize,
+}
+
+impl EtherCrabWireWrite for Message<'_> {
+    fn pack_to_slice_unchecked<'buf>(&self, buf: &'buf mut [u8]) -> &'buf [u8] {
+        let bytes = self.head.iter().chain(self.data).copied().chain(core::iter::repeat(0));
+        buf.iter_mut().take(self.length).zip(bytes).for_each(|(to, from)| *to = from);
+        buf.get(..self.length).unwrap_or_default()
+    }
+
+    fn packed_len(&self) -> usize {
+        self.length
+    }
+}

@@ -1,0 +1,204 @@
+//! The messages of CoE, without the mailbox that they go through (ETG.1000.6 5.6.1, 5.6.2).
+
+use crate::abort::AbortCode;
+use crate::bus::Object;
+
+/// Bytes of the header of a mailbox message (ETG.1000.4 5.6).
+pub(super) const MAILBOX_HEADER: usize = 6;
+
+/// Bytes of the header of CoE.
+const COE_HEADER: usize = 2;
+
+/// Bytes of a request to begin a transfer: header of CoE, command, index, sub-index, four bytes of data or a length.
+const INITIATE: usize = 10;
+
+/// Least bytes of data in a segment.
+const SEGMENT: usize = 7;
+
+/// The protocol CoE in the header of a mailbox message.
+const COE: u8 = 3;
+
+/// An emergency message (ETG.1000.6 5.6.4).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Emergency {
+    /// The error code.
+    pub code: u16,
+    /// The error register (object 0x1001).
+    pub register: u8,
+    /// What the manufacturer adds.
+    pub data: [u8; 5],
+}
+
+/// What a request does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Command {
+    /// All that there is to send is in its head.
+    Short,
+    /// Bytes of the value follow.
+    Normal,
+}
+
+/// A message to the device: its head, behind which bytes of a value may follow.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Request {
+    head: [u8; MAILBOX_HEADER + INITIATE],
+    head_len: usize,
+    command: Command,
+}
+
+impl Request {
+    /// `command` and what follows it up to the value; `length` counts the bytes behind the mailbox header.
+    fn new(rest: &[u8], length: usize, command: Command) -> Self {
+        // No address, lowest priority. The counter stays 0, with which no repetition is recognised: that of `ethercrab`
+        // isn't known here.
+        let [low, high] = (length as u16).to_le_bytes();
+        let fixed = [low, high, 0, 0, 0, COE, 0, Service::Request as u8 * 0x10];
+        let mut head = [0; MAILBOX_HEADER + INITIATE];
+        head.iter_mut().zip(fixed.iter().chain(rest)).for_each(|(to, from)| *to = *from);
+        Self { head, head_len: fixed.len() + rest.len(), command }
+    }
+
+    pub(super) fn head(&self) -> &[u8] {
+        self.head.get(..self.head_len).unwrap_or(&self.head)
+    }
+
+    pub(super) const fn command(&self) -> Command {
+        self.command
+    }
+}
+
+/// Services of CoE.
+#[derive(Clone, Copy)]
+enum Service {
+    Emergency = 1,
+    Request = 2,
+    Response = 3,
+}
+
+fn initiate(command: u8, object: Object, complete: bool, data: [u8; 4]) -> [u8; 8] {
+    let [low, high] = object.index.to_le_bytes();
+    let [a, b, c, d] = data;
+    [command | u8::from(complete) << 4, low, high, object.sub_index, a, b, c, d]
+}
+
+pub(super) fn upload(object: Object, complete: bool) -> Request {
+    Request::new(&initiate(0x40, object, complete, [0; 4]), INITIATE, Command::Short)
+}
+
+pub(super) fn upload_segment(toggle: bool) -> Request {
+    Request::new(&[0x60 | u8::from(toggle) << 4, 0, 0, 0, 0, 0, 0, 0], INITIATE, Command::Short)
+}
+
+/// The request and how many bytes of `data` go with it. `room` is how many bytes a message may have.
+pub(super) fn download(object: Object, complete: bool, data: &[u8], room: usize) -> (Request, usize) {
+    if (1..=4).contains(&data.len()) {
+        let mut bytes = [0; 4];
+        bytes.iter_mut().zip(data).for_each(|(to, from)| *to = *from);
+        let command = 0x23 | (4 - data.len() as u8) << 2;
+        return (Request::new(&initiate(command, object, complete, bytes), INITIATE, Command::Short), data.len());
+    }
+    let first = data.len().min(room.saturating_sub(MAILBOX_HEADER + INITIATE));
+    let size = (data.len() as u32).to_le_bytes();
+    (Request::new(&initiate(0x21, object, complete, size), INITIATE + first, Command::Normal), first)
+}
+
+/// The request for the next of `rest` bytes and how many of them go with it.
+pub(super) fn download_segment(toggle: bool, rest: usize, room: usize) -> (Request, usize) {
+    let most = room.saturating_sub(MAILBOX_HEADER + COE_HEADER + 1).max(SEGMENT);
+    let length = rest.min(most);
+    let unused = SEGMENT.saturating_sub(length) as u8;
+    let command = u8::from(toggle) << 4 | unused << 1 | u8::from(length == rest);
+    (Request::new(&[command], COE_HEADER + 1 + length.max(SEGMENT), Command::Normal), length)
+}
+
+/// A message of the device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Answer<'d> {
+    /// A value or the first part of it. `size` is that of the whole value where the message tells.
+    Upload { object: Object, size: Option<usize>, data: &'d [u8] },
+    /// The next part of a value.
+    UploadSegment { toggle: bool, last: bool, data: &'d [u8] },
+    /// A value or the first part of it was taken.
+    Download { object: Object },
+    /// The next part of a value was taken.
+    DownloadSegment { toggle: bool },
+    /// The device refused.
+    Abort(AbortCode),
+    /// The device reports an error of its own accord.
+    Emergency(Emergency),
+    /// A message of another protocol or service.
+    Foreign,
+    /// No message that means anything.
+    Malformed,
+}
+
+impl<'d> Answer<'d> {
+    /// What stands in the mailbox.
+    pub(super) fn parse(mailbox: &'d [u8]) -> Self {
+        Self::read(mailbox).unwrap_or(Answer::Malformed)
+    }
+
+    fn read(mailbox: &'d [u8]) -> Option<Self> {
+        let (header, rest) = mailbox.split_first_chunk::<MAILBOX_HEADER>()?;
+        let body = rest.get(..usize::from(u16::from_le_bytes([header[0], header[1]])))?;
+        match header[5] & 0x0F {
+            0 => return None,
+            COE => {}
+            _ => return Some(Answer::Foreign),
+        }
+        let (coe, sdo) = body.split_first_chunk::<COE_HEADER>()?;
+        match coe[1] >> 4 {
+            own if own == Service::Emergency as u8 => emergency(sdo),
+            // An abort is a request, too.
+            own if own == Service::Response as u8 || own == Service::Request as u8 => response(sdo),
+            _ => Some(Answer::Foreign),
+        }
+    }
+}
+
+fn emergency(message: &[u8]) -> Option<Answer<'_>> {
+    let (code, rest) = message.split_first_chunk()?;
+    let (register, rest) = rest.split_first()?;
+    let data = *rest.first_chunk()?;
+    Some(Answer::Emergency(Emergency { code: u16::from_le_bytes(*code), register: *register, data }))
+}
+
+fn response(sdo: &[u8]) -> Option<Answer<'_>> {
+    let (&command, behind) = sdo.split_first()?;
+    let toggle = command & 0x10 != 0;
+    match command >> 5 {
+        0 => {
+            // Seven bytes there always are; fewer of them count where the command says so.
+            let unused = if behind.len() == SEGMENT { usize::from(command >> 1 & 7) } else { 0 };
+            let data = behind.get(..behind.len() - unused)?;
+            Some(Answer::UploadSegment { toggle, last: command & 1 != 0, data })
+        }
+        1 => Some(Answer::DownloadSegment { toggle }),
+        2 => uploaded(command, behind),
+        3 => Some(Answer::Download { object: address(behind)?.0 }),
+        4 => {
+            let code = address(behind)?.1.first_chunk()?;
+            Some(Answer::Abort(AbortCode(u32::from_le_bytes(*code))))
+        }
+        _ => None,
+    }
+}
+
+fn uploaded(command: u8, behind: &[u8]) -> Option<Answer<'_>> {
+    let (object, data) = address(behind)?;
+    if command & 0x02 != 0 {
+        let size = (command & 0x01 != 0).then_some(4 - usize::from(command >> 2 & 3));
+        return Some(Answer::Upload { object, size, data: data.get(..size.unwrap_or(4))? });
+    }
+    let (size, data) = data.split_first_chunk()?;
+    let size = usize::try_from(u32::from_le_bytes(*size)).ok()?;
+    Some(Answer::Upload { object, size: Some(size), data: data.get(..size).unwrap_or(data) })
+}
+
+fn address(bytes: &[u8]) -> Option<(Object, &[u8])> {
+    let (&[low, high, sub_index], rest) = bytes.split_first_chunk()?;
+    Some((Object { index: u16::from_le_bytes([low, high]), sub_index }, rest))
+}
+
+#[cfg(test)]
+mod tests;
