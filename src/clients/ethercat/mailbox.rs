@@ -5,7 +5,7 @@ use core::ops::Deref;
 use ethercrab::error::{Error as BusError, MailboxError, TimeoutError};
 use ethercrab::{Command, EtherCrabWireWrite, MainDevice, RegisterAddress};
 
-use super::protocol::{Answer, Emergency, Request, MAILBOX_HEADER};
+use super::protocol::{Answer, Emergency, Request, SMALLEST};
 use crate::error::Error;
 
 /// So many sync managers are looked at: mailboxes are the first two of four.
@@ -151,7 +151,7 @@ fn find(registers: &[u8], first: u16, to_device: bool) -> Option<Buffer> {
     managers.filter_map(|(registers, at)| Some((registers.first_chunk::<7>()?, at))).find_map(|(registers, at)| {
         let [start_low, start_high, length_low, length_high, control, _, enable] = *registers;
         let length = u16::from_le_bytes([length_low, length_high]);
-        let is_mailbox = control & 0x03 == 0x02 && enable & 1 != 0 && usize::from(length) > MAILBOX_HEADER;
+        let is_mailbox = control & 0x03 == 0x02 && enable & 1 != 0 && usize::from(length) >= SMALLEST;
         let is_it = is_mailbox && (control & 0x0C == 0x04) == to_device;
         is_it.then_some(Buffer { state: at + STATE, address: u16::from_le_bytes([start_low, start_high]), length })
     })

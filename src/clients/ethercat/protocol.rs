@@ -4,13 +4,16 @@ use crate::abort::AbortCode;
 use crate::bus::Object;
 
 /// Bytes of the header of a mailbox message (ETG.1000.4 5.6).
-pub(super) const MAILBOX_HEADER: usize = 6;
+const MAILBOX_HEADER: usize = 6;
 
 /// Bytes of the header of CoE.
 const COE_HEADER: usize = 2;
 
 /// Bytes of a request to begin a transfer: header of CoE, command, index, sub-index, four bytes of data or a length.
 const INITIATE: usize = 10;
+
+/// Bytes of the shortest mailbox that takes every request.
+pub(super) const SMALLEST: usize = MAILBOX_HEADER + INITIATE;
 
 /// Least bytes of data in a segment.
 const SEGMENT: usize = 7;
@@ -41,7 +44,7 @@ pub(super) enum Command {
 /// A message to the device: its head, behind which bytes of a value may follow.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Request {
-    head: [u8; MAILBOX_HEADER + INITIATE],
+    head: [u8; SMALLEST],
     head_len: usize,
     command: Command,
 }
@@ -53,7 +56,7 @@ impl Request {
         // isn't known here.
         let [low, high] = (length as u16).to_le_bytes();
         let fixed = [low, high, 0, 0, 0, COE, 0, Service::Request as u8 * 0x10];
-        let mut head = [0; MAILBOX_HEADER + INITIATE];
+        let mut head = [0; SMALLEST];
         head.iter_mut().zip(fixed.iter().chain(rest)).for_each(|(to, from)| *to = *from);
         Self { head, head_len: fixed.len() + rest.len(), command }
     }
@@ -97,7 +100,7 @@ pub(super) fn download(object: Object, complete: bool, data: &[u8], room: usize)
         let command = 0x23 | (4 - data.len() as u8) << 2;
         return (Request::new(&initiate(command, object, complete, bytes), INITIATE, Command::Short), data.len());
     }
-    let first = data.len().min(room.saturating_sub(MAILBOX_HEADER + INITIATE));
+    let first = data.len().min(room.saturating_sub(SMALLEST));
     let size = (data.len() as u32).to_le_bytes();
     (Request::new(&initiate(0x21, object, complete, size), INITIATE + first, Command::Normal), first)
 }
