@@ -1,1 +1,162 @@
-fn main() {}
+//! Messages with a drive on a serial line, and its parameters as items.
+//!
+//!     cargo run --example serial --features serial
+//!
+//! The drive is simulated: a thread at the other end of a pseudo-terminal. With a real one, the port is
+//! `serialport::new("/dev/ttyUSB0", 115_200).timeout(…).open_native()`.
+
+#[cfg(unix)]
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    unix::main()
+}
+
+#[cfg(not(unix))]
+fn main() {
+    println!("this system has no pseudo-terminals");
+}
+
+#[cfg(unix)]
+mod unix {
+    use std::collections::BTreeMap;
+    use std::error;
+    use std::io::{Read, Write};
+    use std::thread;
+    use std::time::Duration;
+
+    use embedded_io_adapters::std::FromStd;
+    use lexibus::clients::serial::{SerialError, SerialLine};
+    use lexibus::framing::{Check, Delimited, Framing};
+    use lexibus::{
+        AbortCode, Error, Exchange, Flags, Initial, Item, LengthError, OnSerial, Parameter, ParameterMessages,
+        Parameters, Range, Rw,
+    };
+    use serialport::{SerialPort, TTYPort};
+
+    /// STX, data, check, ETX; these and ESC within are ESC and their complement.
+    const FRAMING: Delimited = Delimited::new(Some(0x02), 0x03)
+        .with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B])
+        .with_check(Check::Xor(0xFF))
+        .with_max_data(MAX_DATA);
+    const MAX_DATA: usize = 16;
+
+    const NODE: u8 = 1;
+    /// The first byte of a request that reads or changes a parameter, or asks how the drive is.
+    const READ: u8 = 0x10;
+    const CHANGE: u8 = 0x11;
+    const STATE: u8 = 0x12;
+    const REFUSED: u8 = 0x7F;
+
+    const GAIN: Item<i16, Rw, OnSerial> =
+        Item::new(OnSerial::serial(0x0105), "Gain", Range::Between(0, 1000), Initial::Value(150), "", Flags::NONE);
+    const POSITION: Item<i32, Rw, OnSerial> =
+        Item::new(OnSerial::serial(0x010C), "Position", Range::Full, Initial::Unknown, "counts", Flags::NONE);
+    const MISSING: Item<i16, Rw, OnSerial> =
+        Item::new(OnSerial::serial(0x0999), "Missing", Range::Full, Initial::Unknown, "", Flags::NONE);
+
+    pub fn main() -> Result<(), Box<dyn error::Error>> {
+        let (mut near, mut far) = TTYPort::pair()?;
+        near.set_timeout(Duration::from_secs(5))?;
+        far.set_timeout(Duration::from_secs(5))?;
+        let drive = thread::spawn(move || Drive::default().serve(&mut far));
+        talk(near)?;
+        Ok(drive.join().map_err(|_| "the drive panicked")??)
+    }
+
+    fn talk(port: TTYPort) -> Result<(), Box<dyn error::Error>> {
+        // Begin, end, and each byte of data and check twice.
+        let mut line: SerialLine<_, _, { 2 * (MAX_DATA + 1) + 2 }> = SerialLine::new(FromStd::new(port), FRAMING);
+        let mut reply = [0; MAX_DATA];
+        let length = line.exchange(&[NODE, STATE], &mut reply)?;
+        println!("state: {:02x?}", &reply[..length]);
+
+        let mut drive = Parameters::<_, _, MAX_DATA>::new(line, Messages);
+        GAIN.at(&mut drive).write(300)?;
+        POSITION.at(&mut drive).write(0x0203_1B00)?;
+        println!("gain {}, position {:#010x}", GAIN.at(&mut drive).read()?, POSITION.at(&mut drive).read()?);
+        println!("gain 1001: {}", GAIN.at(&mut drive).write(1001).err().ok_or("it is out of range")?);
+        let refused: Option<Error<SerialError<_>>> = MISSING.at(&mut drive).read().err();
+        println!("parameter 0x0999: {}", refused.ok_or("it doesn't exist")?);
+        Ok(())
+    }
+
+    /// Node, order, number and value of a parameter, numbers with their most significant byte first. The reply begins alike, or
+    /// has another order.
+    struct Messages;
+
+    fn head(order: u8, parameter: Parameter) -> [u8; 4] {
+        let [.., high, low] = parameter.0.to_be_bytes();
+        [NODE, order, high, low]
+    }
+
+    fn request(head: [u8; 4], value: &[u8], to: &mut [u8]) -> Result<usize, LengthError> {
+        let length = head.len() + value.len();
+        let error = LengthError::new(length, to.len());
+        let to = to.get_mut(..length).ok_or(error)?;
+        let bytes = head.iter().chain(value.iter().rev());
+        to.iter_mut().zip(bytes).for_each(|(to, from)| *to = *from);
+        Ok(length)
+    }
+
+    fn value<E>(head: [u8; 4], reply: &[u8]) -> Result<&[u8], Error<E>> {
+        match reply.strip_prefix(&head) {
+            Some(value) => Ok(value),
+            None if reply.get(1) == Some(&REFUSED) => Err(Error::Abort(AbortCode::NO_OBJECT)),
+            None => Err(Error::UnexpectedReply),
+        }
+    }
+
+    impl ParameterMessages for Messages {
+        fn read_request(&self, parameter: Parameter, _: usize, to: &mut [u8]) -> Result<usize, LengthError> {
+            request(head(READ, parameter), &[], to)
+        }
+
+        fn read_reply<E>(&self, parameter: Parameter, reply: &[u8], to: &mut [u8]) -> Result<usize, Error<E>> {
+            let own = value(head(READ, parameter), reply)?;
+            to.iter_mut().zip(own.iter().rev()).for_each(|(to, from)| *to = *from);
+            Ok(own.len())
+        }
+
+        fn write_request(&self, parameter: Parameter, value: &[u8], to: &mut [u8]) -> Result<usize, LengthError> {
+            request(head(CHANGE, parameter), value, to)
+        }
+
+        fn write_reply<E>(&self, parameter: Parameter, reply: &[u8]) -> Result<(), Error<E>> {
+            value(head(CHANGE, parameter), reply).map(drop)
+        }
+    }
+
+    /// A drive with parameters that somebody has written.
+    #[derive(Default)]
+    struct Drive(BTreeMap<[u8; 2], Vec<u8>>);
+
+    impl Drive {
+        /// Answers until the line ends.
+        fn serve(&mut self, port: &mut TTYPort) -> Result<(), std::io::Error> {
+            let (mut decoder, mut data, mut frame) = (FRAMING.decoder(), [0; MAX_DATA], [0; 64]);
+            let mut byte = [0];
+            // The other end is closed: an error of the pseudo-terminal, or the end of the stream.
+            while let Ok(1) = port.read(&mut byte) {
+                let Ok(Some(length)) = FRAMING.decode(&mut decoder, byte[0], &mut data) else { continue };
+                let reply = self.reply(&data[..length]);
+                let length = FRAMING.encode(&reply, &mut frame).map_err(std::io::Error::other)?;
+                port.write_all(&frame[..length])?;
+            }
+            Ok(())
+        }
+
+        fn reply(&mut self, request: &[u8]) -> Vec<u8> {
+            match *request {
+                [node, STATE] => vec![node, STATE, 0x02],
+                [node, CHANGE, high, low, ref value @ ..] => {
+                    self.0.insert([high, low], value.to_vec());
+                    vec![node, CHANGE, high, low]
+                }
+                [node, READ, high, low] => match self.0.get(&[high, low]) {
+                    Some(value) => [&[node, READ, high, low], &value[..]].concat(),
+                    None => vec![node, REFUSED, high, low],
+                },
+                _ => vec![NODE, REFUSED],
+            }
+        }
+    }
+}

@@ -73,14 +73,16 @@ mod bit_field;
 pub mod bits;
 mod bus;
 mod client;
-#[cfg(any(feature = "canopen", feature = "ethercat", feature = "modbus"))]
+#[cfg(any(feature = "canopen", feature = "ethercat", feature = "modbus", feature = "serial"))]
 pub mod clients;
 pub mod codes;
 mod data_type;
 mod enumeration;
 mod error;
 pub mod ethercat;
+mod exchange;
 mod flags;
+pub mod framing;
 mod identity;
 mod initial;
 pub mod interface;
@@ -110,6 +112,7 @@ pub use client::{AsyncClient, Client};
 pub use data_type::DataType;
 pub use enumeration::Enumeration;
 pub use error::{Error, LengthError, OutOfRange, TextError};
+pub use exchange::{AsyncExchange, Exchange, ParameterMessages, Parameters};
 pub use flags::Flags;
 pub use identity::Identity;
 pub use initial::{AddNodeId, Initial};

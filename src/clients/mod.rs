@@ -6,6 +6,7 @@
 //! | `socketcan` | `canopen` | the same with SocketCAN of Linux |
 //! | `ethercat` | `ethercat` | `ethercrab`; needs Rust 1.85 |
 //! | `modbus` | `modbus` | `tokio-modbus`, RTU and TCP, blocking and not |
+//! | `serial` | `serial` | `embedded-io`, blocking and not |
 
 #[cfg(feature = "canopen")]
 pub mod canopen;
@@ -13,3 +14,5 @@ pub mod canopen;
 pub mod ethercat;
 #[cfg(feature = "modbus")]
 pub mod modbus;
+#[cfg(feature = "serial")]
+pub mod serial;

@@ -1,0 +1,171 @@
+//! Messages over anything that is a stream of bytes: `embedded-io`, blocking or not.
+//!
+//! ```
+//! use embedded_io::{Read, Write};
+//! use lexibus::clients::serial::{SerialError, SerialLine};
+//! use lexibus::framing::{Check, Delimited};
+//! use lexibus::{Error, Exchange};
+//!
+//! const FRAMING: Delimited = Delimited::new(Some(0x02), 0x03)
+//!     .with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B])
+//!     .with_check(Check::Xor(0xFF))
+//!     .with_max_data(68);
+//!
+//! /// Asks node 5 for its state, over any serial interface of a microcontroller or of a computer.
+//! fn state<S: Read + Write>(port: S) -> Result<u8, Error<SerialError<S::Error>>> {
+//!     let mut line: SerialLine<_, _, 140> = SerialLine::new(port, FRAMING);
+//!     let mut reply = [0; 68];
+//!     let length = line.exchange(&[0x05, 0x08, 0xA8, 0x00, 0x00, 0x00], &mut reply)?;
+//!     match reply[..length] {
+//!         [0x05, _, 0xA8, _, _, state] => Ok(state),
+//!         _ => Err(Error::UnexpectedReply),
+//!     }
+//! }
+//! ```
+//!
+//! What is a stream of `std` becomes one of `embedded-io` with the crate `embedded-io-adapters`. How long a reply may take is
+//! up to the stream: when its patience ends, its error is that of the exchange.
+
+use core::error;
+use core::fmt;
+
+use crate::error::Error;
+use crate::exchange::{AsyncExchange, Exchange};
+use crate::framing::{FrameError, Framing};
+
+pub use embedded_io;
+pub use embedded_io_async;
+
+/// A device behind a stream `S`, with frames `F`. `N` is the length of the longest frame that is sent, in bytes; with
+/// escapes that is twice the data and check, begin and end.
+///
+/// It is an [`Exchange`] where the stream is one of `embedded_io`, and an [`AsyncExchange`] where it is one of
+/// `embedded_io_async`. Bytes are read one by one, and none behind the last of a reply; a stream for which that is costly is
+/// wrapped into one with a buffer.
+///
+/// Noise in front of a reply is passed over. A reply that is lost ends the exchange with an error, unless another frame
+/// begins within it: that is the reply then. Whether a reply belongs to its request, only the protocol can tell.
+#[derive(Clone, Debug)]
+pub struct SerialLine<S, F, const N: usize> {
+    stream: S,
+    framing: F,
+}
+
+impl<S, F: Framing, const N: usize> SerialLine<S, F, N> {
+    /// The device at the other end of `stream`.
+    pub const fn new(stream: S, framing: F) -> Self {
+        Self { stream, framing }
+    }
+
+    /// The stream: to throw away what came late, for example.
+    pub fn stream(&mut self) -> &mut S {
+        &mut self.stream
+    }
+
+    /// Gives the stream back.
+    pub fn into_stream(self) -> S {
+        self.stream
+    }
+
+    /// Takes a byte of the reply.
+    fn take<E>(
+        &self,
+        decoder: &mut F::Decoder,
+        byte: u8,
+        reply: &mut [u8],
+    ) -> Result<Option<usize>, Error<SerialError<E>>> {
+        match self.framing.decode(decoder, byte, reply) {
+            Err(FrameError::Interrupted) => Ok(None),
+            taken => taken.map_err(|error| Error::Client(SerialError::Frame(error))),
+        }
+    }
+}
+
+/// What can go wrong on a serial line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SerialError<E> {
+    /// The stream failed, or nothing came within the time that it waits.
+    Stream(E),
+    /// The stream ended.
+    Closed,
+    /// The reply was lost.
+    Frame(FrameError),
+}
+
+impl<E: fmt::Display> fmt::Display for SerialError<E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Stream(error) => error.fmt(f),
+            Self::Closed => f.write_str("the serial line ended"),
+            Self::Frame(error) => error.fmt(f),
+        }
+    }
+}
+
+impl<E: error::Error> error::Error for SerialError<E> {
+    fn source(&self) -> Option<&(dyn error::Error + 'static)> {
+        match self {
+            Self::Stream(error) => error.source(),
+            _ => None,
+        }
+    }
+}
+
+const fn failed<E>(error: E) -> Error<SerialError<E>> {
+    Error::Client(SerialError::Stream(error))
+}
+
+/// One byte of those that a stream says it read.
+fn one<E>(byte: [u8; 1], count: usize) -> Result<u8, Error<SerialError<E>>> {
+    match count {
+        0 => Err(Error::Client(SerialError::Closed)),
+        _ => Ok(byte[0]),
+    }
+}
+
+impl<S, F, const N: usize> Exchange for SerialLine<S, F, N>
+where
+    S: embedded_io::Read + embedded_io::Write,
+    F: Framing,
+{
+    type Error = SerialError<S::Error>;
+
+    fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>> {
+        let mut frame = [0; N];
+        let length = self.framing.encode(request, &mut frame)?;
+        self.stream.write_all(frame.get(..length).unwrap_or_default()).map_err(failed)?;
+        self.stream.flush().map_err(failed)?;
+        let mut decoder = self.framing.decoder();
+        loop {
+            let mut byte = [0];
+            let count = self.stream.read(&mut byte).map_err(failed)?;
+            if let Some(length) = self.take(&mut decoder, one(byte, count)?, reply)? {
+                return Ok(length);
+            }
+        }
+    }
+}
+
+impl<S, F, const N: usize> AsyncExchange for SerialLine<S, F, N>
+where
+    S: embedded_io_async::Read + embedded_io_async::Write,
+    F: Framing,
+{
+    type Error = SerialError<S::Error>;
+
+    async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>> {
+        let mut frame = [0; N];
+        let length = self.framing.encode(request, &mut frame)?;
+        self.stream.write_all(frame.get(..length).unwrap_or_default()).await.map_err(failed)?;
+        self.stream.flush().await.map_err(failed)?;
+        let mut decoder = self.framing.decoder();
+        loop {
+            let mut byte = [0];
+            let count = self.stream.read(&mut byte).await.map_err(failed)?;
+            if let Some(length) = self.take(&mut decoder, one(byte, count)?, reply)? {
+                return Ok(length);
+            }
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Messages that are answered: what carries them, and parameters in them.
+
+use crate::bus::{Parameter, Serial};
+use crate::client::{AsyncClient, Client};
+use crate::error::{Error, LengthError};
+
+/// Sends a request to one device and waits for its reply, for protocols of messages.
+///
+/// Requests and replies are the data of a message, without what frames them on the line. The feature `serial` has one over
+/// any stream of bytes; here is one for a test:
+///
+/// ```
+/// use lexibus::{Error, Exchange, LengthError};
+///
+/// /// A device that sends back what it gets, behind a status.
+/// struct Echo;
+///
+/// impl Exchange for Echo {
+///     type Error = core::convert::Infallible;
+///
+///     fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>> {
+///         let length = 1 + request.len();
+///         let error = LengthError::new(reply.len(), length);
+///         let reply = reply.get_mut(..length).ok_or(error)?;
+///         reply[0] = 0x0A;
+///         reply[1..].copy_from_slice(request);
+///         Ok(length)
+///     }
+/// }
+///
+/// let mut reply = [0; 8];
+/// assert_eq!(Echo.exchange(&[1, 2], &mut reply)?, 3);
+/// assert_eq!(reply[..3], [0x0A, 1, 2]);
+/// # Ok::<(), Error<core::convert::Infallible>>(())
+/// ```
+pub trait Exchange {
+    /// What can go wrong on the line.
+    type Error;
+
+    /// Sends `request`, puts the reply to the start of `reply` and returns its length.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Client`] where the line fails, or no reply comes; [`Error::Length`] where `request` is too long for the
+    /// protocol, or the reply for `reply`.
+    fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
+}
+
+/// Sends a request to one device and takes its reply without blocking. The same rules as for [`Exchange`].
+#[allow(async_fn_in_trait)]
+pub trait AsyncExchange {
+    /// What can go wrong on the line.
+    type Error;
+
+    /// Sends `request` and takes the reply, as [`Exchange::exchange`] does.
+    ///
+    /// # Errors
+    ///
+    /// The same as of [`Exchange::exchange`].
+    async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<Self::Error>>;
+}
+
+impl<T: Exchange + ?Sized> Exchange for &mut T {
+    type Error = T::Error;
+
+    fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<T::Error>> {
+        T::exchange(self, request, reply)
+    }
+}
+
+impl<T: AsyncExchange + ?Sized> AsyncExchange for &mut T {
+    type Error = T::Error;
+
+    async fn exchange(&mut self, request: &[u8], reply: &mut [u8]) -> Result<usize, Error<T::Error>> {
+        T::exchange(self, request, reply).await
+    }
+}
+
+/// The messages of a protocol that read and write numbered parameters.
+///
+/// Values are as in a [`Client`]: the least significant byte first. A protocol with another order turns them around.
+pub trait ParameterMessages {
+    /// Puts the data of the request that reads a parameter of `length` bytes to the start of `request` and returns their
+    /// number.
+    ///
+    /// # Errors
+    ///
+    /// When the request doesn't fit.
+    fn read_request(&self, parameter: Parameter, length: usize, request: &mut [u8]) -> Result<usize, LengthError>;
+
+    /// Puts the value in the reply to that to the start of `value` and returns its length.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::UnexpectedReply`] where it is a reply to something else, [`Error::Abort`] where the device refuses,
+    /// [`Error::Length`] where the value has another length.
+    fn read_reply<E>(&self, parameter: Parameter, reply: &[u8], value: &mut [u8]) -> Result<usize, Error<E>>;
+
+    /// Puts the data of the request that writes a parameter to the start of `request` and returns their number.
+    ///
+    /// # Errors
+    ///
+    /// When the request doesn't fit.
+    fn write_request(&self, parameter: Parameter, value: &[u8], request: &mut [u8]) -> Result<usize, LengthError>;
+
+    /// Whether the reply to that says that it was done.
+    ///
+    /// # Errors
+    ///
+    /// As of [`read_reply`](Self::read_reply).
+    fn write_reply<E>(&self, parameter: Parameter, reply: &[u8]) -> Result<(), Error<E>>;
+}
+
+/// The parameters of a device as a [`Client`] of [`Serial`], or an [`AsyncClient`]: with `X`, which exchanges messages, and `M`,
+/// the messages. `N` is the length of the longest of them, in bytes.
+#[derive(Clone, Debug)]
+pub struct Parameters<X, M, const N: usize> {
+    exchange: X,
+    messages: M,
+}
+
+impl<X, M, const N: usize> Parameters<X, M, N> {
+    /// The parameters of the device that `exchange` talks to.
+    pub const fn new(exchange: X, messages: M) -> Self {
+        Self { exchange, messages }
+    }
+
+    /// What exchanges messages.
+    pub fn exchange(&mut self) -> &mut X {
+        &mut self.exchange
+    }
+
+    /// Gives back what exchanges messages.
+    pub fn into_exchange(self) -> X {
+        self.exchange
+    }
+}
+
+/// The part of `buffer` that was filled.
+fn filled(buffer: &[u8], length: usize) -> Result<&[u8], LengthError> {
+    buffer.get(..length).ok_or(LengthError::new(buffer.len(), length))
+}
+
+impl<X: Exchange, M: ParameterMessages, const N: usize> Client for Parameters<X, M, N> {
+    type Bus = Serial;
+    type Error = X::Error;
+
+    fn read(&mut self, parameter: Parameter, buffer: &mut [u8]) -> Result<usize, Error<X::Error>> {
+        let (mut request, mut reply) = ([0; N], [0; N]);
+        let length = self.messages.read_request(parameter, buffer.len(), &mut request)?;
+        let length = self.exchange.exchange(filled(&request, length)?, &mut reply)?;
+        self.messages.read_reply(parameter, filled(&reply, length)?, buffer)
+    }
+
+    fn write(&mut self, parameter: Parameter, data: &[u8]) -> Result<(), Error<X::Error>> {
+        let (mut request, mut reply) = ([0; N], [0; N]);
+        let length = self.messages.write_request(parameter, data, &mut request)?;
+        let length = self.exchange.exchange(filled(&request, length)?, &mut reply)?;
+        self.messages.write_reply(parameter, filled(&reply, length)?)
+    }
+}
+
+impl<X: AsyncExchange, M: ParameterMessages, const N: usize> AsyncClient for Parameters<X, M, N> {
+    type Bus = Serial;
+    type Error = X::Error;
+
+    async fn read(&mut self, parameter: Parameter, buffer: &mut [u8]) -> Result<usize, Error<X::Error>> {
+        let (mut request, mut reply) = ([0; N], [0; N]);
+        let length = self.messages.read_request(parameter, buffer.len(), &mut request)?;
+        let length = self.exchange.exchange(filled(&request, length)?, &mut reply).await?;
+        self.messages.read_reply(parameter, filled(&reply, length)?, buffer)
+    }
+
+    async fn write(&mut self, parameter: Parameter, data: &[u8]) -> Result<(), Error<X::Error>> {
+        let (mut request, mut reply) = ([0; N], [0; N]);
+        let length = self.messages.write_request(parameter, data, &mut request)?;
+        let length = self.exchange.exchange(filled(&request, length)?, &mut reply).await?;
+        self.messages.write_reply(parameter, filled(&reply, length)?)
+    }
+}

@@ -1,0 +1,153 @@
+//! How messages are put into a stream of bytes, and found in it again.
+//!
+//! [`Framing`] is implemented by [`Delimited`], which is data: a constant says where a frame begins and ends, what is escaped, and
+//! how it is checked. Neither allocates, nor knows where the bytes come from; the feature `serial` joins them to a stream of
+//! `embedded-io`.
+//!
+//! ```
+//! use lexibus::framing::{Check, Delimited, Framing};
+//!
+//! /// STX, data, check, ETX. 0x02, 0x03 and 0x1B within are 0x1B and their complement.
+//! const FRAMING: Delimited = Delimited::new(Some(0x02), 0x03)
+//!     .with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B])
+//!     .with_check(Check::Xor(0xFF))
+//!     .with_max_data(68);
+//!
+//! let mut frame = [0; 16];
+//! let length = FRAMING.encode(&[0x01, 0x02, 0x6F, 0x9E, 0x00, 0x1B], &mut frame)?;
+//! assert_eq!(frame[..length], [0x02, 0x01, 0x1B, 0xFD, 0x6F, 0x9E, 0x00, 0x1B, 0xE4, 0x16, 0x03]);
+//!
+//! let (mut decoder, mut data) = (FRAMING.decoder(), [0; 16]);
+//! let found = frame.iter().find_map(|byte| FRAMING.decode(&mut decoder, *byte, &mut data).transpose());
+//! assert_eq!(found, Some(Ok(6)));
+//! assert_eq!(data[..6], [0x01, 0x02, 0x6F, 0x9E, 0x00, 0x1B]);
+//! # Ok::<(), lexibus::LengthError>(())
+//! ```
+
+mod check;
+mod delimited;
+
+use core::error;
+use core::fmt;
+
+use crate::error::LengthError;
+
+pub use check::Check;
+pub use delimited::{Delimited, DelimitedDecoder, Escape};
+
+/// How messages are framed on a stream of bytes.
+///
+/// A protocol of one's own, here a length and then the data, without a check:
+///
+/// ```
+/// use lexibus::framing::{FrameError, Framing};
+/// use lexibus::LengthError;
+///
+/// struct Counted;
+///
+/// /// How many bytes are still to come, and how many are there.
+/// struct Progress(u8, usize);
+///
+/// impl Framing for Counted {
+///     type Decoder = Progress;
+///
+///     fn encode(&self, data: &[u8], frame: &mut [u8]) -> Result<usize, LengthError> {
+///         let length = u8::try_from(data.len()).map_err(|_| LengthError::new(255, data.len()))?;
+///         let error = LengthError::new(1 + data.len(), frame.len());
+///         let frame = frame.get_mut(..1 + data.len()).ok_or(error)?;
+///         frame[0] = length;
+///         frame[1..].copy_from_slice(data);
+///         Ok(frame.len())
+///     }
+///
+///     fn decoder(&self) -> Progress {
+///         Progress(0, 0)
+///     }
+///
+///     fn decode(&self, decoder: &mut Progress, byte: u8, data: &mut [u8]) -> Result<Option<usize>, FrameError> {
+///         if decoder.0 == 0 {
+///             *decoder = Progress(byte, 0);
+///             return Ok(None);
+///         }
+///         *data.get_mut(decoder.1).ok_or(FrameError::TooLong)? = byte;
+///         *decoder = Progress(decoder.0 - 1, decoder.1 + 1);
+///         Ok((decoder.0 == 0).then_some(decoder.1))
+///     }
+/// }
+///
+/// let mut frame = [0; 4];
+/// assert_eq!(Counted.encode(&[7, 8], &mut frame), Ok(3));
+/// let (mut decoder, mut data) = (Counted.decoder(), [0; 8]);
+/// assert_eq!(Counted.decode(&mut decoder, frame[0], &mut data), Ok(None));
+/// assert_eq!(Counted.decode(&mut decoder, frame[1], &mut data), Ok(None));
+/// assert_eq!(Counted.decode(&mut decoder, frame[2], &mut data), Ok(Some(2)));
+/// assert_eq!(data[..2], [7, 8]);
+/// ```
+pub trait Framing {
+    /// How far a frame has come.
+    type Decoder;
+
+    /// Puts the frame of `data` to the start of `frame` and returns its length.
+    ///
+    /// # Errors
+    ///
+    /// When the protocol has no frame of so many data, or it doesn't fit into `frame`.
+    fn encode(&self, data: &[u8], frame: &mut [u8]) -> Result<usize, LengthError>;
+
+    /// A decoder that waits for a frame to begin.
+    fn decoder(&self) -> Self::Decoder;
+
+    /// Takes the next byte of the stream. What belongs to the frame is put into `data`, the same from the frame's first byte to
+    /// its last. Returns how many data the frame has when `byte` is its last one.
+    ///
+    /// # Errors
+    ///
+    /// When the frame is lost. The decoder looks for the next one, which `byte` may have begun.
+    fn decode(&self, decoder: &mut Self::Decoder, byte: u8, data: &mut [u8]) -> Result<Option<usize>, FrameError>;
+}
+
+impl<F: Framing + ?Sized> Framing for &F {
+    type Decoder = F::Decoder;
+
+    fn encode(&self, data: &[u8], frame: &mut [u8]) -> Result<usize, LengthError> {
+        F::encode(self, data, frame)
+    }
+
+    fn decoder(&self) -> F::Decoder {
+        F::decoder(self)
+    }
+
+    fn decode(&self, decoder: &mut F::Decoder, byte: u8, data: &mut [u8]) -> Result<Option<usize>, FrameError> {
+        F::decode(self, decoder, byte, data)
+    }
+}
+
+/// Why a frame is lost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum FrameError {
+    /// Another frame began before the end of this one.
+    Interrupted,
+    /// More data than a frame has, or than there is room for.
+    TooLong,
+    /// Less than the check.
+    TooShort,
+    /// A byte that can't stand behind the one that announces an escaped one.
+    Escape,
+    /// The check doesn't agree with the data.
+    Check,
+}
+
+impl fmt::Display for FrameError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Interrupted => "another frame began before the end of this one",
+            Self::TooLong => "the frame is too long",
+            Self::TooShort => "the frame is too short",
+            Self::Escape => "the frame has a wrong escaped byte",
+            Self::Check => "the check of the frame doesn't agree with its data",
+        })
+    }
+}
+
+impl error::Error for FrameError {}
