@@ -57,7 +57,8 @@ impl Table {
             RawInitial::Bytes(bytes) => bytes.to_vec(),
             _ => vec![0; size(entry).unwrap_or(0)],
         };
-        Self { entries, values: entries.iter().map(|entry| ((entry.index, entry.sub_index), value(entry))).collect() }
+        let object = |entry: &Entry| entry.object.map(|object| ((object.index, object.sub_index), value(entry)));
+        Self { entries, values: entries.iter().filter_map(object).collect() }
     }
 
     /// The value of an entry as a number, whatever its access rights are; 0 where there is none.
@@ -73,7 +74,8 @@ impl Table {
     }
 
     fn entry(&self, index: u16, sub_index: u8) -> Result<&'static Entry, u32> {
-        let missing = || match self.entries.iter().any(|entry| entry.index == index) {
+        let missing = || match self.entries.iter().any(|entry| entry.object.is_some_and(|object| object.index == index))
+        {
             true => AbortCode::NO_SUB_INDEX.0,
             false => AbortCode::NO_OBJECT.0,
         };
