@@ -36,7 +36,7 @@ pub enum Error<E> {
     /// A field of a PROFINET record has a value that isn't allowed. Nothing was sent.
     NotAllowed(NotAllowed),
     /// An access to a parameter of a PROFIdrive drive was refused, or went wrong.
-    Parameter(ParameterError),
+    ParameterAccess(ParameterError),
 }
 
 /// A number of bytes other than the expected one.
@@ -76,7 +76,7 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
             Self::Length(error) => error.fmt(f),
             Self::Text(error) => error.fmt(f),
             Self::NotAllowed(error) => error.fmt(f),
-            Self::Parameter(error) => error.fmt(f),
+            Self::ParameterAccess(error) => error.fmt(f),
         }
     }
 }

@@ -47,6 +47,21 @@ pub trait Exchange {
 }
 
 /// Sends a request to one device and takes its reply without blocking. The same rules as for [`Exchange`].
+///
+/// ```
+/// use lexibus::{AsyncExchange, Error};
+///
+/// /// A device that has nothing to say.
+/// struct Silent;
+///
+/// impl AsyncExchange for Silent {
+///     type Error = core::convert::Infallible;
+///
+///     async fn exchange(&mut self, _: &[u8], _: &mut [u8]) -> Result<usize, Error<Self::Error>> {
+///         Ok(0)
+///     }
+/// }
+/// ```
 #[allow(async_fn_in_trait)]
 pub trait AsyncExchange {
     /// What can go wrong on the line.
@@ -79,6 +94,41 @@ impl<T: AsyncExchange + ?Sized> AsyncExchange for &mut T {
 /// The messages of a protocol that read and write numbered parameters.
 ///
 /// Values are as in a [`Client`]: the least significant byte first. A protocol with another order turns them around.
+///
+/// ```
+/// use lexibus::{Error, LengthError, Parameter, ParameterMessages};
+///
+/// /// Number and value, with the device's order of bytes; the reply begins with the number, too.
+/// struct Messages;
+///
+/// impl ParameterMessages for Messages {
+///     fn read_request(&self, parameter: Parameter, _: usize, request: &mut [u8]) -> Result<usize, LengthError> {
+///         self.write_request(parameter, &[], request)
+///     }
+///
+///     fn read_reply<E>(&self, parameter: Parameter, reply: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
+///         let own = reply.strip_prefix(&[parameter.0 as u8]).ok_or(Error::UnexpectedReply)?;
+///         value.iter_mut().zip(own).for_each(|(to, from)| *to = *from);
+///         Ok(own.len())
+///     }
+///
+///     fn write_request(&self, parameter: Parameter, value: &[u8], request: &mut [u8]) -> Result<usize, LengthError> {
+///         let error = LengthError::new(1 + value.len(), request.len());
+///         let request = request.get_mut(..1 + value.len()).ok_or(error)?;
+///         request[0] = parameter.0 as u8;
+///         request[1..].copy_from_slice(value);
+///         Ok(request.len())
+///     }
+///
+///     fn write_reply<E>(&self, parameter: Parameter, reply: &[u8]) -> Result<(), Error<E>> {
+///         if reply == [parameter.0 as u8] { Ok(()) } else { Err(Error::UnexpectedReply) }
+///     }
+/// }
+///
+/// let mut request = [0; 8];
+/// assert_eq!(Messages.write_request(Parameter(7), &[1, 2], &mut request), Ok(3));
+/// assert_eq!(request[..3], [7, 1, 2]);
+/// ```
 pub trait ParameterMessages {
     /// Puts the data of the request that reads a parameter of `length` bytes to the start of `request` and returns their
     /// number.

@@ -221,7 +221,8 @@ fn a_borrowed_framing_frames() {
         let length = framing.encode(data, &mut frame).expect("it fits");
         frame[..length].iter().find_map(|byte| framing.decode(&mut decoder, *byte, &mut back).transpose())
     }
-    assert_eq!(there_and_back(&DRIVE, &[1, 2, 3]), Some(Ok(3)));
+    let borrowed: &Delimited = &DRIVE;
+    assert_eq!(there_and_back(borrowed, &[1, 2, 3]), Some(Ok(3)));
 }
 
 /// Bytes that look like chance, the same each time.

@@ -10,7 +10,7 @@ use crate::error::{Error, LengthError};
 /// of what goes the other way. [`Plan::layout`] says where each of them is.
 ///
 /// ```
-/// use lexibus::profinet::{ImageClient, IoData, IoPlace, IoStatus, WithStatus};
+/// use lexibus::profinet::ImageClient;
 /// use lexibus::{Error, LengthError};
 ///
 /// /// A device that sends back what it gets.
@@ -48,6 +48,23 @@ pub trait ImageClient {
 }
 
 /// Exchanges the process image of one device with it without blocking. The same rules as for [`ImageClient`].
+///
+/// ```
+/// use lexibus::profinet::AsyncImageClient;
+/// use lexibus::Error;
+///
+/// /// A device whose data never are valid.
+/// struct Bad;
+///
+/// impl AsyncImageClient for Bad {
+///     type Error = core::convert::Infallible;
+///
+///     async fn cycle(&mut self, _: &[u8], inputs: &mut [u8]) -> Result<(), Error<Self::Error>> {
+///         inputs.fill(0);
+///         Ok(())
+///     }
+/// }
+/// ```
 #[allow(async_fn_in_trait)]
 pub trait AsyncImageClient {
     /// What can go wrong on the bus.

@@ -9,11 +9,11 @@
 //! use lexibus::profinet::RecordClient;
 //! use lexibus::Error;
 //!
-//! /// The warnings of axis 1 (PNU 953), and its time constants set: an array, from subindex 0 on.
+//! /// Sets two elements of an array of axis 1, from subindex 0 on, and says which telegram is selected (PNU 922).
 //! fn set_up<C: RecordClient>(client: C) -> Result<u16, Error<C::Error>> {
 //!     let mut parameters = ParameterAccess::new(client, 1, 1);
 //!     parameters.write_array(1, 2100, 0, &[15_u16, 30])?;
-//!     parameters.read(1, 953, 0)
+//!     parameters.read(1, 922, 0)
 //! }
 //! ```
 //!

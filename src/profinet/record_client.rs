@@ -129,6 +129,26 @@ pub trait RecordClient {
 }
 
 /// Reads and writes the records of one device without blocking. The same rules as for [`RecordClient`].
+///
+/// ```
+/// use lexibus::profinet::{AsyncRecordClient, PnioStatus, RecordAddress};
+/// use lexibus::Error;
+///
+/// /// A device without records.
+/// struct Empty;
+///
+/// impl AsyncRecordClient for Empty {
+///     type Error = PnioStatus;
+///
+///     async fn read_record(&mut self, _: RecordAddress, _: &mut [u8]) -> Result<usize, Error<PnioStatus>> {
+///         Err(Error::Client(PnioStatus(0xDE80_B000)))
+///     }
+///
+///     async fn write_record(&mut self, _: RecordAddress, _: &[u8]) -> Result<(), Error<PnioStatus>> {
+///         Err(Error::Client(PnioStatus(0xDF80_B000)))
+///     }
+/// }
+/// ```
 #[allow(async_fn_in_trait)]
 pub trait AsyncRecordClient {
     /// What can go wrong on the bus, the status with which the device refuses included.

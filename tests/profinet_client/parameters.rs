@@ -59,7 +59,11 @@ fn every_type_comes_back() {
 fn refusals_have_their_numbers() {
     let mut parameters = ParameterAccess::new(Device::default(), 1, 1);
     let refused = |number, information| {
-        Error::Parameter(ParameterError::Refused(Refusal { parameter: 0, number, information: Some(information) }))
+        Error::ParameterAccess(ParameterError::Refused(Refusal {
+            parameter: 0,
+            number,
+            information: Some(information),
+        }))
     };
     assert_eq!(parameters.write(1, 100, 0, 3001_u16), Err(refused(ErrorNumber::LIMITS, 0)));
     let error = parameters.read::<u16>(1, 100, 7).unwrap_err();
@@ -67,7 +71,7 @@ fn refusals_have_their_numbers() {
     let text = "the drive refused: 0x0003: there is no such subindex (7)";
     assert_eq!(error.to_string(), text);
     parameters.write(1, 100, 0, 5_i16).unwrap();
-    let format = Err(Error::Parameter(ParameterError::Format(Format::INTEGER16)));
+    let format = Err(Error::ParameterAccess(ParameterError::Format(Format::INTEGER16)));
     assert_eq!(parameters.read::<u16>(1, 100, 0), format);
     assert_eq!(parameters.read_array::<u16>(1, 100, 0, &mut []), Err(values(Format::UNSIGNED16)));
     assert_eq!(parameters.write_array(1, 100, 0, &[0_u64; 31]), Err(values(Format::UNSIGNED64)));
@@ -75,7 +79,7 @@ fn refusals_have_their_numbers() {
 }
 
 fn values(format: Format) -> Error<PnioStatus> {
-    Error::Parameter(ParameterError::Values(format))
+    Error::ParameterAccess(ParameterError::Values(format))
 }
 
 #[test]

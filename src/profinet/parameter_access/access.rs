@@ -33,7 +33,7 @@ const POLLS: u32 = 200;
 /// # Errors
 ///
 /// Each call fails as the client does. When there is no response after the last time, that is the client's error, or the abort
-/// code [`AbortCode::TIMEOUT`] where the record was empty. [`Error::Parameter`] is what the drive refuses, and what its response
+/// code [`AbortCode::TIMEOUT`] where the record was empty. [`Error::ParameterAccess`] is what the drive refuses, and what its response
 /// lacks; [`Error::Length`] says that a request or a response has too few bytes, or more than the buffer.
 #[derive(Clone, Debug)]
 pub struct ParameterAccess<C> {

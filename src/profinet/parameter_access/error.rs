@@ -19,7 +19,7 @@ pub enum ParameterError {
     /// A request has a reference from 1 to 255, or it is too short to be one.
     NoRequest,
     /// The response is to another request.
-    Reference {
+    OtherReference {
         /// The reference of the request.
         expected: u8,
         /// The one of the response.
@@ -29,7 +29,7 @@ pub enum ParameterError {
     /// changing one.
     ResponseId(u8),
     /// The response is about another axis.
-    Axis {
+    OtherAxis {
         /// The axis of the request.
         expected: u8,
         /// The one of the response.
@@ -70,11 +70,11 @@ impl fmt::Display for ParameterError {
             Self::NoRequest => {
                 f.write_str("a request begins with a reference from 1 to 255 and has four bytes at least")
             }
-            Self::Reference { expected, actual } => {
+            Self::OtherReference { expected, actual } => {
                 write!(f, "the response has reference {actual}, the request {expected}")
             }
             Self::ResponseId(id) => write!(f, "the response is of another kind than the request: {id:#04X}"),
-            Self::Axis { expected, actual } => {
+            Self::OtherAxis { expected, actual } => {
                 write!(f, "the response is about axis {actual}, the request about {expected}")
             }
             Self::ParameterCount { expected, actual } => {
@@ -115,7 +115,7 @@ impl<E> From<ParameterError> for Error<E> {
     fn from(error: ParameterError) -> Self {
         match error {
             ParameterError::Length(error) => Self::Length(error),
-            error => Self::Parameter(error),
+            error => Self::ParameterAccess(error),
         }
     }
 }

@@ -56,13 +56,13 @@ impl<'r> Response<'r> {
             *be::chunk(request).map_err(|_| ParameterError::NoRequest)?;
         let [reference, id, axis, count] = *be::chunk(data)?;
         if reference != own_reference {
-            return Err(ParameterError::Reference { expected: own_reference, actual: reference });
+            return Err(ParameterError::OtherReference { expected: own_reference, actual: reference });
         }
         if id & !NEGATIVE != own_id {
             return Err(ParameterError::ResponseId(id));
         }
         if axis != own_axis {
-            return Err(ParameterError::Axis { expected: own_axis, actual: axis });
+            return Err(ParameterError::OtherAxis { expected: own_axis, actual: axis });
         }
         let is_negative = id & NEGATIVE != 0;
         if count > own_count || count == 0 || (count < own_count && !is_negative) {

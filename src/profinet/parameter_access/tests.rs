@@ -144,10 +144,10 @@ fn responses_to_something_else() {
         Response::decode(&request, &[&header[..], &[0x42, 1, 0, 1, 0x42, 1, 0, 2]].concat()).map(|_| ())
     };
     assert_eq!(refused([7, 0x01, 2, 2]), Ok(()));
-    assert_eq!(refused([8, 0x01, 2, 2]), Err(ParameterError::Reference { expected: 7, actual: 8 }));
+    assert_eq!(refused([8, 0x01, 2, 2]), Err(ParameterError::OtherReference { expected: 7, actual: 8 }));
     assert_eq!(refused([7, 0x02, 2, 2]), Err(ParameterError::ResponseId(0x02)));
     assert_eq!(refused([7, 0x82, 2, 2]), Err(ParameterError::ResponseId(0x82)));
-    assert_eq!(refused([7, 0x01, 3, 2]), Err(ParameterError::Axis { expected: 2, actual: 3 }));
+    assert_eq!(refused([7, 0x01, 3, 2]), Err(ParameterError::OtherAxis { expected: 2, actual: 3 }));
     for actual in [0, 1, 3] {
         assert_eq!(refused([7, 0x01, 2, actual]), Err(ParameterError::ParameterCount { expected: 2, actual }));
     }
