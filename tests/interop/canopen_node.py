@@ -31,6 +31,8 @@ DEVICE_STATE = 0x08000022
 
 INVALID = 1 << 31
 
+SYNC = 0x80
+
 CONTROLWORD = 0x6040
 STATUSWORD = 0x6041
 
@@ -71,6 +73,7 @@ class Node:
         self.node.add_write_callback(self.check_pdo)
         self.node.add_write_callback(self.control)
         self.received = {}
+        self.network.subscribe(SYNC, self.on_sync)
         self.node.nmt.state = "INITIALISING"
         self.node.nmt.state = "PRE-OPERATIONAL"
 
@@ -180,12 +183,20 @@ class Node:
         """The values of the next RPDO that came, or comes."""
         return self.received[number].get(timeout=TIMEOUT)
 
-    def transmit(self, number, values):
-        """Sends a TPDO with these values."""
-        pdo = self.node.tpdo[number]
-        for entry, value in zip(pdo, values, strict=True):
+    def load(self, number, values):
+        """Puts these values into a TPDO."""
+        for entry, value in zip(self.node.tpdo[number], values, strict=True):
             entry.raw = from_json(entry.od, value)
-        pdo.transmit()
+
+    def transmit(self, number):
+        """Sends a TPDO."""
+        self.node.tpdo[number].transmit()
+
+    def on_sync(self, *_):
+        """Sends the TPDOs that are sent at every SYNC."""
+        for pdo in self.node.tpdo.values():
+            if pdo.enabled and pdo.trans_type == 1:
+                pdo.transmit()
 
     def state(self):
         return self.node.nmt.state
@@ -197,7 +208,7 @@ class Node:
 def main():
     tty, eds, node_id = sys.argv[1:]
     node = Node(tty, eds, int(node_id))
-    commands = ["get", "set", "limits", "pdo", "receive", "transmit", "state", "emergency", "drive"]
+    commands = ["get", "set", "limits", "pdo", "receive", "load", "transmit", "state", "emergency", "drive"]
     serve({name: getattr(node, name) for name in commands})
     node.network.disconnect()
 

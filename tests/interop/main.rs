@@ -7,3 +7,12 @@ mod modbus;
 mod pty;
 mod python;
 mod slcan;
+
+use std::future::Future;
+use std::time::Duration;
+
+/// What `work` gives, which may take a minute.
+fn block_on<T>(work: impl Future<Output = T>) -> T {
+    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
+    runtime.block_on(async { tokio::time::timeout(Duration::from_secs(60), work).await.expect("in time") })
+}

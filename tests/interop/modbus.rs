@@ -10,6 +10,7 @@ use lexibus::clients::modbus::{rtu, sync, tcp, ModbusClient, ModbusError};
 use serde_json::{json, Value};
 use tokio_serial::SerialStream;
 
+use crate::block_on;
 use crate::pty::Cable;
 use crate::python::{python, Script};
 
@@ -291,16 +292,10 @@ fn rtu_blocking() -> Result<(), Error> {
     Ok(())
 }
 
-/// Runs `work`, but not for ever.
-fn run(work: impl std::future::Future<Output = Result<(), Error>>) -> Result<(), Error> {
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().expect("a runtime");
-    runtime.block_on(async { tokio::time::timeout(3 * PATIENCE, work).await.expect("in time") })
-}
-
 #[test]
 fn tcp_not_blocking() -> Result<(), Error> {
     let Some((mut script, address)) = over_tcp() else { return Ok(()) };
-    run(async {
+    block_on(async {
         let context = tcp::connect_slave(address, DEVICE).await.expect("a connection");
         let mut device = Registers::new(ModbusClient::new(context));
         all_scenarios! { awaited, script, device }
@@ -311,7 +306,7 @@ fn tcp_not_blocking() -> Result<(), Error> {
 #[test]
 fn rtu_not_blocking() -> Result<(), Error> {
     let Some((mut script, cable)) = over_rtu() else { return Ok(()) };
-    run(async {
+    block_on(async {
         let line = SerialStream::open(&tokio_serial::new(cable.ends()[0], BAUD)).expect("a serial line");
         let mut device = Registers::new(ModbusClient::new(rtu::attach_slave(line, DEVICE)));
         all_scenarios! { awaited, script, device }

@@ -5,32 +5,44 @@ use std::fmt::Write as _;
 use std::io;
 use std::time::{Duration, Instant};
 
-use lexibus::clients::canopen::{CanFrame, CanPort};
+use lexibus::clients::canopen::{AsyncCanPort, CanFrame, CanPort};
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
+use tokio::time::timeout;
+use tokio_serial::SerialStream;
 
 use crate::pty::Pty;
 
-/// The adapter and the bus behind it. Frames that nobody has asked for yet are kept.
-pub struct Slcan {
-    line: Pty,
+/// The adapter and the bus behind it, on a line: a [`Pty`] blocks, a [`SerialStream`] doesn't.
+pub struct Slcan<L> {
+    line: L,
+    received: Received,
+}
+
+/// What has come and nobody has looked at: a piece of a line, and frames.
+#[derive(Default)]
+struct Received {
     bytes: Vec<u8>,
     frames: VecDeque<CanFrame>,
 }
 
-impl Slcan {
-    pub fn new(line: Pty) -> Self {
-        Self { line, bytes: Vec::new(), frames: VecDeque::new() }
+impl<L> Slcan<L> {
+    pub fn new(line: L) -> Self {
+        Self { line, received: Received::default() }
     }
+}
 
-    /// Takes frames from the line, waiting for `patience` where there are none.
-    fn listen(&mut self, patience: Duration) -> io::Result<()> {
-        let mut buffer = [0; 4096];
-        let count = self.line.read(&mut buffer, patience)?;
-        self.bytes.extend_from_slice(&buffer[..count]);
+impl Received {
+    fn push(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.bytes.extend_from_slice(bytes);
         while let Some(end) = self.bytes.iter().position(|&byte| byte == b'\r') {
             let line: Vec<u8> = self.bytes.drain(..=end).collect();
             self.frames.extend(frame(&line[..end])?);
         }
         Ok(())
+    }
+
+    fn take(&mut self, wanted: &mut dyn FnMut(&CanFrame) -> bool) -> Option<CanFrame> {
+        std::iter::from_fn(|| self.frames.pop_front()).find(|frame| wanted(frame))
     }
 }
 
@@ -50,14 +62,19 @@ fn frame(line: &[u8]) -> io::Result<Option<CanFrame>> {
     CanFrame::new(id, &data).map(Some).ok_or_else(wrong)
 }
 
-impl CanPort for Slcan {
+/// The line of a frame.
+fn line(frame: &CanFrame) -> String {
+    let mut line = format!("t{:03X}{}", frame.id(), frame.data().len());
+    frame.data().iter().for_each(|byte| write!(line, "{byte:02X}").expect("memory"));
+    line.push('\r');
+    line
+}
+
+impl CanPort for Slcan<Pty> {
     type Error = io::Error;
 
     fn send(&mut self, frame: &CanFrame, patience: Duration) -> io::Result<bool> {
-        let mut line = format!("t{:03X}{}", frame.id(), frame.data().len());
-        frame.data().iter().for_each(|byte| write!(line, "{byte:02X}").expect("memory"));
-        line.push('\r');
-        self.line.write(line.as_bytes(), patience)
+        self.line.write(line(frame).as_bytes(), patience)
     }
 
     fn receive(
@@ -66,15 +83,47 @@ impl CanPort for Slcan {
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> io::Result<Option<CanFrame>> {
         let end = Instant::now() + patience;
+        let mut buffer = [0; 4096];
         loop {
-            if let Some(at) = self.frames.iter().position(&mut *wanted) {
-                return Ok(self.frames.remove(at));
-            }
             let left = end.saturating_duration_since(Instant::now());
-            if left.is_zero() {
+            if let Some(frame) = self.received.take(wanted) {
+                return Ok(Some(frame));
+            }
+            let count = self.line.read(&mut buffer, left)?;
+            if count == 0 && left.is_zero() {
                 return Ok(None);
             }
-            self.listen(left)?;
+            self.received.push(&buffer[..count])?;
+        }
+    }
+}
+
+impl AsyncCanPort for Slcan<SerialStream> {
+    type Error = io::Error;
+
+    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> io::Result<bool> {
+        let line = line(frame);
+        match timeout(patience, self.line.write_all(line.as_bytes())).await {
+            Ok(written) => written.map(|()| true),
+            Err(_) => Ok(false),
+        }
+    }
+
+    async fn receive(
+        &mut self,
+        patience: Duration,
+        wanted: &mut dyn FnMut(&CanFrame) -> bool,
+    ) -> io::Result<Option<CanFrame>> {
+        let end = tokio::time::Instant::now() + patience;
+        let mut buffer = [0; 4096];
+        loop {
+            if let Some(frame) = self.received.take(wanted) {
+                return Ok(Some(frame));
+            }
+            match tokio::time::timeout_at(end, self.line.read(&mut buffer)).await {
+                Ok(count) => self.received.push(&buffer[..count?])?,
+                Err(_) => return Ok(None),
+            }
         }
     }
 }

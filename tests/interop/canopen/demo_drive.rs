@@ -1,13 +1,13 @@
 //! The drive whose bindings are checked in, on a node made of its exported EDS.
 
-use lexibus::clients::canopen::CanPort;
 use lexibus::{AbortCode, Item, OnCanOpen, Rw, Step};
+use lexibus_drives::demo_drive::codes::DriveErrors;
 use lexibus_drives::demo_drive::pdo::{RxPdo1, RxPdo2, TxPdo1, TxPdo2};
 use lexibus_drives::demo_drive::types::{Controlword, ModesOfOperation, State, Statusword, StoreParameters};
 use lexibus_drives::demo_drive::DemoDrive;
 use serde_json::json;
 
-use super::pdo::{configure, expected, receive, send, used};
+use super::pdo::{configure, expected, frame, receive, used};
 use super::refusals::assert_aborted;
 use super::{node_id, start, Error, NODE, PATIENCE};
 
@@ -97,18 +97,38 @@ fn pdos_of_the_drive() -> Result<(), Error> {
     assert_eq!(used(&mut script, "tx", 2), expected::<TxPdo2>(0x280 + id, 1));
 
     let controlword = Controlword::from_raw(0x001F);
-    send(&mut node, 0x300 + id, &RxPdo2 { controlword, target_position: -100_000 }.pack());
+    node.send(&frame(0x300 + id, &RxPdo2 { controlword, target_position: -100_000 }.pack()))?;
     assert_eq!(script.ask(json!({ "do": "receive", "number": 2 })), json!([0x001F, -100_000]));
-    send(&mut node, 0x200 + id, &RxPdo1 { controlword }.pack());
+    node.send(&frame(0x200 + id, &RxPdo1 { controlword }.pack()))?;
     assert_eq!(script.ask(json!({ "do": "receive", "number": 1 })), json!([0x001F]));
 
-    script.ask(json!({ "do": "transmit", "number": 2, "values": [0x1637, -123_456] }));
-    let frame = receive(&mut node, 0x280 + id);
+    script.ask(json!({ "do": "load", "number": 1, "values": [0x0250] }));
+    script.ask(json!({ "do": "load", "number": 2, "values": [0x1637, -123_456] }));
+    // The second one is sent at SYNC.
+    node.sync()?;
+    let received = receive(&mut node, 0x280 + id);
     let statusword = Statusword::from_raw(0x1637);
-    assert_eq!(TxPdo2::unpack(frame.data())?, TxPdo2 { statusword, position_actual_value: -123_456 });
+    assert_eq!(TxPdo2::unpack(received.data())?, TxPdo2 { statusword, position_actual_value: -123_456 });
     assert_eq!(statusword.state(), Some(State::OperationEnabled));
-    // Nothing else was sent.
-    let other = node.port().receive(PATIENCE / 100, &mut |frame| u32::from(frame.id()) == 0x180 + id);
-    assert!(other.expect("a line").is_none());
+    script.ask(json!({ "do": "transmit", "number": 1 }));
+    let received = receive(&mut node, 0x180 + id);
+    let statusword = Statusword::from_raw(0x0250);
+    assert_eq!(TxPdo1::unpack(received.data())?, TxPdo1 { statusword });
+    assert_eq!(statusword.state(), Some(State::SwitchOnDisabled));
+    Ok(())
+}
+
+#[test]
+fn emergencies_of_the_drive() -> Result<(), Error> {
+    let Some((mut script, mut node)) = start("demo-emergency", FILE) else { return Ok(()) };
+    let emergency = json!({ "do": "emergency", "code": 0x8611, "register": 0x21, "data": "0102030405" });
+    script.ask(emergency);
+    let emergency = node.emergency(PATIENCE)?.expect("an emergency message");
+    assert_eq!(emergency.alarm::<DriveErrors>(), DriveErrors::FollowingError);
+    assert_eq!((emergency.register, emergency.vendor), (0x21, [1, 2, 3, 4, 5]));
+    assert!(!emergency.is_reset());
+    script.ask(json!({ "do": "emergency", "code": 0, "register": 0, "data": "" }));
+    let gone = node.emergency(PATIENCE)?.expect("an emergency message");
+    assert!(gone.is_reset());
     Ok(())
 }

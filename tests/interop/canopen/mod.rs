@@ -2,6 +2,7 @@
 
 mod demo_drive;
 mod network;
+mod not_blocking;
 mod pdo;
 mod refusals;
 mod types;
@@ -9,14 +10,15 @@ mod types;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use lexibus::clients::canopen;
+use lexibus::clients::canopen::{self, Buffered};
 use lexibus::NodeId;
 use lexibus_codegen::backend::eds::{export, Flavour};
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use serde_json::{json, Value};
+use tokio_serial::SerialStream;
 
-use crate::pty::Pty;
+use crate::pty::{Cable, Pty};
 use crate::python::{python, Script};
 use crate::slcan::Slcan;
 
@@ -31,8 +33,11 @@ pub const PATIENCE: Duration = Duration::from_secs(10);
 /// The number of the node.
 pub const NODE: u8 = 5;
 
-/// The client of the node.
-pub type Node = canopen::Node<Slcan>;
+/// The client of the node; what comes while an answer is waited for is kept.
+pub type Node = canopen::Node<Buffered<Slcan<Pty>, 64>>;
+
+/// The same without blocking.
+pub type AsyncNode = canopen::Node<Buffered<Slcan<SerialStream>, 64>>;
 
 /// What can go wrong on the way to it.
 pub type Error = lexibus::Error<std::io::Error>;
@@ -43,12 +48,29 @@ pub fn node_id() -> NodeId {
 
 /// A node, made of the EDS of the description in `file`; `test` names the test that has it. `None` where there is no Python.
 pub fn start(test: &str, file: &str) -> Option<(Script, Node)> {
+    let line = Pty::open();
+    let script = run(test, file, line.path())?;
+    Some((script, client(line)))
+}
+
+/// The same for a client that doesn't block. The cable has to last as long as it. In a runtime of `tokio`.
+pub fn start_async(test: &str, file: &str) -> Option<(Script, AsyncNode, Cable)> {
+    let cable = Cable::open();
+    let [near, far] = cable.ends();
+    let script = run(test, file, far)?;
+    let line = SerialStream::open(&tokio_serial::new(near, 115_200)).expect("a serial line");
+    Some((script, client(line), cable))
+}
+
+fn client<L>(line: L) -> canopen::Node<Buffered<Slcan<L>, 64>> {
+    canopen::Node::new(Buffered::new(Slcan::new(line)), node_id()).with_timeout(PATIENCE)
+}
+
+fn run(test: &str, file: &str, tty: &str) -> Option<Script> {
     let python = python()?;
     let eds = exported(test, file);
-    let line = Pty::open();
-    let arguments = [line.path(), eds.to_str().expect("UTF-8"), &NODE.to_string()];
-    let (script, _) = Script::start(python, "canopen_node.py", &arguments);
-    Some((script, Node::new(Slcan::new(line), node_id()).with_timeout(PATIENCE)))
+    let (script, _) = Script::start(python, "canopen_node.py", &[tty, eds.to_str().expect("UTF-8"), &NODE.to_string()]);
+    Some(script)
 }
 
 /// The exported EDS, in a file of this test's own.

@@ -1,11 +1,12 @@
-//! What isn't a transfer: the node's state, its heartbeat and its emergencies.
+//! What isn't a transfer: the node's state, its heartbeat and its emergency messages.
 
 use lexibus::clients::canopen::{Emergency, NmtCommand, NmtState};
+use lexibus::NodeId;
 use lexibus_drives::demo_drive::codes;
 use serde_json::json;
 
 use super::all_types::AllTypes;
-use super::{node_id, start, Error, Node, NODE, PATIENCE};
+use super::{node_id, start, Error, NODE, PATIENCE};
 
 const FILE: &str = "tests/interop/all-types.toml";
 
@@ -23,32 +24,32 @@ fn states_and_heartbeat() -> Result<(), Error> {
         (NmtCommand::Stop, NmtState::Stopped, "STOPPED"),
         (NmtCommand::EnterPreOperational, NmtState::PreOperational, "PRE-OPERATIONAL"),
     ] {
-        let node = device.client();
-        // Of another node first: it isn't meant.
-        node.send(&NmtCommand::Start.frame(lexibus::NodeId::new(NODE + 1)))?;
-        node.nmt(command)?;
-        node.wait_for(state, PATIENCE)?;
+        // One to another node isn't meant.
+        device.client().send(&NmtCommand::Start.frame(NodeId::new(NODE + 1)))?;
+        device.client().nmt(command)?;
+        device.client().wait_for(state, PATIENCE)?;
         assert_eq!(script.ask(json!({ "do": "state" })), name);
     }
-    // All nodes.
-    let node = device.client();
-    node.send(&NmtCommand::Start.frame(None))?;
-    node.wait_for(NmtState::Operational, PATIENCE)
+    device.client().send(&NmtCommand::Start.frame(None))?;
+    device.client().wait_for(NmtState::Operational, PATIENCE)?;
+    Ok(())
 }
 
-fn emergency(node: &mut Node) -> Result<Emergency, Error> {
-    Ok(node.emergency(PATIENCE)?.expect("an emergency message"))
-}
-
+/// Two that come during a transfer are there after it.
 #[test]
 fn emergencies() -> Result<(), Error> {
-    let Some((mut script, mut node)) = start("emergency", FILE) else { return Ok(()) };
+    let Some((mut script, node)) = start("emergency", FILE) else { return Ok(()) };
+    let mut device = AllTypes::new(node);
     script.ask(json!({ "do": "emergency", "code": 0x8110, "register": 0x11, "data": "0102030405" }));
-    let received = emergency(&mut node)?;
-    assert_eq!(received, Emergency { code: 0x8110, register: 0x11, vendor: [1, 2, 3, 4, 5] });
-    assert_eq!(received.alarm::<codes::Emergency>(), codes::Emergency::CanOverrun);
-    assert_eq!(received.frame(node_id()).data(), [0x10, 0x81, 0x11, 1, 2, 3, 4, 5]);
     script.ask(json!({ "do": "emergency", "code": 0, "register": 0, "data": "" }));
-    assert!(emergency(&mut node)?.is_reset());
+    assert_eq!(device.fixed().read()?, 0x1234);
+    let first = device.client().emergency(PATIENCE)?.expect("an emergency message");
+    assert_eq!(first, Emergency { code: 0x8110, register: 0x11, vendor: [1, 2, 3, 4, 5] });
+    assert_eq!(first.alarm::<codes::Emergency>(), codes::Emergency::CanOverrun);
+    assert_eq!(first.frame(node_id()).data(), [0x10, 0x81, 0x11, 1, 2, 3, 4, 5]);
+    assert!(!first.is_reset());
+    let second = device.client().emergency(PATIENCE)?.expect("an emergency message");
+    assert_eq!(second, Emergency { code: 0, register: 0, vendor: [0; 5] });
+    assert!(second.is_reset());
     Ok(())
 }

@@ -29,14 +29,14 @@ pub fn configure(node: &mut Node, steps: impl IntoIterator<Item = SdoWrite>) -> 
     steps.into_iter().try_for_each(|step| step.send(node))
 }
 
-pub fn send(node: &mut Node, id: u32, data: &[u8]) {
-    let frame = CanFrame::new(id as u16, data).expect("a frame");
-    assert!(node.port().send(&frame, PATIENCE).expect("a line"));
+/// A frame with the identifier `id`.
+pub fn frame(id: u32, data: &[u8]) -> CanFrame {
+    CanFrame::new(id as u16, data).expect("a frame")
 }
 
 pub fn receive(node: &mut Node, id: u32) -> CanFrame {
-    let frame = node.port().receive(PATIENCE, &mut |frame| u32::from(frame.id()) == id).expect("a line");
-    frame.unwrap_or_else(|| panic!("no frame with the identifier {id:#x}"))
+    let received = node.port().receive(PATIENCE, &mut |frame| u32::from(frame.id()) == id).expect("a line");
+    received.unwrap_or_else(|| panic!("no frame with the identifier {id:#x}"))
 }
 
 /// Configures an RPDO, sends it, and compares the values that the library decodes.
@@ -44,7 +44,7 @@ macro_rules! received {
     ($script:ident, $node:ident, $number:literal by $configuration:expr, at $id:expr, $pdo:ident $fields:tt, $values:tt) => {
         configure(&mut $node, $configuration)?;
         assert_eq!(used(&mut $script, "rx", $number), expected::<$pdo>($id, 255));
-        send(&mut $node, $id, &$pdo $fields.pack());
+        $node.send(&frame($id, &$pdo $fields.pack()))?;
         let values = $script.ask(json!({ "do": "receive", "number": $number }));
         assert_eq!(values, json!($values), stringify!($pdo));
     };
@@ -55,7 +55,8 @@ macro_rules! transmitted {
     ($script:ident, $node:ident, $number:literal by $configuration:expr, at $id:expr, $pdo:ident $fields:tt, $values:tt) => {
         configure(&mut $node, $configuration)?;
         assert_eq!(used(&mut $script, "tx", $number), expected::<$pdo>($id, 255));
-        $script.ask(json!({ "do": "transmit", "number": $number, "values": $values }));
+        $script.ask(json!({ "do": "load", "number": $number, "values": $values }));
+        $script.ask(json!({ "do": "transmit", "number": $number }));
         let frame = receive(&mut $node, $id);
         assert_eq!($pdo::unpack(frame.data())?, $pdo $fields);
         assert_eq!(frame.data(), $pdo $fields.pack(), stringify!($pdo));

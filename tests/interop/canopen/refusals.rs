@@ -12,9 +12,9 @@ use super::{start, Error, Node};
 const FILE: &str = "tests/interop/all-types.toml";
 
 /// An object as somebody sees it who knows nothing of its rights and limits.
-type Naive<V> = Item<V, Rw, OnCanOpen>;
+pub type Naive<V> = Item<V, Rw, OnCanOpen>;
 
-const fn naive<V: Fixed>(index: u16, sub_index: u8) -> Naive<V> {
+pub const fn naive<V: Fixed>(index: u16, sub_index: u8) -> Naive<V> {
     Naive::object(index, sub_index, "")
 }
 
