@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use lexibus::clients::modbus::tokio_modbus::{ExceptionCode, Slave};
 use lexibus::clients::modbus::{rtu, sync, tcp, ModbusClient, ModbusError};
+use lexibus::modbus::{AsyncRegisterClient as _, RegisterClient as _};
 use serde_json::{json, Value};
 use tokio_serial::SerialStream;
 
@@ -19,6 +20,7 @@ lexibus::dictionary! {
     mod registers = "tests/interop/registers.toml";
 }
 
+use registers::objects::{COILS, HIGH_I16, HIGH_U16, HIGH_U32, INPUT_U32, LOW_F32, LOW_I32, NEXT_COIL};
 use registers::types::{Mode, Status, StatusDirection as Direction};
 use registers::Registers;
 
@@ -67,6 +69,9 @@ fn over_rtu() -> Option<(Script, Cable)> {
 
 /// `$way` calls a method of an accessor, and waits for what it gives.
 macro_rules! blocking {
+    ($client:expr, read_block $block:expr) => {
+        $client.read_block($block)
+    };
     ($accessor:expr, read) => {
         $accessor.read()
     };
@@ -85,6 +90,9 @@ macro_rules! blocking {
 }
 
 macro_rules! awaited {
+    ($client:expr, read_block $block:expr) => {
+        $client.read_block_async($block).await
+    };
     ($accessor:expr, read) => {
         $accessor.read_async().await
     };
@@ -263,6 +271,30 @@ macro_rules! functions {
     };
 }
 
+/// Items side by side, read in one request for each table.
+macro_rules! blocks {
+    ($way:ident, $script:ident, $device:ident) => {
+        $script.put("high_u16", json!(0xA55A));
+        $script.put("high_i16", json!(-2));
+        $script.put("high_u32", json!(0x1234_5678));
+        $script.put("low_i32", json!(-0x1234_5678));
+        $script.put("low_f32", json!(-1.5));
+        $script.put("input_u32", json!(0x89AB_CDEF_u32));
+        $script.put("coils", json!([1, 8, 11]));
+        $script.functions();
+        let values = $way!($device.client(), read_block(HIGH_U32, HIGH_U16, HIGH_I16))?;
+        assert_eq!(values, (0x1234_5678, 0xA55A, -2));
+        assert_eq!($script.functions(), json!([3]));
+        let values = $way!($device.client(), read_block(LOW_I32, LOW_F32, INPUT_U32, COILS, NEXT_COIL))?;
+        assert_eq!(values, (-0x1234_5678, -1.5, 0x89AB_CDEF, 0b0000_1001, true));
+        let functions = $script.functions();
+        let mut functions: Vec<u64> = functions.as_array().into_iter().flatten().filter_map(Value::as_u64).collect();
+        functions.sort_unstable();
+        // The coils don't follow each other.
+        assert_eq!(functions, [1, 1, 3, 4]);
+    };
+}
+
 macro_rules! all_scenarios {
     ($way:ident, $script:ident, $device:ident) => {
         numbers! { $way, $script, $device }
@@ -270,6 +302,7 @@ macro_rules! all_scenarios {
         other_tables! { $way, $script, $device }
         refusals! { $way, $script, $device }
         functions! { $way, $script, $device }
+        blocks! { $way, $script, $device }
     };
 }
 
