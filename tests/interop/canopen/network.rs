@@ -27,8 +27,12 @@ fn states_and_heartbeat() -> Result<(), Error> {
         // One to another node isn't meant.
         device.client().send(&NmtCommand::Start.frame(NodeId::new(NODE + 1)))?;
         device.client().nmt(command)?;
-        device.client().wait_for(state, PATIENCE)?;
+        // An answer to what was sent later: the node has seen the command. (This library answers while it is stopped, too.)
+        assert_eq!(device.heartbeat_time().read()?, 20);
         assert_eq!(script.ask(json!({ "do": "state" })), name);
+        // Heartbeats of before are forgotten.
+        device.client().port().clear();
+        device.client().wait_for(state, PATIENCE)?;
     }
     device.client().send(&NmtCommand::Start.frame(None))?;
     device.client().wait_for(NmtState::Operational, PATIENCE)?;
