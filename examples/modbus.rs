@@ -1,0 +1,106 @@
+//! A drive on Modbus TCP, from its table to values: `cargo run --example modbus --features macros,modbus`.
+//!
+//! The drive is simulated: a server of `tokio-modbus` in the same process, with the registers of `examples/inverter.toml`.
+
+use lexibus::clients::modbus::{sync, ModbusClient};
+use lexibus::modbus::{Plan, RegisterClient};
+use lexibus::RegisterTable::{Coil, DiscreteInput, Holding, Input};
+
+use inverter::types::{Control, Mode};
+use inverter::{objects, Inverter};
+use server::{Device, Framing, Map, Server};
+
+lexibus::dictionary! {
+    /// An imaginary frequency inverter.
+    pub mod inverter = "examples/inverter.toml";
+}
+
+#[allow(dead_code)]
+#[path = "../tests/support/modbus_server.rs"]
+mod server;
+
+// What a cycle reads is of one moment only if it is one request. The compiler counts.
+const _: () = {
+    let cycle = [
+        objects::SPEED.location().modbus,
+        objects::CURRENT.location().modbus,
+        objects::POSITION.location().modbus,
+        objects::TEMPERATURE.location().modbus,
+    ];
+    assert!(matches!(Plan::new(cycle, &inverter::MODBUS), Ok(plan) if plan.len() == 1));
+};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let device = Device::new(simulated());
+    let server = Server::start(&device, Framing::Tcp)?;
+
+    // From here on, what a program for a real drive does. The client keeps to what the drive takes: `MODBUS`.
+    let context = sync::tcp::connect(server.address())?;
+    let client = ModbusClient::new(context).with_limits(inverter::MODBUS);
+    let mut drive = Inverter::new(client);
+
+    drive.mode().write(Mode::Position)?;
+    drive.ramp().write_scaled(2.5)?;
+    drive.distance().write_scaled(1250.0)?;
+    drive.control().write(Control::new().with_enable(true))?;
+    drive.fan().write(true)?;
+    if let Err(error) = drive.speed_setpoint().write(3001) {
+        println!("3001 rpm: {error}, nothing was sent");
+    }
+    show("written", &device);
+
+    // Four measured values, one request.
+    let (speed, current, position, temperature) =
+        drive.client().read_block((objects::SPEED, objects::CURRENT, objects::POSITION, objects::TEMPERATURE))?;
+    println!("speed {speed} rpm, current {} A", objects::CURRENT.physical(current));
+    match objects::TEMPERATURE.physical(temperature) {
+        Some(degrees) => println!("position {} mm, {degrees} °C", objects::POSITION.physical(position)),
+        None => println!("position {} mm, no sensor of temperature", objects::POSITION.physical(position)),
+    }
+    show("the cycle", &device);
+
+    // Values from all over the drive, in any order: as few requests as it allows. Nothing reads the password, which
+    // lies between two of them.
+    let (limit, serial, mode, hours, stopped, setpoint) = drive.client().read_block((
+        objects::CURRENT_LIMIT,
+        objects::SERIAL_NUMBER,
+        objects::MODE,
+        objects::HOURS,
+        objects::EMERGENCY_STOP,
+        objects::SPEED_SETPOINT,
+    ))?;
+    println!("limit {} A, serial number {serial}, mode {mode:?}", objects::CURRENT_LIMIT.physical(limit));
+    println!("{hours} h, emergency stop {stopped}, set to {setpoint} rpm");
+    show("a survey", &device);
+
+    let mut buffer = [0; 8];
+    println!("its name is {:?}", drive.name().read_into(&mut buffer)?);
+    if let Err(error) = drive.recipe().write("a long one") {
+        println!("the recipe: {error}, nothing was sent");
+    }
+    show("texts", &device);
+    Ok(())
+}
+
+/// The registers of the drive, with what is in them when it starts.
+fn simulated() -> Map {
+    let text = |text: &[u8; 8]| [0, 2, 4, 6].map(|at| u16::from_be_bytes([text[at], text[at + 1]]));
+    Map::default()
+        .with(Holding, 0, &[0, 10, 0, 0, 0, 0x6400, 0x86A0, 1, 0x3401, 0x51D7])
+        .with(Holding, 10, &text(b"Pump 7\0\0"))
+        .with(Holding, 14, &[0, 125])
+        .with(Holding, 19, &[0; 5])
+        .with(Input, 0, &[1480, 73, 0xE848, 1, 41])
+        .with(Input, 8, &[12_345, 0])
+        .with(Coil, 0, &[0])
+        .with(Coil, 2, &[0; 8])
+        .with(DiscreteInput, 0, &[1, 0])
+}
+
+/// Prints the requests that the device got.
+fn show(title: &str, device: &Device<Map>) {
+    println!("-- {title}:");
+    for request in device.requests() {
+        println!("   {request}");
+    }
+}
