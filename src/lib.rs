@@ -96,6 +96,8 @@ pub mod profinet;
 mod quantity;
 mod range;
 mod register;
+#[cfg(feature = "std")]
+pub mod sim;
 pub mod table;
 mod text;
 mod time;

@@ -1,0 +1,173 @@
+//! The registers and bits of a simulated device on Modbus, and what items lie in them.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::vec;
+use std::vec::Vec;
+
+use super::slots::{Slot, Slots};
+use super::values;
+use crate::data_type::DataType;
+use crate::pdo::mask;
+use crate::register::{Register, RegisterTable, WordOrder};
+use crate::table::{AccessRights, Entry, RawInitial};
+
+type Address = (RegisterTable, u16);
+
+/// One register, or one bit.
+#[derive(Clone, Debug, Default)]
+struct Cell {
+    word: u16,
+    /// The items that lie in it, by their positions: one, or several of which each is some of its bits, or the same bits
+    /// under different names.
+    items: Vec<usize>,
+}
+
+/// All registers and bits. They hold what the items hold: who changes the one changes the other.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Cells(BTreeMap<Address, Cell>);
+
+/// The addresses of a register.
+fn addresses(register: Register) -> impl Iterator<Item = Address> {
+    (0..register.count).map_while(move |at| Some((register.table, register.address.checked_add(at)?)))
+}
+
+const fn is_bits(table: RegisterTable) -> bool {
+    matches!(table, RegisterTable::Coil | RegisterTable::DiscreteInput)
+}
+
+/// What the registers hold where an item has this value; `held` is what they held before.
+fn encode(register: Register, value: &[u8], held: Vec<u16>) -> Vec<u16> {
+    if is_bits(register.table) {
+        let bit = |at: usize| value.get(at / 8).map_or(0, |byte| u16::from(byte >> (at % 8) & 1));
+        return (0..held.len()).map(bit).collect();
+    }
+    let mut words = held;
+    // A register that is shorter than the object takes the lower bytes of it.
+    let length = value.len().min(2 * words.len());
+    // Only some bits of more than four registers fail: nobody can have them.
+    let _ = register.encode(&value[..length], &mut words);
+    words
+}
+
+/// The value of an item whose registers hold these words.
+fn decode(entry: &Entry, register: Register, words: &[u16]) -> Vec<u8> {
+    if is_bits(register.table) {
+        let bytes = words.chunks(8).map(|bits| bits.iter().rev().fold(0, |byte, bit| byte << 1 | (*bit as u8 & 1)));
+        return values::widened(entry.data_type, bytes.collect());
+    }
+    let mut bytes = vec![0; values::byte_length(entry.data_type).unwrap_or(2 * words.len())];
+    let length = register.decode(words, &mut bytes).unwrap_or(0);
+    bytes.truncate(length);
+    if register.order == WordOrder::Bytes && entry.data_type == DataType::VisibleString {
+        // A text is filled up with them.
+        let end = bytes.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
+        bytes.truncate(end);
+    }
+    values::widened(entry.data_type, bytes)
+}
+
+/// The bits of its registers that an item has.
+fn masks(register: Register) -> Vec<u16> {
+    let count = usize::from(register.count);
+    match register.part {
+        Some(part) => encode(register, &mask(part.bits.into()).to_le_bytes(), vec![0; count]),
+        None => vec![0xFFFF; count],
+    }
+}
+
+pub(super) const fn is_readable(entry: &Entry) -> bool {
+    !matches!(entry.access, AccessRights::WriteOnly)
+}
+
+pub(super) const fn is_writable(entry: &Entry) -> bool {
+    matches!(entry.access, AccessRights::WriteOnly | AccessRights::ReadWrite)
+}
+
+impl Cells {
+    /// Gives all registers what the items hold. Where several have the same bits, those of known values count.
+    pub fn fill(&mut self, slots: &mut Slots) {
+        self.0.clear();
+        let (unknown, known): (Vec<usize>, Vec<usize>) = (0..slots.len()).partition(|at| {
+            let slot = slots.get(*at);
+            slot.stored.is_none() && slot.entry.initial == RawInitial::Unknown
+        });
+        for at in unknown.iter().chain(&known) {
+            let Some(register) = slots.get(*at).entry.register else { continue };
+            for address in addresses(register) {
+                self.0.entry(address).or_default().items.push(*at);
+            }
+            self.put(register, &slots.get(*at).value);
+        }
+        for at in unknown {
+            self.refresh(slots.get_mut(at));
+        }
+    }
+
+    /// Gives its registers what an item holds, and other items what lies in their registers then.
+    pub fn spread(&mut self, slots: &mut Slots, at: usize) {
+        let Some(register) = slots.get(at).entry.register else { return };
+        self.put(register, &slots.get(at).value);
+        for other in self.items(addresses(register)) {
+            if other != at {
+                self.refresh(slots.get_mut(other));
+            }
+        }
+    }
+
+    fn put(&mut self, register: Register, value: &[u8]) {
+        let words = encode(register, value, self.words(register));
+        for (address, word) in addresses(register).zip(words) {
+            self.set(address, word);
+        }
+    }
+
+    /// Gives an item what its registers hold. It keeps its value where that is the same: a text in fewer bytes, say.
+    pub fn refresh(&self, slot: &mut Slot) {
+        let Some(register) = slot.entry.register else { return };
+        let words = self.words(register);
+        if encode(register, &slot.value, words.clone()) != words {
+            slot.value = decode(&slot.entry, register, &words);
+        }
+    }
+
+    /// What a register holds.
+    pub fn words(&self, register: Register) -> Vec<u16> {
+        let held = |address| self.word(address).unwrap_or(0);
+        let mut words: Vec<u16> = addresses(register).map(held).collect();
+        words.resize(register.count.into(), 0);
+        words
+    }
+
+    /// What a register of one word or bit holds; `None` where there is none.
+    pub fn word(&self, address: Address) -> Option<u16> {
+        self.0.get(&address).map(|cell| cell.word)
+    }
+
+    pub fn set(&mut self, address: Address, word: u16) {
+        if let Some(cell) = self.0.get_mut(&address) {
+            cell.word = word;
+        }
+    }
+
+    /// The items that lie in these addresses.
+    pub fn items(&self, addresses: impl Iterator<Item = Address>) -> BTreeSet<usize> {
+        addresses.filter_map(|address| self.0.get(&address)).flat_map(|cell| &cell.items).copied().collect()
+    }
+
+    /// The bits at this address that belong to an item that `which` names.
+    pub fn mask(&self, slots: &Slots, address: Address, which: impl Fn(&Entry) -> bool) -> u16 {
+        let items = self.0.get(&address).map_or(&[][..], |cell| &cell.items);
+        let entries = items.iter().map(|at| &slots.get(*at).entry).filter(|entry| which(entry));
+        let own = entries.filter_map(|entry| {
+            let register = entry.register?;
+            masks(register).get(usize::from(address.1 - register.address)).copied()
+        });
+        own.fold(0, |all, own| all | own)
+    }
+
+    /// The value that an item would have.
+    pub fn value(&self, entry: &Entry) -> Option<Vec<u8>> {
+        let register = entry.register?;
+        Some(decode(entry, register, &self.words(register)))
+    }
+}

@@ -1,0 +1,96 @@
+//! Clients of simulated devices.
+
+use core::borrow::BorrowMut;
+use core::fmt;
+use core::marker::PhantomData;
+
+use super::device::{Device, Network};
+use super::fault::Fault;
+use crate::bus::{CanOpen, CoE, Modbus, Object};
+use crate::client::{AsyncClient, Client};
+use crate::error::Error;
+use crate::register::Register;
+
+/// A client of a simulated device on the bus `B`, blocking and not; made by [`Device::client`]. `D` is the device, or a
+/// reference to it.
+pub struct Connection<B, D = Device> {
+    device: D,
+    bus: PhantomData<fn() -> B>,
+}
+
+impl<B, D: BorrowMut<Device>> Connection<B, D> {
+    pub(super) const fn new(device: D) -> Self {
+        Self { device, bus: PhantomData }
+    }
+
+    /// The device itself.
+    pub fn device(&mut self) -> &mut Device {
+        self.device.borrow_mut()
+    }
+
+    /// Gives the device back.
+    pub fn into_device(self) -> D {
+        self.device
+    }
+}
+
+impl<B, D: fmt::Debug> fmt::Debug for Connection<B, D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Connection").field("device", &self.device).finish()
+    }
+}
+
+impl From<Fault> for Error<Fault> {
+    fn from(fault: Fault) -> Self {
+        match fault {
+            Fault::Abort(code) => Error::Abort(code),
+            other => Error::Client(other),
+        }
+    }
+}
+
+macro_rules! clients {
+    ($($bus:ident, $address:ty, $read:expr, $write:expr;)*) => {$(
+        impl<D: BorrowMut<Device>> Client for Connection<$bus, D> {
+            type Bus = $bus;
+            type Error = Fault;
+
+            fn read(&mut self, address: $address, buffer: &mut [u8]) -> Result<usize, Error<Fault>> {
+                $read(self.device(), address, buffer)
+            }
+
+            fn write(&mut self, address: $address, data: &[u8]) -> Result<(), Error<Fault>> {
+                $write(self.device(), address, data)
+            }
+        }
+
+        impl<D: BorrowMut<Device>> AsyncClient for Connection<$bus, D> {
+            type Bus = $bus;
+            type Error = Fault;
+
+            async fn read(&mut self, address: $address, buffer: &mut [u8]) -> Result<usize, Error<Fault>> {
+                $read(self.device(), address, buffer)
+            }
+
+            async fn write(&mut self, address: $address, data: &[u8]) -> Result<(), Error<Fault>> {
+                $write(self.device(), address, data)
+            }
+        }
+    )*};
+}
+
+clients! {
+    CanOpen, Object, upload, |device, object, data| download(device, Network::CanOpen, object, data);
+    CoE, Object, upload, |device, object, data| download(device, Network::EtherCat, object, data);
+    Modbus, Register, Device::read_register, Device::write_register;
+}
+
+fn upload(device: &mut Device, object: Object, buffer: &mut [u8]) -> Result<usize, Error<Fault>> {
+    let value = device.upload(object)?;
+    buffer.iter_mut().zip(value).for_each(|(to, from)| *to = *from);
+    Ok(value.len())
+}
+
+fn download(device: &mut Device, network: Network, object: Object, data: &[u8]) -> Result<(), Error<Fault>> {
+    Ok(device.download(network, object, data)?)
+}

@@ -1,0 +1,60 @@
+//! What a device tells of itself: its errors.
+
+use super::device::Device;
+use crate::bus::Object;
+
+/// An emergency message (CiA 301 7.2.7).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Emergency {
+    /// The error code.
+    pub code: u16,
+    /// The error register (0x1001).
+    pub register: u8,
+    /// What the vendor adds.
+    pub vendor: [u8; 5],
+}
+
+impl Emergency {
+    /// The eight bytes that travel.
+    #[must_use]
+    pub const fn data(&self) -> [u8; 8] {
+        let [low, high] = self.code.to_le_bytes();
+        let [a, b, c, d, e] = self.vendor;
+        [low, high, self.register, a, b, c, d, e]
+    }
+}
+
+/// The list of errors (CiA 301 7.5.2.4).
+const HISTORY: u16 = 0x1003;
+
+impl Device {
+    /// The device has an error: it goes into the error register (0x1001) and to the top of the list of errors (0x1003), as
+    /// far as the device has them, and becomes an emergency message. Code 0 says that no error is left, and isn't listed.
+    pub fn emit_emergency(&mut self, code: u16, register: u8, vendor: [u8; 5]) {
+        let _ = self.set_bytes(Object::new(0x1001, 0), &[register]);
+        if code != 0 {
+            self.remember(code, vendor);
+        }
+        self.emergencies.push_back(Emergency { code, register, vendor });
+    }
+
+    /// The emergency messages that nobody took yet. A [`CanNode`](super) sends them by itself.
+    pub fn take_emergencies(&mut self) -> impl Iterator<Item = Emergency> + '_ {
+        self.emergencies.drain(..)
+    }
+
+    /// Puts an error to the top of the list. Older ones go down, and the oldest falls off where the list is full.
+    fn remember(&mut self, code: u16, vendor: [u8; 5]) {
+        let room = self.slots.objects(HISTORY, HISTORY).map(|object| object.sub_index).max().unwrap_or(0);
+        let length = self.slots.number(HISTORY, 0).map_or(0, |length| length.min(room.into()) as u8);
+        let mut newer = [code.to_le_bytes(), [vendor[0], vendor[1]]].concat();
+        let filled = length.saturating_add(1).min(room);
+        for sub_index in 1..=filled {
+            let object = Object::new(HISTORY, sub_index);
+            let older = self.bytes(object).map(<[u8]>::to_vec).unwrap_or_default();
+            let _ = self.set_bytes(object, &newer);
+            newer = older;
+        }
+        let _ = self.set_bytes(Object::new(HISTORY, 0), &[filled]);
+    }
+}

@@ -1,0 +1,197 @@
+//! Requests of Modbus to a simulated device.
+
+use std::collections::BTreeSet;
+use std::vec;
+use std::vec::Vec;
+
+use super::cells::{is_readable, is_writable};
+use super::device::Device;
+use super::fault::{Exception, Fault};
+use super::values;
+use crate::error::Error;
+use crate::register::{Register, RegisterTable};
+
+/// How many registers, or bits, one request takes at most (MODBUS Application Protocol 6).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limits {
+    read: u16,
+    write: u16,
+}
+
+impl Limits {
+    pub const STANDARD: Self = Self { read: 125, write: 123 };
+    const BITS: Self = Self { read: 2000, write: 1968 };
+}
+
+const fn is_bits(table: RegisterTable) -> bool {
+    matches!(table, RegisterTable::Coil | RegisterTable::DiscreteInput)
+}
+
+impl Device {
+    /// The same device, which reads and writes so many registers in one request at most. The standard has 125 and 123.
+    #[must_use]
+    pub fn with_modbus_limits(mut self, read: u16, write: u16) -> Self {
+        self.limits = Limits { read, write };
+        self
+    }
+
+    /// Answers functions 3 and 4: `count` registers of [`Holding`](RegisterTable::Holding) or
+    /// [`Input`](RegisterTable::Input), whatever items they belong to.
+    ///
+    /// # Errors
+    ///
+    /// [`Exception::IllegalDataAddress`] where one of them belongs to no item that can be read,
+    /// [`Exception::IllegalDataValue`] where they are none or too many, [`Exception::IllegalFunction`] of a table of bits.
+    pub fn read_words(&mut self, table: RegisterTable, address: u16, count: u16) -> Result<Vec<u16>, Exception> {
+        if is_bits(table) {
+            return Err(Exception::IllegalFunction);
+        }
+        self.request(table, address, count).map_err(Exception::of_fault)
+    }
+
+    /// Answers functions 6 and 16: writes holding registers, whatever items they belong to. Bits of items that can't be
+    /// written stay as they are.
+    ///
+    /// # Errors
+    ///
+    /// [`Exception::IllegalDataAddress`] where one of them belongs to no item that can be written,
+    /// [`Exception::IllegalDataValue`] where they are none or too many, or where an item would get a value outside its
+    /// limits, [`Exception::IllegalFunction`] of another table than [`Holding`](RegisterTable::Holding), and what a
+    /// reaction fails with. Then nothing is written.
+    pub fn write_words(&mut self, table: RegisterTable, address: u16, words: &[u16]) -> Result<(), Exception> {
+        if table != RegisterTable::Holding {
+            return Err(Exception::IllegalFunction);
+        }
+        self.command_cells(table, address, words).map_err(Exception::of_fault)
+    }
+
+    /// Answers functions 1 and 2: `count` bits of [`Coil`](RegisterTable::Coil) or
+    /// [`DiscreteInput`](RegisterTable::DiscreteInput).
+    ///
+    /// # Errors
+    ///
+    /// Those of [`read_words`](Self::read_words).
+    pub fn read_bits(&mut self, table: RegisterTable, address: u16, count: u16) -> Result<Vec<bool>, Exception> {
+        if !is_bits(table) {
+            return Err(Exception::IllegalFunction);
+        }
+        let words = self.request(table, address, count).map_err(Exception::of_fault)?;
+        Ok(words.into_iter().map(|word| word != 0).collect())
+    }
+
+    /// Answers functions 5 and 15: writes coils.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`write_words`](Self::write_words).
+    pub fn write_bits(&mut self, table: RegisterTable, address: u16, bits: &[bool]) -> Result<(), Exception> {
+        if table != RegisterTable::Coil {
+            return Err(Exception::IllegalFunction);
+        }
+        let words: Vec<u16> = bits.iter().map(|bit| u16::from(*bit)).collect();
+        self.command_cells(table, address, &words).map_err(Exception::of_fault)
+    }
+
+    /// What a client reads.
+    pub(super) fn read_register(&mut self, register: Register, buffer: &mut [u8]) -> Result<usize, Error<Fault>> {
+        let words = self.request(register.table, register.address, register.count)?;
+        if !is_bits(register.table) {
+            return Ok(register.decode(&words, buffer)?);
+        }
+        for (byte, bits) in buffer.iter_mut().zip(words.chunks(8)) {
+            *byte = bits.iter().rev().fold(0, |byte, bit| byte << 1 | (*bit as u8 & 1));
+        }
+        Ok(words.len().div_ceil(8))
+    }
+
+    /// What a client writes. A part of a register is read before, as every client has to.
+    pub(super) fn write_register(&mut self, register: Register, data: &[u8]) -> Result<(), Error<Fault>> {
+        let Register { table, address, count, .. } = register;
+        if matches!(table, RegisterTable::Input | RegisterTable::DiscreteInput) {
+            return Err(Fault::from(Exception::IllegalFunction).into());
+        }
+        if table == RegisterTable::Coil {
+            let bit = |at: u16| data.get(usize::from(at / 8)).map_or(0, |byte| u16::from(byte >> (at % 8) & 1));
+            let words: Vec<u16> = (0..count).map(bit).collect();
+            return Ok(self.command_cells(table, address, &words)?);
+        }
+        let mut words = match register.part {
+            Some(_) => self.request(table, address, count)?,
+            None => vec![0; usize::from(count)],
+        };
+        register.encode(data, &mut words)?;
+        Ok(self.command_cells(table, address, &words)?)
+    }
+
+    fn check_count(&self, table: RegisterTable, count: usize, most: impl Fn(Limits) -> u16) -> Result<(), Exception> {
+        let most = most(if is_bits(table) { Limits::BITS } else { self.limits });
+        if (1..=usize::from(most)).contains(&count) {
+            Ok(())
+        } else {
+            Err(Exception::IllegalDataValue)
+        }
+    }
+
+    fn request(&mut self, table: RegisterTable, address: u16, count: u16) -> Result<Vec<u16>, Fault> {
+        self.take_fault()?;
+        self.check_count(table, count.into(), |limits| limits.read)?;
+        let word = |at: u16| -> Option<u16> {
+            let address = (table, address.checked_add(at)?);
+            let readable = self.cells.mask(&self.slots, address, is_readable);
+            // Bits of what can only be written are 0.
+            self.cells.word(address).filter(|_| readable != 0).map(|word| word & readable)
+        };
+        let words: Option<Vec<u16>> = (0..count).map(word).collect();
+        Ok(words.ok_or(Exception::IllegalDataAddress)?)
+    }
+
+    /// Writes registers, or nothing where that fails.
+    fn command_cells(&mut self, table: RegisterTable, address: u16, words: &[u16]) -> Result<(), Fault> {
+        self.take_fault()?;
+        self.check_count(table, words.len(), |limits| limits.write)?;
+        let addresses = (address..=u16::MAX).map(|address| (table, address)).take(words.len());
+        if addresses.clone().count() < words.len() {
+            return Err(Exception::IllegalDataAddress.into());
+        }
+        let mut changes = Vec::with_capacity(words.len());
+        for (address, word) in addresses.zip(words) {
+            let writable = self.cells.mask(&self.slots, address, is_writable);
+            let held = self.cells.word(address).filter(|_| writable != 0).ok_or(Exception::IllegalDataAddress)?;
+            changes.push((address, held, held & !writable | word & writable));
+        }
+        for (address, _, word) in &changes {
+            self.cells.set(*address, *word);
+        }
+        let touched = self.cells.items(changes.iter().map(|(address, ..)| *address));
+        let old: Vec<(usize, Vec<u8>)> = touched.iter().map(|at| (*at, self.slots.get(*at).value.clone())).collect();
+        let result = self.take_over(&touched);
+        if result.is_err() {
+            for (address, held, _) in changes {
+                self.cells.set(address, held);
+            }
+            for (at, value) in old {
+                self.slots.get_mut(at).value = value;
+            }
+        }
+        result
+    }
+
+    /// Gives items what lies in their registers now, where that is within their limits, and calls what reacts to it.
+    fn take_over(&mut self, touched: &BTreeSet<usize>) -> Result<(), Fault> {
+        let mut reacting = Vec::new();
+        for at in touched {
+            let slot = self.slots.get(*at);
+            let Some(value) = self.cells.value(&slot.entry).filter(|_| is_writable(&slot.entry)) else { continue };
+            let is_part = slot.entry.register.is_some_and(|register| register.part.is_some());
+            // The other parts of a register are written along with one of them.
+            if !is_part || value != slot.value {
+                values::check_range(&slot.entry, &value).map_err(Exception::of_abort)?;
+                reacting.push(*at);
+            }
+        }
+        for at in touched {
+            self.cells.refresh(self.slots.get_mut(*at));
+        }
+        Ok(reacting.into_iter().try_for_each(|at| self.react(at))?)
+    }
+}

@@ -1,0 +1,114 @@
+//! When a device takes other parameters of its PDOs (CiA 301 7.5.2.35 to 7.5.2.38).
+
+use super::device::{Device, Network};
+use super::values;
+use crate::abort::AbortCode;
+use crate::bus::Object;
+use crate::flags::Flags;
+use crate::pdo::{from_bytes, MappedEntry};
+
+/// A mapping can be written only while its sub-index 0 is 0 (ETG.1000.6).
+const COUNT_NOT_ZERO: AbortCode = AbortCode(0x0601_0003);
+
+/// The bit of a COB-ID that says that the PDO isn't used.
+const UNUSED: u64 = 1 << 31;
+/// The bit of a COB-ID that says that it has 29 bits.
+const EXTENDED: u64 = 1 << 29;
+/// The bits of a COB-ID that can change only while the PDO isn't used.
+const IDENTIFIER: u64 = 0x3FFF_FFFF;
+
+/// The most bits that a frame of CAN carries.
+const FRAME_BITS: u32 = 64;
+
+/// Whether a PDO must not have this CAN-ID (CiA 301 7.3.5).
+fn is_restricted(id: u64) -> bool {
+    matches!(id, 0..=0x7F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0..=0x6FF | 0x701..)
+}
+
+fn require(condition: bool, code: AbortCode) -> Result<(), AbortCode> {
+    if condition {
+        Ok(())
+    } else {
+        Err(code)
+    }
+}
+
+impl Device {
+    /// Whether a client may write this to an object that may be a PDO's parameter.
+    pub(super) fn check_pdo_parameter(&self, network: Network, object: Object, data: &[u8]) -> Result<(), AbortCode> {
+        let value = from_bytes(data);
+        match object.index {
+            // EtherCAT has sync managers instead.
+            0x1400..=0x15FF | 0x1800..=0x19FF if network == Network::CanOpen => self.check_communication(object, value),
+            0x1600..=0x17FF | 0x1A00..=0x1BFF => self.check_mapping(network, object, value),
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether a PDO is used, by the index of its communication parameters.
+    pub(super) fn is_used(&self, communication: u16) -> bool {
+        self.slots.number(communication, 1).is_some_and(|cob_id| cob_id & UNUSED == 0)
+    }
+
+    fn check_communication(&self, object: Object, value: u64) -> Result<(), AbortCode> {
+        let (is_used, is_transmitted) = (self.is_used(object.index), object.index >= 0x1800);
+        match object.sub_index {
+            1 if value & UNUSED == 0 => {
+                let old = self.slots.number(object.index, 1).unwrap_or(UNUSED);
+                let is_same = (old ^ value) & IDENTIFIER == 0;
+                // Frames of this crate have 11 bits.
+                let is_possible = value & EXTENDED == 0 && !is_restricted(value & IDENTIFIER);
+                require(is_possible && (is_same || !is_used), AbortCode::INVALID_VALUE)
+            }
+            2 => {
+                let is_reserved = matches!(value, 241..=251) || !is_transmitted && matches!(value, 252 | 253);
+                require(!is_reserved, AbortCode::INVALID_VALUE)
+            }
+            // The inhibit time and the start value of SYNC.
+            3 | 6 if is_transmitted => require(!is_used, AbortCode::INVALID_VALUE),
+            _ => Ok(()),
+        }
+    }
+
+    fn check_mapping(&self, network: Network, object: Object, value: u64) -> Result<(), AbortCode> {
+        let Object { index, sub_index } = object;
+        let is_on_can = network == Network::CanOpen;
+        require(!(is_on_can && self.is_used(index - 0x200)), AbortCode::INVALID_VALUE)?;
+        if sub_index > 0 {
+            let refused = if is_on_can { AbortCode::INVALID_VALUE } else { COUNT_NOT_ZERO };
+            require(self.slots.number(index, 0) == Some(0), refused)?;
+            return self.check_mapped(network, index, MappedEntry::from_word(value as u32)).map(|_| ());
+        }
+        let mut bits: u32 = 0;
+        for sub_index in 1..=value {
+            let word = u8::try_from(sub_index).ok().and_then(|sub_index| self.slots.number(index, sub_index));
+            let entry = MappedEntry::from_word(word.ok_or(AbortCode::INVALID_VALUE)? as u32);
+            bits += self.check_mapped(network, index, entry)?;
+        }
+        require(!is_on_can || bits <= FRAME_BITS, AbortCode::PDO_LENGTH)?;
+        require(value == 0 || bits > 0, AbortCode::INVALID_VALUE)
+    }
+
+    /// The bits of an entry, where the mapping `index` can have it.
+    fn check_mapped(&self, network: Network, index: u16, entry: MappedEntry) -> Result<u32, AbortCode> {
+        let is_received = index < 0x1800;
+        let is_gap = match network {
+            // Types of the dictionary stand for bits of which the device makes nothing.
+            Network::CanOpen => entry.word() == 0 || is_received && matches!(entry.index, 1..=0x1F),
+            Network::EtherCat => entry.index == 0,
+        };
+        if is_gap {
+            return Ok(entry.bits);
+        }
+        let mapped = &self.slots.get(self.slots.of_object(entry.object())?).entry;
+        let needed = if is_received { Flags::RPDO } else { Flags::TPDO };
+        require(mapped.flags.contains(needed), AbortCode::NOT_MAPPABLE)?;
+        let bytes = values::byte_length(mapped.data_type).map(|length| 8 * length as u32);
+        let fits = match (mapped.data_type.bits(), bytes) {
+            (Some(bits), Some(bytes)) => entry.bits == bits || entry.bits == bytes,
+            _ => entry.bits > 0 && entry.bits % 8 == 0,
+        };
+        require(fits, AbortCode::NOT_MAPPABLE)?;
+        Ok(entry.bits)
+    }
+}

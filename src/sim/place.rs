@@ -1,0 +1,80 @@
+//! What names an item of a simulated device.
+
+use crate::bus::Object;
+use crate::item::Item;
+use crate::location::{Absent, Location};
+use crate::register::Register;
+use crate::value::Value;
+
+/// What names an item: a handle of the bindings, an object, or a register. Bindings need nothing else implemented.
+pub trait Place {
+    /// Its place in the object dictionary.
+    fn object(&self) -> Option<Object>;
+
+    /// Its place on Modbus.
+    fn register(&self) -> Option<Register>;
+}
+
+/// An address on one bus, or none.
+pub trait Part<T> {
+    /// The address.
+    fn part(&self) -> Option<T>;
+}
+
+impl<T> Part<T> for Absent {
+    fn part(&self) -> Option<T> {
+        None
+    }
+}
+
+impl Part<Object> for Object {
+    fn part(&self) -> Option<Object> {
+        Some(*self)
+    }
+}
+
+impl Part<Register> for Register {
+    fn part(&self) -> Option<Register> {
+        Some(*self)
+    }
+}
+
+impl<C: Part<Object>, E: Part<Object>, M: Part<Register>, P, S> Place for Location<C, E, M, P, S> {
+    fn object(&self) -> Option<Object> {
+        self.canopen.part().or_else(|| self.coe.part())
+    }
+
+    fn register(&self) -> Option<Register> {
+        self.modbus.part()
+    }
+}
+
+impl<V: Value, A, L: Place> Place for Item<V, A, L> {
+    fn object(&self) -> Option<Object> {
+        self.location().object()
+    }
+
+    fn register(&self) -> Option<Register> {
+        self.location().register()
+    }
+}
+
+impl Place for Object {
+    fn object(&self) -> Option<Object> {
+        Some(*self)
+    }
+
+    fn register(&self) -> Option<Register> {
+        None
+    }
+}
+
+impl Place for Register {
+    fn object(&self) -> Option<Object> {
+        None
+    }
+
+    fn register(&self) -> Option<Register> {
+        Some(*self)
+    }
+}

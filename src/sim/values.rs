@@ -1,0 +1,224 @@
+//! Values as a device holds them: their lengths, their limits, and what they are after power-on.
+
+use std::vec;
+use std::vec::Vec;
+
+use crate::abort::AbortCode;
+use crate::data_type::DataType;
+use crate::node_id::NodeId;
+use crate::pdo::{from_bytes, mask, sign_extend};
+use crate::table::{Bound, Entry, RawInitial};
+
+/// How many bytes a value takes; `None` where the value itself determines it.
+pub(super) fn byte_length(data_type: DataType) -> Option<usize> {
+    data_type.bits().map(|bits| bits.div_ceil(8) as usize)
+}
+
+fn is_signed(data_type: DataType) -> bool {
+    matches!(
+        data_type,
+        DataType::Integer8
+            | DataType::Integer16
+            | DataType::Integer24
+            | DataType::Integer32
+            | DataType::Integer40
+            | DataType::Integer48
+            | DataType::Integer56
+            | DataType::Integer64
+    )
+}
+
+/// A value in as many bytes as its type takes. Missing ones repeat the sign.
+pub(super) fn widened(data_type: DataType, mut bytes: Vec<u8>) -> Vec<u8> {
+    if let Some(length) = byte_length(data_type) {
+        let is_negative = is_signed(data_type) && bytes.last().is_some_and(|last| last >> 7 == 1);
+        bytes.resize(length, if is_negative { 0xFF } else { 0 });
+    }
+    bytes
+}
+
+/// Whether `data` has the length of its type.
+pub(super) fn check_length(entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
+    match byte_length(entry.data_type) {
+        Some(length) if data.len() > length => Err(AbortCode::TOO_LONG),
+        Some(length) if data.len() < length => Err(AbortCode::TOO_SHORT),
+        None if entry.data_type == DataType::UnicodeString && data.len() % 2 == 1 => Err(AbortCode::LENGTH),
+        _ => Ok(()),
+    }
+}
+
+/// Whether a value of the right length lies within its limits.
+pub(super) fn check_range(entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
+    let Some(bits) = entry.data_type.bits() else { return Ok(()) };
+    match entry.data_type {
+        DataType::Real32 => check_real(entry, data.try_into().map_or(0.0, f32::from_le_bytes).into()),
+        DataType::Real64 => check_real(entry, data.try_into().map_or(0.0, f64::from_le_bytes)),
+        DataType::TimeOfDay | DataType::TimeDifference => Ok(()),
+        data_type => {
+            let raw = from_bytes(data);
+            if is_signed(data_type) {
+                return check_integer(entry, sign_extend(raw, bits).into());
+            }
+            // A number of 3 bits takes a byte.
+            if raw > mask(bits) {
+                return Err(AbortCode::TOO_HIGH);
+            }
+            check_integer(entry, raw.into())
+        }
+    }
+}
+
+fn check_integer(entry: &Entry, value: i128) -> Result<(), AbortCode> {
+    if integer(entry.low).is_some_and(|low| value < low) {
+        return Err(AbortCode::TOO_LOW);
+    }
+    if integer(entry.high).is_some_and(|high| value > high) {
+        return Err(AbortCode::TOO_HIGH);
+    }
+    Ok(())
+}
+
+fn integer(bound: Bound) -> Option<i128> {
+    match bound {
+        Bound::Signed(value) => Some(value.into()),
+        Bound::Unsigned(value) => Some(value.into()),
+        Bound::Real(_) | Bound::Unlimited => None,
+    }
+}
+
+fn check_real(entry: &Entry, value: f64) -> Result<(), AbortCode> {
+    let is_limited = real(entry.low).is_some() || real(entry.high).is_some();
+    if value.is_nan() && is_limited {
+        return Err(AbortCode::INVALID_VALUE);
+    }
+    if real(entry.low).is_some_and(|low| value < low) {
+        return Err(AbortCode::TOO_LOW);
+    }
+    if real(entry.high).is_some_and(|high| value > high) {
+        return Err(AbortCode::TOO_HIGH);
+    }
+    Ok(())
+}
+
+fn real(bound: Bound) -> Option<f64> {
+    match bound {
+        Bound::Real(value) => Some(value),
+        Bound::Signed(value) => Some(value as f64),
+        Bound::Unsigned(value) => Some(value as f64),
+        Bound::Unlimited => None,
+    }
+}
+
+/// The value after power-on. Where the description gives none, it is empty or the number nearest to 0 within the limits.
+pub(super) fn initial(entry: &Entry, node: NodeId) -> Vec<u8> {
+    let bytes = match entry.initial {
+        RawInitial::Bytes(bytes) => bytes.to_vec(),
+        RawInitial::NodeId(offset) => offset.wrapping_add(node.get().into()).to_le_bytes().to_vec(),
+        RawInitial::Unknown => nearest_to_zero(entry),
+    };
+    widened(entry.data_type, bytes)
+}
+
+fn nearest_to_zero(entry: &Entry) -> Vec<u8> {
+    match entry.data_type {
+        DataType::Real32 => (nearest_real(entry) as f32).to_le_bytes().to_vec(),
+        DataType::Real64 => nearest_real(entry).to_le_bytes().to_vec(),
+        data_type => {
+            let low = integer(entry.low).unwrap_or(0).max(0);
+            let nearest = integer(entry.high).map_or(low, |high| low.min(high));
+            match byte_length(data_type) {
+                // 64 bits at most.
+                Some(_) => (nearest as u64).to_le_bytes().to_vec(),
+                None => vec![],
+            }
+        }
+    }
+}
+
+fn nearest_real(entry: &Entry) -> f64 {
+    let low = real(entry.low).unwrap_or(0.0).max(0.0);
+    real(entry.high).map_or(low, |high| low.min(high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flags::Flags;
+    use crate::table::AccessRights;
+
+    const ENTRY: Entry = Entry {
+        object: None,
+        register: None,
+        name: "",
+        data_type: DataType::Integer24,
+        access: AccessRights::ReadWrite,
+        flags: Flags::NONE,
+        initial: RawInitial::Unknown,
+        low: Bound::Signed(-2),
+        high: Bound::Signed(300),
+        unit: "",
+    };
+
+    fn check(entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
+        check_length(entry, data)?;
+        check_range(entry, data)
+    }
+
+    fn node() -> NodeId {
+        NodeId::new(5).unwrap()
+    }
+
+    #[test]
+    fn integers() {
+        assert_eq!(check(&ENTRY, &[0xFE, 0xFF, 0xFF]), Ok(()));
+        assert_eq!(check(&ENTRY, &[0xFD, 0xFF, 0xFF]), Err(AbortCode::TOO_LOW));
+        assert_eq!(check(&ENTRY, &[0x2D, 0x01, 0x00]), Err(AbortCode::TOO_HIGH));
+        assert_eq!(check(&ENTRY, &[0; 2]), Err(AbortCode::TOO_SHORT));
+        assert_eq!(check(&ENTRY, &[0; 4]), Err(AbortCode::TOO_LONG));
+        let (low, high) = (Bound::Unsigned(1), Bound::Unsigned(u64::MAX - 1));
+        let long = Entry { data_type: DataType::Unsigned64, low, high, ..ENTRY };
+        assert_eq!(check(&long, &[0xFF; 8]), Err(AbortCode::TOO_HIGH));
+        assert_eq!(check(&long, &[0; 8]), Err(AbortCode::TOO_LOW));
+        assert_eq!(initial(&long, node()), [1, 0, 0, 0, 0, 0, 0, 0]);
+    }
+
+    #[test]
+    fn few_bits() {
+        let limits = (Bound::Unlimited, Bound::Unlimited);
+        let flag = Entry { data_type: DataType::Boolean, low: limits.0, high: limits.1, ..ENTRY };
+        assert_eq!((check(&flag, &[1]), check(&flag, &[2])), (Ok(()), Err(AbortCode::TOO_HIGH)));
+        let three = Entry { data_type: DataType::Bits(3), ..flag };
+        assert_eq!((check(&three, &[7]), check(&three, &[8])), (Ok(()), Err(AbortCode::TOO_HIGH)));
+    }
+
+    #[test]
+    fn reals() {
+        let real = Entry { data_type: DataType::Real32, low: Bound::Real(0.5), high: Bound::Unlimited, ..ENTRY };
+        assert_eq!(check(&real, &f32::NAN.to_le_bytes()), Err(AbortCode::INVALID_VALUE));
+        assert_eq!(check(&real, &0.4_f32.to_le_bytes()), Err(AbortCode::TOO_LOW));
+        assert_eq!(check(&real, &0.5_f32.to_le_bytes()), Ok(()));
+        assert_eq!(initial(&real, node()), 0.5_f32.to_le_bytes());
+        let free = Entry { data_type: DataType::Real64, low: Bound::Unlimited, ..real };
+        assert_eq!(check(&free, &f64::NAN.to_le_bytes()), Ok(()));
+    }
+
+    #[test]
+    fn texts_and_times() {
+        let text = Entry { data_type: DataType::UnicodeString, ..ENTRY };
+        assert_eq!(check(&text, &[1]), Err(AbortCode::LENGTH));
+        assert_eq!(check(&text, &[]), Ok(()));
+        assert_eq!(initial(&text, node()), []);
+        let time = Entry { data_type: DataType::TimeOfDay, ..ENTRY };
+        assert_eq!(check(&time, &[0xFF; 6]), Ok(()));
+        assert_eq!(check(&time, &[0; 8]), Err(AbortCode::TOO_LONG));
+    }
+
+    #[test]
+    fn defaults() {
+        let cob_id = Entry { data_type: DataType::Unsigned32, initial: RawInitial::NodeId(0x8000_0200), ..ENTRY };
+        assert_eq!(initial(&cob_id, node()), 0x8000_0205_u32.to_le_bytes());
+        assert_eq!(initial(&Entry { high: Bound::Signed(-1), ..ENTRY }, node()), [0xFF; 3]);
+        assert_eq!(widened(DataType::Integer32, vec![0xFE, 0xFF]), [0xFE, 0xFF, 0xFF, 0xFF]);
+        assert_eq!(widened(DataType::Unsigned32, vec![0xFE, 0xFF]), [0xFE, 0xFF, 0, 0]);
+    }
+}

@@ -1,0 +1,531 @@
+//! Drivers against simulated devices: the bindings of two drives, on each of their buses.
+
+use std::future::Future;
+use std::pin::pin;
+use std::sync::Arc;
+use std::task::{Context, Poll, Wake};
+
+use lexibus::sim::{Device, Exception, Fault};
+use lexibus::table::{AccessRights, Bound, Entry};
+use lexibus::{
+    AbortCode, Bus, CanOpen, Client, CoE, DataType, Error, Flags, Modbus, NodeId, Object, Pdo, Register, RegisterTable,
+    SdoWrite, Step,
+};
+use lexibus_drives::demo_drive::types::{Command, Controlword, ModesOfOperation, State, Statusword};
+use lexibus_drives::demo_drive::{self, objects, pdo, DemoDrive};
+use lexibus_drives::vector_step::{self, VectorStep};
+
+const NODE: NodeId = match NodeId::new(5) {
+    Some(node) => node,
+    None => unreachable!(),
+};
+
+fn demo() -> Device {
+    Device::new(demo_drive::ENTRIES).with_node_id(NODE)
+}
+
+fn vector() -> Device {
+    Device::new(vector_step::ENTRIES).with_node_id(NODE)
+}
+
+fn abort<T>(code: AbortCode) -> Result<T, Error<Fault>> {
+    Err(Error::Abort(code))
+}
+
+fn exception<T>(exception: Exception) -> Result<T, Error<Fault>> {
+    Err(Error::Client(Fault::Exception(exception)))
+}
+
+/// Where the power drive goes from `state` by a controlword (CiA 402-2 6.2).
+fn after(state: State, controlword: u16) -> State {
+    let is = |command: Command| controlword & command.mask() == command.value();
+    match state {
+        State::Fault if is(Command::FaultReset) => State::SwitchOnDisabled,
+        State::Fault => State::Fault,
+        _ if is(Command::DisableVoltage) => State::SwitchOnDisabled,
+        State::SwitchOnDisabled | State::SwitchedOn if is(Command::Shutdown) => State::ReadyToSwitchOn,
+        State::ReadyToSwitchOn | State::OperationEnabled if is(Command::SwitchOn) => State::SwitchedOn,
+        State::SwitchedOn if is(Command::EnableOperation) => State::OperationEnabled,
+        other => other,
+    }
+}
+
+fn status(state: State) -> Statusword {
+    Statusword::from_raw(match state {
+        State::SwitchOnDisabled => 0x40,
+        State::ReadyToSwitchOn => 0x21,
+        State::SwitchedOn => 0x23,
+        State::OperationEnabled => 0x27,
+        _ => 0x08,
+    })
+}
+
+/// A drive whose statusword follows its controlword, and which is where it is told to be.
+fn moving_drive() -> Device {
+    let mut device = demo();
+    device.set(objects::STATUSWORD, status(State::SwitchOnDisabled)).unwrap();
+    device
+        .on_write(objects::CONTROLWORD, |device, controlword| {
+            let state = device.get(objects::STATUSWORD)?.state().ok_or(AbortCode::INTERNAL_INCOMPATIBLE)?;
+            device.set(objects::STATUSWORD, status(after(state, controlword.raw())))?;
+            if controlword.in_profile_position().new_set_point() {
+                let target = device.get(objects::TARGET_POSITION)?;
+                device.set(objects::POSITION_ACTUAL_VALUE, target)?;
+            }
+            Ok(())
+        })
+        .unwrap();
+    device
+}
+
+#[test]
+fn a_driver_enables_the_drive_and_moves_it() {
+    let mut drive = DemoDrive::new(moving_drive().into_client::<CanOpen>());
+    let mut commands = Vec::new();
+    loop {
+        let state = drive.statusword().read().unwrap().state().unwrap();
+        match state.toward(State::OperationEnabled) {
+            Step::Command(command) => {
+                commands.push(command);
+                drive.controlword().write(Controlword::new().with_command(command)).unwrap();
+            }
+            step => break assert_eq!(step, Step::Reached),
+        }
+    }
+    assert_eq!(commands, [Command::Shutdown, Command::SwitchOn, Command::EnableOperation]);
+    drive.modes_of_operation().write(ModesOfOperation::ProfilePosition).unwrap();
+    drive.target_position().write(-4711).unwrap();
+    drive.controlword().write(Controlword::from_raw(0x1F)).unwrap();
+    assert_eq!(drive.position_actual_value().read(), Ok(-4711));
+    assert_eq!(drive.client().device().get(objects::TARGET_POSITION), Ok(-4711));
+}
+
+#[test]
+fn process_data_go_both_ways() {
+    let mut device = moving_drive();
+    for write in pdo::RxPdo2::configuration(NODE).iter().chain(&pdo::TxPdo2::configuration(NODE)) {
+        write.send(&mut device.client::<CanOpen>()).unwrap();
+    }
+    device.set(objects::STATUSWORD, status(State::OperationEnabled)).unwrap();
+    // The target stands behind the controlword in the PDO, and is there already when the drive reacts to it.
+    let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0x1F), target_position: 250_000 };
+    assert_eq!(device.receive_pdo(pdo::RxPdo2::INDEX, &frame.pack()), Ok(()));
+    let answer = pdo::TxPdo2::unpack(&device.transmit_pdo(pdo::TxPdo2::INDEX).unwrap()).unwrap();
+    assert_eq!(answer.position_actual_value, 250_000);
+    assert_eq!(answer.statusword.state(), Some(State::OperationEnabled));
+    assert_eq!(device.receive_pdo(pdo::RxPdo2::INDEX, &[0; 5]), Err(AbortCode::TOO_SHORT));
+    // Beyond the limits of the target; the controlword is taken.
+    let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0), target_position: 1_000_001 };
+    assert_eq!(device.receive_pdo(pdo::RxPdo2::INDEX, &frame.pack()), Err(AbortCode::TOO_HIGH));
+    assert_eq!(device.get(objects::TARGET_POSITION), Ok(250_000));
+    assert_eq!(device.get(objects::CONTROLWORD), Ok(Controlword::from_raw(0)));
+    assert_eq!(device.transmit_pdo(0x1A07), Err(AbortCode::NO_OBJECT));
+}
+
+#[test]
+fn a_mapping_of_ones_own() {
+    let mut device = demo();
+    let mut client = device.client::<CanOpen>();
+    let mut send = |writes: &[SdoWrite]| writes.iter().try_for_each(|write| write.send(&mut client));
+    let unused = SdoWrite::new_u32(0x1800, 1, 0x8000_0185);
+    let clear = SdoWrite::new_u8(0x1A00, 0, 0);
+    let word = |sub, word| SdoWrite::new_u32(0x1A00, sub, word);
+    // While the PDO is used, and while there are mapped objects, nothing changes.
+    assert_eq!(send(&[clear]), abort(AbortCode::INVALID_VALUE));
+    assert_eq!(send(&[unused, word(1, 0x6064_0020)]), abort(AbortCode::INVALID_VALUE));
+    assert_eq!(send(&[clear, word(1, 0x6064_0020)]), Ok(()));
+    assert_eq!(send(&[word(1, 0x6083_0020)]), abort(AbortCode::NOT_MAPPABLE));
+    assert_eq!(send(&[word(1, 0x6064_0010)]), abort(AbortCode::NOT_MAPPABLE));
+    assert_eq!(send(&[word(1, 0x5000_0020)]), abort(AbortCode::NO_OBJECT));
+    assert_eq!(send(&[word(1, 0x6064_0120)]), abort(AbortCode::NO_SUB_INDEX));
+    assert_eq!(send(&[SdoWrite::new_u8(0x1A00, 0, 2)]), abort(AbortCode::INVALID_VALUE));
+    assert_eq!(send(&[word(1, 0), SdoWrite::new_u8(0x1A00, 0, 1)]), abort(AbortCode::INVALID_VALUE));
+    // Identifiers of other services, and another one while the PDO is used.
+    assert_eq!(send(&[SdoWrite::new_u32(0x1800, 1, 0x605)]), abort(AbortCode::INVALID_VALUE));
+    assert_eq!(send(&[word(1, 0x6064_0020), SdoWrite::new_u8(0x1A00, 0, 1)]), Ok(()));
+    assert_eq!(send(&[SdoWrite::new_u32(0x1800, 1, 0x1B5)]), Ok(()));
+    assert_eq!(send(&[SdoWrite::new_u32(0x1800, 1, 0x1B6)]), abort(AbortCode::INVALID_VALUE));
+    assert_eq!(send(&[SdoWrite::new_u8(0x1800, 2, 245)]), abort(AbortCode::INVALID_VALUE));
+    device.set(objects::POSITION_ACTUAL_VALUE, -2).unwrap();
+    assert_eq!(device.transmit_pdo(0x1A00), Ok(vec![0xFE, 0xFF, 0xFF, 0xFF]));
+}
+
+#[test]
+fn a_frame_has_64_bits_on_can_only() {
+    let entries: Vec<Entry> = vector_step::ENTRIES.to_vec();
+    let mapping = entries.iter().find(|entry| entry.object == Some(Object::new(0x1600, 3)));
+    assert!(mapping.is_some(), "the first mapping has three entries at least");
+    let clear = [SdoWrite::new_u32(0x1400, 1, 0x8000_0205), SdoWrite::new_u8(0x1600, 0, 0)];
+    let map: Vec<SdoWrite> = (1..=3).map(|sub| SdoWrite::new_u32(0x1600, sub, 0x607A_0020)).collect();
+    let count = SdoWrite::new_u8(0x1600, 0, 3);
+    let mut device = vector();
+    let mut client = device.client::<CanOpen>();
+    clear.iter().chain(&map).try_for_each(|write| write.send(&mut client)).unwrap();
+    assert_eq!(count.send(&mut client), abort(AbortCode::PDO_LENGTH));
+    // EtherCAT has no COB-IDs, and says in its own way that sub-index 0 comes first.
+    let mut device = vector();
+    let mut client = device.client::<CoE>();
+    assert_eq!(map[0].send(&mut client), abort(AbortCode(0x0601_0003)));
+    clear[1..].iter().chain(&map).try_for_each(|write| write.send(&mut client)).unwrap();
+    assert_eq!(count.send(&mut client), Ok(()));
+    assert_eq!(device.transmit_pdo(0x1600).map(|data| data.len()), Ok(12));
+}
+
+/// A value that the entry accepts, other than the present one where there is one.
+fn another(entry: &Entry) -> Vec<u8> {
+    let Some(bits) = entry.data_type.bits() else { return b"ab".to_vec() };
+    let bytes = match (entry.high, entry.low) {
+        (Bound::Signed(value), _) | (Bound::Unlimited, Bound::Signed(value)) => value.to_le_bytes(),
+        (Bound::Unsigned(value), _) | (Bound::Unlimited, Bound::Unsigned(value)) => value.to_le_bytes(),
+        _ => [1, 0, 0, 0, 0, 0, 0, 0],
+    };
+    bytes[..bits.div_ceil(8) as usize].to_vec()
+}
+
+/// Objects to which a write is a command, or that take other values at certain times only.
+fn is_special(object: Object) -> bool {
+    matches!(object.index, 0x1003 | 0x1010 | 0x1011 | 0x1400..=0x1BFF)
+}
+
+fn objects_round_trip<B: Bus<Address = Object>>(mut device: Device, entries: &[Entry])
+where
+    for<'d> lexibus::sim::Connection<B, &'d mut Device>: Client<Bus = B, Error = Fault>,
+    B: 'static,
+{
+    let mut written = 0;
+    for entry in entries {
+        let Some(object) = entry.object else { continue };
+        let held = device.bytes(object).unwrap().to_vec();
+        let (value, mut buffer) = (another(entry), [0; 64]);
+        let mut client = device.client::<B>();
+        match client.read(object, &mut buffer) {
+            Ok(length) => assert_eq!(buffer[..length], held, "{object}"),
+            Err(error) => {
+                assert_eq!((entry.access, error), (AccessRights::WriteOnly, Error::Abort(AbortCode::WRITE_ONLY)));
+            }
+        }
+        match client.write(object, &value) {
+            Ok(()) => {
+                written += 1;
+                assert_eq!(device.bytes(object), Ok(value.as_slice()), "{object}");
+            }
+            Err(error) if is_special(object) => assert!(matches!(error, Error::Abort(_))),
+            Err(error) => {
+                assert!(matches!(entry.access, AccessRights::ReadOnly | AccessRights::Constant), "{object}");
+                assert_eq!(error, Error::Abort(AbortCode::READ_ONLY), "{object}");
+            }
+        }
+    }
+    assert!(written > 5);
+}
+
+#[test]
+fn every_object_is_read_and_written() {
+    objects_round_trip::<CanOpen>(demo(), demo_drive::ENTRIES);
+    objects_round_trip::<CanOpen>(vector(), vector_step::ENTRIES);
+    objects_round_trip::<CoE>(vector(), vector_step::ENTRIES);
+}
+
+#[test]
+fn every_register_is_read_and_written() {
+    let mut device = vector();
+    let mut written = 0;
+    for entry in vector_step::ENTRIES {
+        // Programs take several requests.
+        let Some(register) = entry.register.filter(|register| register.count < 100) else { continue };
+        let length = entry.data_type.bits().map_or(2 * usize::from(register.count), |bits| bits.div_ceil(8) as usize);
+        let (mut buffer, value) = (vec![0; length], another(entry));
+        let mut client = device.client::<Modbus>();
+        match client.write(register, &value) {
+            Ok(()) => written += 1,
+            Err(error) => {
+                assert!(matches!(entry.access, AccessRights::ReadOnly | AccessRights::Constant), "{entry:?}");
+                assert_eq!(error, Error::Client(Fault::Exception(Exception::IllegalDataAddress)), "{entry:?}");
+                continue;
+            }
+        }
+        if entry.access == AccessRights::WriteOnly {
+            assert_eq!(client.read(register, &mut buffer), exception(Exception::IllegalDataAddress));
+            continue;
+        }
+        assert_eq!(client.read(register, &mut buffer), Ok(length));
+        assert_eq!(buffer[..value.len()], value, "{entry:?}");
+        // The object is the same value.
+        if let Some(object) = entry.object {
+            assert_eq!(device.bytes(object).map(|bytes| bytes[0]), Ok(value[0]), "{entry:?}");
+        }
+    }
+    assert!(written > 200, "{written}");
+}
+
+#[test]
+fn what_an_object_refuses() {
+    let mut device = demo();
+    let mut client = device.client::<CanOpen>();
+    let mut write = |index, sub_index, data: &[u8]| client.write(Object::new(index, sub_index), data);
+    assert_eq!(write(0x5000, 0, &[0]), abort(AbortCode::NO_OBJECT));
+    assert_eq!(write(0x6040, 1, &[0]), abort(AbortCode::NO_SUB_INDEX));
+    assert_eq!(write(0x6041, 0, &[0, 0]), abort(AbortCode::READ_ONLY));
+    assert_eq!(write(0x1008, 0, b"x"), abort(AbortCode::READ_ONLY));
+    assert_eq!(write(0x6040, 0, &[0]), abort(AbortCode::TOO_SHORT));
+    assert_eq!(write(0x6040, 0, &[0; 3]), abort(AbortCode::TOO_LONG));
+    assert_eq!(write(0x607A, 0, &1_000_001_i32.to_le_bytes()), abort(AbortCode::TOO_HIGH));
+    assert_eq!(write(0x607A, 0, &(-1_000_001_i32).to_le_bytes()), abort(AbortCode::TOO_LOW));
+    assert_eq!(write(0x6083, 0, &[0; 4]), abort(AbortCode::TOO_LOW));
+    let mut buffer = [0; 64];
+    assert_eq!(client.read(Object::new(0x2002, 0), &mut buffer), abort(AbortCode::WRITE_ONLY));
+    assert_eq!(client.read(Object::new(0x1018, 9), &mut buffer), abort(AbortCode::NO_SUB_INDEX));
+}
+
+#[test]
+fn values_of_every_kind() {
+    let mut drive = DemoDrive::new(demo().into_client::<CanOpen>());
+    let mut buffer = [0; 64];
+    assert_eq!(drive.manufacturer_device_name().read_into(&mut buffer), Ok("Demo Drive"));
+    drive.application_name().write("a longer name of this axis").unwrap();
+    assert_eq!(drive.application_name().read_into(&mut buffer), Ok("a longer name of this axis"));
+    drive.firmware_image().write(&[7; 300]).unwrap();
+    let device = drive.client().device();
+    assert_eq!(device.bytes(objects::FIRMWARE_IMAGE), Ok([7; 300].as_slice()));
+    device.set(objects::ENCODER_COUNTS, -3).unwrap();
+    device.set(objects::MOTOR_TEMPERATURE, 36.5).unwrap();
+    device.set(objects::POSITION_ACTUAL_VALUE, i32::MIN).unwrap();
+    assert_eq!(drive.encoder_counts().read(), Ok(-3));
+    assert_eq!(drive.motor_temperature().read(), Ok(36.5));
+    assert_eq!(drive.position_actual_value().read(), Ok(i32::MIN));
+    assert_eq!(drive.cob_id_emcy().read().map(|own| own.raw()), Ok(0x85));
+    // Bindings of another device.
+    let device = drive.client().device();
+    assert_eq!(device.get(vector_step::objects::RPOSTARG), Err(AbortCode::NO_OBJECT));
+    assert_eq!(device.set_bytes(objects::ENCODER_COUNTS, &[0; 4]), Err(AbortCode::TOO_LONG));
+}
+
+#[test]
+fn reactions_refuse_and_see_everything() {
+    let mut device = demo();
+    let seen = Arc::new(std::sync::Mutex::new(Vec::new()));
+    let list = seen.clone();
+    device.on_any_write(move |_, entry| {
+        list.lock().unwrap().push(entry.name);
+        Ok(())
+    });
+    let allowed = |mode: ModesOfOperation| matches!(mode.raw(), 1 | 3 | 6);
+    device
+        .on_write(objects::MODES_OF_OPERATION, move |device, mode| {
+            if !allowed(mode) {
+                return Err(AbortCode::INVALID_VALUE);
+            }
+            device.set(objects::MODES_OF_OPERATION_DISPLAY, mode)
+        })
+        .unwrap();
+    let mut drive = DemoDrive::new(device.client::<CanOpen>());
+    drive.modes_of_operation().write(ModesOfOperation::Homing).unwrap();
+    let refused = drive.modes_of_operation().write(ModesOfOperation::from_raw(7));
+    assert_eq!(refused, abort(AbortCode::INVALID_VALUE));
+    assert_eq!(drive.modes_of_operation().read(), Ok(ModesOfOperation::Homing));
+    assert_eq!(drive.modes_of_operation_display().read(), Ok(ModesOfOperation::Homing));
+    assert_eq!(*seen.lock().unwrap(), ["Modes of operation"; 2]);
+    let missing = device.on_write(vector_step::objects::RPOSTARG, |_, _| Ok(()));
+    assert_eq!(missing, Err(AbortCode::NO_OBJECT));
+}
+
+#[test]
+fn faults_of_ones_choosing() {
+    let mut device = demo();
+    device.fail_next(AbortCode::HARDWARE);
+    device.fail_next(Fault::Bus);
+    let mut drive = DemoDrive::new(device.into_client::<CanOpen>());
+    assert_eq!(drive.statusword().read().map(|_| ()), abort(AbortCode::HARDWARE));
+    assert_eq!(drive.controlword().write(Controlword::new()), Err(Error::Client(Fault::Bus)));
+    assert!(drive.statusword().read().is_ok());
+    let mut device = vector();
+    device.fail_next(Exception::ServerDeviceFailure);
+    let mut drive = VectorStep::new(device.client::<Modbus>());
+    assert_eq!(drive.rpostarg().read(), exception(Exception::ServerDeviceFailure));
+}
+
+#[test]
+fn parameters_are_stored() {
+    let mut drive = DemoDrive::new(demo().into_client::<CanOpen>());
+    drive.profile_velocity().write(7).unwrap();
+    assert_eq!(drive.client().write(Object::new(0x1010, 1), b"SAVE"), abort(AbortCode::CANNOT_STORE));
+    drive.client().write(Object::new(0x1010, 1), b"save").unwrap();
+    drive.profile_velocity().write(8).unwrap();
+    drive.profile_acceleration().write(9).unwrap();
+    drive.client().device().power_cycle();
+    assert_eq!(drive.profile_velocity().read(), Ok(7));
+    assert_eq!(drive.profile_acceleration().read(), Ok(10_000));
+    // The signature isn't kept: the object tells what the device can store.
+    assert_eq!(drive.client().device().bytes(Object::new(0x1010, 1)), Ok([1, 0, 0, 0].as_slice()));
+}
+
+#[test]
+fn one_value_on_three_buses() {
+    let mut device = vector();
+    VectorStep::new(device.client::<Modbus>()).rpostarg().write(-100_000).unwrap();
+    assert_eq!(VectorStep::new(device.client::<CanOpen>()).rpostarg().read(), Ok(-100_000));
+    assert_eq!(VectorStep::new(device.client::<CoE>()).rpostarg().read(), Ok(-100_000));
+    VectorStep::new(device.client::<CoE>()).rpostarg().write(7).unwrap();
+    assert_eq!(device.read_words(RegisterTable::Holding, 8, 2), Ok(vec![7, 0]));
+    device.set(vector_step::objects::RPOSTARG, -1).unwrap();
+    assert_eq!(device.read_words(RegisterTable::Holding, 8, 2), Ok(vec![0xFFFF; 2]));
+    let reacted = device.on_write(vector_step::objects::RPOSTARG, |_, _| Err(AbortCode::DEVICE_STATE));
+    assert_eq!(reacted, Ok(()));
+    let refused = device.write_words(RegisterTable::Holding, 8, &[1, 2]);
+    assert_eq!(refused, Err(Exception::ServerDeviceFailure));
+    assert_eq!(device.get(vector_step::objects::RPOSTARG), Ok(-1));
+    assert_eq!(device.read_words(RegisterTable::Holding, 8, 2), Ok(vec![0xFFFF; 2]));
+}
+
+#[test]
+fn blocks_of_registers() {
+    let mut device = vector();
+    let holding = |entry: &&Entry| entry.register.is_some_and(|own| own.table == RegisterTable::Holding);
+    let registers: Vec<Register> = vector_step::ENTRIES.iter().filter(holding).filter_map(|own| own.register).collect();
+    let covered = |address: u16| registers.iter().any(|own| (own.address..own.address + own.count).contains(&address));
+    let hole = (1..).find(|address| covered(address - 1) && !covered(*address)).unwrap();
+    let first = (0..).find(|first| (*first..first + 20).all(covered)).unwrap();
+    let read = |device: &mut Device, address, count| device.read_words(RegisterTable::Holding, address, count);
+    assert_eq!(read(&mut device, first, 20).map(|words| words.len()), Ok(20));
+    assert_eq!(read(&mut device, hole - 1, 1).map(|words| words.len()), Ok(1));
+    assert_eq!(read(&mut device, hole - 1, 2), Err(Exception::IllegalDataAddress));
+    assert_eq!(read(&mut device, u16::MAX, 2), Err(Exception::IllegalDataAddress));
+    assert_eq!(read(&mut device, first, 0), Err(Exception::IllegalDataValue));
+    assert_eq!(read(&mut device, first, 126), Err(Exception::IllegalDataValue));
+    assert_eq!(device.read_words(RegisterTable::Input, 0, 1), Err(Exception::IllegalDataAddress));
+    assert_eq!(device.read_words(RegisterTable::Coil, 0, 1), Err(Exception::IllegalFunction));
+    assert_eq!(device.write_words(RegisterTable::Input, 0, &[0]), Err(Exception::IllegalFunction));
+    assert_eq!(device.write_words(RegisterTable::Holding, hole, &[0]), Err(Exception::IllegalDataAddress));
+    let mut device = device.with_modbus_limits(20, 2);
+    assert_eq!(read(&mut device, first, 21), Err(Exception::IllegalDataValue));
+    assert_eq!(device.write_words(RegisterTable::Holding, 8, &[0; 3]), Err(Exception::IllegalDataValue));
+}
+
+#[test]
+fn each_axis_has_its_objects() {
+    let mut drive = VectorStep::new(vector().with_axes(&vector_step::AXES).into_client::<CanOpen>());
+    drive.axis(2).target_position().write(200).unwrap();
+    drive.target_position().write(100).unwrap();
+    drive.axis(3).rpostarg().write(3).unwrap();
+    let device = drive.client().device();
+    assert_eq!(device.bytes(Object::new(0x687A, 0)).map(|bytes| bytes[0]), Ok(200));
+    assert_eq!(device.bytes(Object::new(0x2008, 3)), Ok([3, 0, 0, 0].as_slice()));
+    assert_eq!(device.axis(2).get(vector_step::objects::TARGET_POSITION), Ok(200));
+    assert_eq!(device.get(vector_step::objects::TARGET_POSITION), Ok(100));
+    assert_eq!(device.axis(4).get(vector_step::objects::TARGET_POSITION), Err(AbortCode::NO_OBJECT));
+    let statusword = vector_step::types::Statusword::from_raw(0x37);
+    device
+        .axis(2)
+        .on_write(vector_step::objects::CONTROLWORD, move |device, _| {
+            device.axis(2).set(vector_step::objects::STATUSWORD, statusword)
+        })
+        .unwrap();
+    drive.controlword().write(vector_step::types::Controlword::from_raw(15)).unwrap();
+    assert_ne!(drive.axis(2).statusword().read(), Ok(statusword));
+    drive.axis(2).controlword().write(vector_step::types::Controlword::from_raw(15)).unwrap();
+    assert_eq!(drive.axis(2).statusword().read(), Ok(statusword));
+}
+
+#[test]
+fn errors_are_listed() {
+    let mut device = demo();
+    device.emit_emergency(0x8110, 0x11, [1, 2, 3, 4, 5]);
+    device.emit_emergency(0x2310, 0x03, [0; 5]);
+    let data: Vec<[u8; 8]> = device.take_emergencies().map(|own| own.data()).collect();
+    assert_eq!(data, [[0x10, 0x81, 0x11, 1, 2, 3, 4, 5], [0x10, 0x23, 0x03, 0, 0, 0, 0, 0]]);
+    let mut drive = DemoDrive::new(device.into_client::<CanOpen>());
+    assert_eq!(drive.error_register().read().map(|own| own.raw()), Ok(3));
+    let mut list = drive.pre_defined_error_field();
+    assert_eq!(list.pre_defined_error_field1().read().map(|own| own.raw()), Ok(0x2310));
+    assert_eq!(list.pre_defined_error_field2().read().map(|own| own.raw()), Ok(0x0201_8110));
+}
+
+#[test]
+fn a_device_that_is_only_on_modbus() {
+    const fn entry(register: Register, data_type: DataType, access: AccessRights) -> Entry {
+        let initial = lexibus::RawInitial::Unknown;
+        let (low, high) = (Bound::Unlimited, Bound::Unlimited);
+        Entry {
+            object: None,
+            register: Some(register),
+            name: "",
+            data_type,
+            access,
+            flags: Flags::NONE,
+            initial,
+            low,
+            high,
+            unit: "",
+        }
+    }
+    const STATUS: Register = Register::holding(5);
+    const FAULT: Register = Register::holding(5).part(3, 1);
+    const READY: Register = Register::holding(5).part(0, 2);
+    const SPEED: Register = Register::high_first(6, 2);
+    const OUTPUT: Register = Register::new(RegisterTable::Coil, 0, 1);
+    const LIMIT: Register = Register::new(RegisterTable::DiscreteInput, 9, 1);
+    let mut speed = entry(SPEED, DataType::Integer32, AccessRights::ReadWrite);
+    speed.high = Bound::Signed(70_000);
+    let entries = [
+        entry(STATUS, DataType::Unsigned16, AccessRights::ReadOnly),
+        entry(FAULT, DataType::Boolean, AccessRights::ReadWrite),
+        entry(READY, DataType::Bits(2), AccessRights::ReadOnly),
+        speed,
+        entry(OUTPUT, DataType::Boolean, AccessRights::ReadWrite),
+        entry(LIMIT, DataType::Boolean, AccessRights::ReadOnly),
+    ];
+    let mut device = Device::new(&entries);
+    // Names of the same bits agree.
+    device.set_bytes(STATUS, &[0x0B, 0x80]).unwrap();
+    assert_eq!((device.bytes(FAULT), device.bytes(READY)), (Ok([1].as_slice()), Ok([3].as_slice())));
+    device.set_bytes(READY, &[1]).unwrap();
+    assert_eq!(device.bytes(STATUS), Ok([0x09, 0x80].as_slice()));
+    // Of a register, only the bits change that can be written.
+    device.write_words(RegisterTable::Holding, 5, &[0]).unwrap();
+    assert_eq!(device.read_words(RegisterTable::Holding, 5, 1), Ok(vec![0x8001]));
+    let mut client = device.client::<Modbus>();
+    client.write(FAULT, &[1]).unwrap();
+    assert_eq!(client.write(STATUS, &[0, 0]), Ok(()));
+    client.write(SPEED, &70_000_i32.to_le_bytes()).unwrap();
+    assert_eq!(client.write(SPEED, &70_001_i32.to_le_bytes()), exception(Exception::IllegalDataValue));
+    assert_eq!(device.read_words(RegisterTable::Holding, 5, 3), Ok(vec![0x8001, 1, 0x1170]));
+    // Half of a value is what it is.
+    device.write_words(RegisterTable::Holding, 7, &[9]).unwrap();
+    assert_eq!(device.bytes(SPEED), Ok(0x0001_0009_i32.to_le_bytes().as_slice()));
+    let mut client = device.client::<Modbus>();
+    client.write(OUTPUT, &[1]).unwrap();
+    assert_eq!(client.write(LIMIT, &[1]), exception(Exception::IllegalFunction));
+    assert_eq!(device.read_bits(RegisterTable::Coil, 0, 1), Ok(vec![true]));
+    assert_eq!(device.read_bits(RegisterTable::Coil, 0, 2), Err(Exception::IllegalDataAddress));
+    device.write_bits(RegisterTable::Coil, 0, &[false]).unwrap();
+    device.set_bytes(LIMIT, &[1]).unwrap();
+    assert_eq!(device.read_bits(RegisterTable::DiscreteInput, 9, 1), Ok(vec![true]));
+    let mut bit = [7];
+    assert_eq!(device.client::<Modbus>().read(OUTPUT, &mut bit), Ok(1));
+    assert_eq!(bit, [0]);
+}
+
+struct Silent;
+
+impl Wake for Silent {
+    fn wake(self: Arc<Self>) {}
+}
+
+fn now<F: Future>(future: F) -> F::Output {
+    match pin!(future).poll(&mut Context::from_waker(&Arc::new(Silent).into())) {
+        Poll::Ready(output) => output,
+        Poll::Pending => panic!("the future waits"),
+    }
+}
+
+#[test]
+fn without_blocking() {
+    let mut drive = VectorStep::new(vector().into_client::<Modbus>());
+    let read = now(async {
+        drive.rpostarg().write_async(5).await?;
+        drive.rpostarg().read_async().await
+    });
+    assert_eq!(read, Ok(5));
+    let mut drive = DemoDrive::new(demo().into_client::<CanOpen>());
+    assert_eq!(now(drive.profile_velocity().read_async()), Ok(1000));
+}
