@@ -1,1 +1,109 @@
-fn main() {}
+//! A drive on CANopen, from power-on to a move: with SDO transfers first, and then with PDOs.
+//!
+//!     cargo run --example canopen --features std,canopen
+//!
+//! The node is simulated, frame by frame. With a real one, `simulated_node` becomes a CAN interface, and the rest stays:
+//! `socketcan::CanSocket::open("can0")?`, for instance.
+
+use std::error::Error;
+use std::time::Duration;
+
+use lexibus::clients::canopen::{CanFrame, CanPort, Sdo};
+use lexibus::sim::{CanNode, Device};
+use lexibus::{AbortCode, NodeId, Step};
+use lexibus_drives::demo_drive::types::{Command, Controlword, ModesOfOperation, State, Statusword};
+use lexibus_drives::demo_drive::{objects, pdo, DemoDrive, ENTRIES};
+
+/// How long anything may take.
+const PATIENCE: Duration = Duration::from_millis(500);
+const NMT: u16 = 0x000;
+const SYNC: u16 = 0x080;
+
+type Drive = DemoDrive<Sdo<CanNode>>;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let id = NodeId::new(5).ok_or("a node-ID is 1 to 127")?;
+    let mut drive = DemoDrive::new(Sdo::new(simulated_node(id)?, id));
+    if drive.client().port().receive(0x705, PATIENCE)?.is_some() {
+        println!("node {id} has booted");
+    }
+    let mut text = [0; 32];
+    println!("it is a {:?}", drive.manufacturer_device_name().read_into(&mut text)?);
+
+    drive.modes_of_operation().write(ModesOfOperation::ProfilePosition)?;
+    drive.profile_velocity().write(20_000)?;
+    match drive.profile_velocity().write(600_000) {
+        Err(error) => println!("600000 isn't sent: {error}"),
+        Ok(()) => return Err("the range was not checked".into()),
+    }
+    enable(&mut drive)?;
+    move_to(&mut drive, id, 100_000)
+}
+
+/// Takes the drive step by step to the state in which it moves.
+fn enable(drive: &mut Drive) -> Result<(), Box<dyn Error>> {
+    loop {
+        let state = drive.statusword().read()?.state().ok_or("the statusword tells no state")?;
+        println!("{state:?}");
+        match state.toward(State::OperationEnabled) {
+            Step::Reached => return Ok(()),
+            Step::Command(command) => drive.controlword().write(Controlword::new().with_command(command))?,
+            Step::Wait => {}
+            Step::Unreachable => return Err("no command leads to operation".into()),
+        }
+    }
+}
+
+/// Moves with process data: targets go out in RPDO 2, and positions come back in TPDO 2, both on SYNC.
+fn move_to(drive: &mut Drive, id: NodeId, target: i32) -> Result<(), Box<dyn Error>> {
+    for write in pdo::RxPdo2::configuration(id).iter().chain(&pdo::TxPdo2::configuration(id)) {
+        write.send(drive.client())?;
+    }
+    let bus = drive.client().port();
+    send(bus, NMT, &[1, id.get()])?;
+    let enabled = Controlword::new().with_command(Command::EnableOperation);
+    let new_set_point = enabled.in_profile_position().with_new_set_point(true).controlword();
+    let (out, back) = (pdo::RxPdo2::COB_ID.resolve(id) as u16, pdo::TxPdo2::COB_ID.resolve(id) as u16);
+    for cycle in 0..100 {
+        let controlword = if cycle == 0 { new_set_point } else { enabled };
+        send(bus, out, &pdo::RxPdo2 { controlword, target_position: target }.pack())?;
+        send(bus, SYNC, &[])?;
+        let frame = bus.receive(back, PATIENCE)?.ok_or("no PDO came back")?;
+        let input = pdo::TxPdo2::unpack(frame.data())?;
+        println!("cycle {cycle}: at {}", input.position_actual_value);
+        if input.statusword.target_reached() {
+            println!("the target is reached");
+            return Ok(());
+        }
+    }
+    Err("the drive doesn't get there".into())
+}
+
+fn send(bus: &mut CanNode, id: u16, data: &[u8]) -> Result<(), Box<dyn Error>> {
+    let frame = CanFrame::new(id, data).ok_or("no frame of CAN")?;
+    bus.send(&frame, PATIENCE)?.then_some(()).ok_or_else(|| "the bus is busy".into())
+}
+
+/// A drive that follows its controlword, and goes a bit of its way with each of them.
+fn simulated_node(id: NodeId) -> Result<CanNode, Box<dyn Error>> {
+    let mut device = Device::new(ENTRIES).with_node_id(id);
+    device.set(objects::STATUSWORD, Statusword::from_raw(0x40))?;
+    device.on_write(objects::CONTROLWORD, |device, controlword| {
+        let state = device.get(objects::STATUSWORD)?.state().ok_or(AbortCode::INTERNAL_INCOMPATIBLE)?;
+        let is = |command: Command| controlword.raw() & command.mask() == command.value();
+        let mut status = Statusword::from_raw(match state {
+            State::SwitchOnDisabled if is(Command::Shutdown) => 0x21,
+            State::ReadyToSwitchOn if is(Command::SwitchOn) => 0x23,
+            State::SwitchedOn if is(Command::EnableOperation) => 0x27,
+            _ => device.get(objects::STATUSWORD)?.raw(),
+        });
+        if state == State::OperationEnabled {
+            let (target, from) = (device.get(objects::TARGET_POSITION)?, device.get(objects::POSITION_ACTUAL_VALUE)?);
+            let to = from + (target - from).clamp(-30_000, 30_000);
+            device.set(objects::POSITION_ACTUAL_VALUE, to)?;
+            status = status.with_target_reached(to == target);
+        }
+        device.set(objects::STATUSWORD, status)
+    })?;
+    Ok(CanNode::new(device))
+}

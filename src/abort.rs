@@ -1,5 +1,6 @@
 //! Abort codes of SDO transfers.
 
+use core::error;
 use core::fmt;
 
 /// Why a device refused an SDO transfer (CiA 301 7.2.4.3.17). Any number is an abort code; those of the standard have texts.
@@ -72,6 +73,8 @@ impl fmt::Display for AbortCode {
         write!(f, "{:#010X}: {}", self.0, self.text().unwrap_or("unknown abort code"))
     }
 }
+
+impl error::Error for AbortCode {}
 
 #[cfg(test)]
 mod tests {

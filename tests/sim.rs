@@ -529,3 +529,79 @@ fn without_blocking() {
     let mut drive = DemoDrive::new(demo().into_client::<CanOpen>());
     assert_eq!(now(drive.profile_velocity().read_async()), Ok(1000));
 }
+
+/// The same drivers over the real SDO client, frame by frame.
+#[cfg(feature = "canopen")]
+mod frames {
+    use std::time::Duration;
+
+    use lexibus::clients::canopen::{CanFrame, CanPort, Sdo};
+    use lexibus::sim::{CanNode, NodeState};
+
+    use super::*;
+
+    const PATIENCE: Duration = Duration::from_millis(100);
+
+    fn send(node: &mut CanNode, id: u16, data: &[u8]) {
+        assert_eq!(node.send(&CanFrame::new(id, data).unwrap(), PATIENCE), Ok(true));
+    }
+
+    #[test]
+    fn a_driver_over_sdo_and_pdo() {
+        let mut drive = DemoDrive::new(Sdo::new(CanNode::new(moving_drive()), NODE));
+        while let Step::Command(command) =
+            drive.statusword().read().unwrap().state().unwrap().toward(State::OperationEnabled)
+        {
+            drive.controlword().write(Controlword::new().with_command(command)).unwrap();
+        }
+        for write in pdo::RxPdo2::configuration(NODE).iter().chain(&pdo::TxPdo2::configuration(NODE)) {
+            write.send(drive.client()).unwrap();
+        }
+        let node = drive.client().port();
+        send(node, 0, &[1, 5]);
+        assert_eq!(node.state(), NodeState::Operational);
+        // TPDO 1 is event-driven, and sent when the node starts.
+        let first = node.receive(0x185, PATIENCE).unwrap().unwrap();
+        assert_eq!(pdo::TxPdo1::unpack(first.data()).unwrap().statusword.state(), Some(State::OperationEnabled));
+        let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0x1F), target_position: -70_000 };
+        send(node, 0x305, &frame.pack());
+        send(node, 0x80, &[]);
+        let answer = node.receive(0x285, PATIENCE).unwrap().unwrap();
+        assert_eq!(pdo::TxPdo2::unpack(answer.data()).unwrap().position_actual_value, -70_000);
+        assert_eq!(drive.target_position().read(), Ok(-70_000));
+    }
+
+    #[test]
+    fn every_kind_of_value_and_abort() {
+        let mut drive = DemoDrive::new(Sdo::new(CanNode::new(demo()), NODE));
+        let mut buffer = [0; 64];
+        assert_eq!(drive.manufacturer_device_name().read_into(&mut buffer), Ok("Demo Drive"));
+        drive.application_name().write("a longer name of this axis").unwrap();
+        assert_eq!(drive.application_name().read_into(&mut buffer), Ok("a longer name of this axis"));
+        drive.firmware_image().write(&[7; 300]).unwrap();
+        drive.client().port().device().set(objects::ENCODER_COUNTS, -3).unwrap();
+        assert_eq!(drive.encoder_counts().read(), Ok(-3));
+        let mut write = |index, sub, data: &[u8]| drive.client().write(Object::new(index, sub), data);
+        let codes = [
+            (write(0x5000, 0, &[0]), AbortCode::NO_OBJECT),
+            (write(0x6040, 1, &[0]), AbortCode::NO_SUB_INDEX),
+            (write(0x6041, 0, &[0, 0]), AbortCode::READ_ONLY),
+            (write(0x6040, 0, &[0; 5]), AbortCode::TOO_LONG),
+            (write(0x607A, 0, &[0xFF, 0xFF, 0xFF, 0x7F]), AbortCode::TOO_HIGH),
+            (write(0x1A00, 0, &[0]), AbortCode::INVALID_VALUE),
+            (drive.client().read(Object::new(0x2002, 0), &mut buffer).map(|_| ()), AbortCode::WRITE_ONLY),
+        ];
+        for (result, code) in codes {
+            assert_eq!(result, Err(Error::Abort(code)));
+        }
+    }
+
+    #[test]
+    fn an_axis_of_three() {
+        let device = vector().with_axes(&vector_step::AXES);
+        let mut drive = VectorStep::new(Sdo::new(CanNode::new(device), NODE));
+        drive.axis(3).target_position().write(300).unwrap();
+        assert_eq!(drive.axis(3).target_position().read(), Ok(300));
+        assert_eq!(drive.client().port().device().bytes(Object::new(0x707A, 0)).map(|bytes| bytes[1]), Ok(1));
+    }
+}

@@ -38,7 +38,7 @@ impl Device {
         self.emergencies.push_back(Emergency { code, register, vendor });
     }
 
-    /// The emergency messages that nobody took yet. A [`CanNode`](super) sends them by itself.
+    /// The emergency messages that nobody took yet. A node on a simulated CAN bus sends them by itself.
     pub fn take_emergencies(&mut self) -> impl Iterator<Item = Emergency> + '_ {
         self.emergencies.drain(..)
     }

@@ -38,11 +38,15 @@
 //! - Process data: [`Device::receive_pdo`] and [`Device::transmit_pdo`] by the present mapping, which a master changes as
 //!   that of a real device; [`Device::receive_image`] and [`Device::transmit_image`] of EtherCAT.
 //! - Modbus: [`Device::read_words`] and its like answer requests, so that a server can stand in front of it.
+//! - CAN: with the feature `canopen`, a `CanNode` is a device as a node on a bus, frame by frame, on which the real clients of
+//!   CANopen run.
 //! - Further axes: [`Device::with_axes`].
 //! - Parameters are stored (0x1010) and restored (0x1011) as far as the device has these objects.
 //!
 //! What a table doesn't have, a simulated device doesn't know: the length of texts, values of enumerations, gaps in a range.
 
+#[cfg(feature = "canopen")]
+mod can;
 mod cells;
 mod client;
 mod device;
@@ -56,6 +60,8 @@ mod slots;
 mod store;
 mod values;
 
+#[cfg(feature = "canopen")]
+pub use can::{CanNode, NodeState};
 pub use client::Connection;
 pub use device::{Device, DeviceAxis};
 pub use emergency::Emergency;

@@ -16,11 +16,11 @@ fn field(data: &[u8], bit: usize, width: usize) -> Vec<u8> {
     (0..width).step_by(8).map(part).collect()
 }
 
-const fn length(bits: usize) -> usize {
+pub(super) const fn length(bits: usize) -> usize {
     bits.div_ceil(8)
 }
 
-fn width(mapping: &[MappedEntry]) -> usize {
+pub(super) fn width(mapping: &[MappedEntry]) -> usize {
     mapping.iter().map(|entry| entry.bits as usize).sum()
 }
 

@@ -1,0 +1,168 @@
+//! When a node sends and takes PDOs (CiA 301 7.2.2.2 and 7.5.2.35 to 7.5.2.38).
+
+use core::time::Duration;
+use std::collections::BTreeMap;
+use std::vec::Vec;
+
+use super::super::device::Device;
+use super::super::process;
+use crate::abort::AbortCode;
+use crate::clients::canopen::CanFrame;
+
+/// The indices of the communication parameters.
+const RECEIVED: (u16, u16) = (0x1400, 0x15FF);
+const TRANSMITTED: (u16, u16) = (0x1800, 0x19FF);
+/// The index of a mapping is so much greater than that of the communication parameters.
+const MAPPING: u16 = 0x200;
+/// A PDO that is sent when its data change, or by its timer, has this transmission type or a greater one.
+const EVENT: u64 = 254;
+/// The greatest transmission type of PDOs that SYNC concerns.
+const SYNCHRONOUS: u64 = 240;
+
+/// Error codes of emergency messages: a PDO is too short and isn't processed, or too long (CiA 301 7.2.7.1).
+const TOO_SHORT: u16 = 0x8210;
+const TOO_LONG: u16 = 0x8220;
+/// The bits of the error register: any error, and one of communication.
+const COMMUNICATION_ERROR: u8 = 1 | 1 << 4;
+
+/// What a node has to remember of its PDOs while it is operational. Keys are the indices of communication parameters.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Pdos {
+    sent: BTreeMap<u16, Sent>,
+    /// What was received and waits for SYNC.
+    waiting: BTreeMap<u16, Vec<u8>>,
+}
+
+/// What was sent last, and when.
+#[derive(Clone, Debug, Default)]
+struct Sent {
+    data: Vec<u8>,
+    at: Option<Duration>,
+    /// How many SYNCs came since.
+    syncs: u64,
+}
+
+/// The parameters of a PDO's communication.
+#[derive(Clone, Copy)]
+struct Communication {
+    index: u16,
+    id: u16,
+    kind: u64,
+    inhibit: Duration,
+    timer: Duration,
+}
+
+impl Communication {
+    /// `None` where the PDO isn't used.
+    fn of(device: &Device, index: u16) -> Option<Self> {
+        let number = |sub| device.slots.number(index, sub);
+        let cob_id = number(1).filter(|_| device.is_used(index))?;
+        Some(Self {
+            index,
+            id: cob_id as u16 & 0x7FF,
+            kind: number(2).unwrap_or(EVENT),
+            inhibit: Duration::from_micros(100 * number(3).unwrap_or(0)),
+            timer: Duration::from_millis(number(5).unwrap_or(0)),
+        })
+    }
+
+    /// Those that are used.
+    fn all(device: &Device, (first, last): (u16, u16)) -> Vec<Self> {
+        let cob_ids = device.slots.objects(first, last).filter(|object| object.sub_index == 1);
+        cob_ids.filter_map(|object| Self::of(device, object.index)).collect()
+    }
+
+    /// The data that would be sent now; `None` where nothing is mapped, or something that the device doesn't have.
+    fn data(&self, device: &Device) -> Option<Vec<u8>> {
+        device.transmit_pdo(self.index + MAPPING).ok().filter(|data| !data.is_empty())
+    }
+}
+
+impl Pdos {
+    /// When a timer of a PDO ends, or the time in which it may not be sent again.
+    pub fn next_event(&self, device: &Device) -> Option<Duration> {
+        let events = Communication::all(device, TRANSMITTED).into_iter().filter(|own| own.kind >= EVENT);
+        let times = events.filter_map(|own| {
+            let sent = self.sent.get(&own.index)?;
+            let at = sent.at?;
+            let is_changed = own.data(device).is_some_and(|data| data != sent.data);
+            let inhibited = is_changed.then_some(at + own.inhibit);
+            let timer = (!own.timer.is_zero()).then(|| at + own.timer.max(own.inhibit));
+            inhibited.into_iter().chain(timer).min()
+        });
+        times.min()
+    }
+
+    /// The PDOs that are sent because their data changed, or their time has come. All are, when the node starts.
+    pub fn changed(&mut self, device: &Device, now: Duration) -> Vec<CanFrame> {
+        let events = Communication::all(device, TRANSMITTED).into_iter().filter(|own| own.kind >= EVENT);
+        events.filter_map(|own| self.send_event(device, &own, now)).collect()
+    }
+
+    fn send_event(&mut self, device: &Device, own: &Communication, now: Duration) -> Option<CanFrame> {
+        let data = own.data(device)?;
+        let sent = self.sent.entry(own.index).or_default();
+        let is_due = match sent.at {
+            None => true,
+            Some(at) if now < at + own.inhibit => false,
+            Some(at) => data != sent.data || !own.timer.is_zero() && now >= at + own.timer,
+        };
+        is_due.then(|| sent.send(own.id, data, now))?
+    }
+
+    /// The PDOs that are sent on SYNC: each time or every so many times, or when their data changed before it.
+    pub fn sampled(&mut self, device: &Device, now: Duration) -> Vec<CanFrame> {
+        let synchronous = Communication::all(device, TRANSMITTED).into_iter().filter(|own| own.kind <= SYNCHRONOUS);
+        let frames = synchronous.filter_map(|own| {
+            let data = own.data(device)?;
+            let sent = self.sent.entry(own.index).or_default();
+            sent.syncs += 1;
+            let is_due = match own.kind {
+                0 => sent.at.is_none() || data != sent.data,
+                every => sent.syncs >= every,
+            };
+            is_due.then(|| sent.send(own.id, data, now))?
+        });
+        frames.collect()
+    }
+
+    /// Takes a PDO. What is synchronous waits for SYNC. Returns the mapping and the code of what is refused.
+    pub fn receive(&mut self, device: &mut Device, id: u16, data: &[u8]) -> Vec<(u16, AbortCode)> {
+        let own = Communication::all(device, RECEIVED).into_iter().filter(|own| own.id == id);
+        let mut refused = Vec::new();
+        for own in own {
+            if own.kind <= SYNCHRONOUS {
+                self.waiting.insert(own.index, data.to_vec());
+            } else {
+                refused.extend(take(device, own.index, data));
+            }
+        }
+        refused
+    }
+
+    /// SYNC: what waits takes effect.
+    pub fn actuate(&mut self, device: &mut Device) -> Vec<(u16, AbortCode)> {
+        let waiting = core::mem::take(&mut self.waiting);
+        waiting.into_iter().filter_map(|(index, data)| take(device, index, &data)).collect()
+    }
+}
+
+impl Sent {
+    fn send(&mut self, id: u16, data: Vec<u8>, now: Duration) -> Option<CanFrame> {
+        let frame = CanFrame::new(id, &data);
+        *self = Self { data, at: Some(now), syncs: 0 };
+        frame
+    }
+}
+
+/// The device takes a PDO, and says so where it is too short or too long.
+fn take(device: &mut Device, index: u16, data: &[u8]) -> Option<(u16, AbortCode)> {
+    let index = index + MAPPING;
+    let mapping = device.mapping(index).ok().filter(|mapping| !mapping.is_empty())?;
+    let length = process::length(process::width(&mapping));
+    if data.len() != length {
+        let register = device.slots.number(0x1001, 0).unwrap_or(0) as u8 | COMMUNICATION_ERROR;
+        device.emit_emergency(if data.len() < length { TOO_SHORT } else { TOO_LONG }, register, [0; 5]);
+    }
+    device.receive_mapped(&mapping, data).err().map(|code| (index, code))
+}

@@ -1,0 +1,220 @@
+use super::*;
+use crate::bus::Object;
+use crate::client::Client;
+use crate::clients::canopen::Sdo;
+use crate::data_type::DataType;
+use crate::error::Error;
+use crate::flags::Flags;
+use crate::node_id::NodeId;
+use crate::table::{AccessRights, Bound, Entry, RawInitial};
+
+const NODE: NodeId = match NodeId::new(5) {
+    Some(node) => node,
+    None => unreachable!(),
+};
+
+const fn entry(index: u16, sub_index: u8, data_type: DataType, initial: &'static [u8]) -> Entry {
+    Entry {
+        object: Some(Object::new(index, sub_index)),
+        register: None,
+        name: "",
+        data_type,
+        access: AccessRights::ReadWrite,
+        flags: Flags::PDO,
+        initial: RawInitial::Bytes(initial),
+        low: Bound::Unlimited,
+        high: Bound::Unlimited,
+        unit: "",
+    }
+}
+
+const U8: DataType = DataType::Unsigned8;
+const U16: DataType = DataType::Unsigned16;
+const U32: DataType = DataType::Unsigned32;
+
+/// One PDO in each direction, both with 0x2000; RPDO on 0x205, TPDO on 0x185.
+fn node() -> CanNode {
+    let entries = [
+        entry(0x1001, 0, U8, &[0]),
+        entry(0x1014, 0, U32, &[0x85, 0, 0, 0]),
+        entry(0x1017, 0, U16, &[0]),
+        entry(0x1400, 1, U32, &[5, 2, 0, 0]),
+        entry(0x1400, 2, U8, &[255]),
+        entry(0x1600, 0, U8, &[1]),
+        entry(0x1600, 1, U32, &[16, 0, 0, 0x20]),
+        entry(0x1800, 1, U32, &[0x85, 1, 0, 0]),
+        entry(0x1800, 2, U8, &[255]),
+        entry(0x1800, 3, U16, &[0]),
+        entry(0x1800, 5, U16, &[0]),
+        entry(0x1A00, 0, U8, &[1]),
+        entry(0x1A00, 1, U32, &[16, 0, 0, 0x20]),
+        entry(0x2000, 0, U16, &[]),
+        entry(0x2001, 0, DataType::Domain, &[]),
+    ];
+    CanNode::new(Device::new(&entries).with_node_id(NODE))
+}
+
+fn set(node: &mut CanNode, index: u16, sub_index: u8, bytes: &[u8]) {
+    node.device().set_bytes(Object::new(index, sub_index), bytes).unwrap();
+}
+
+fn send(node: &mut CanNode, id: u16, data: &[u8]) {
+    node.handle(&CanFrame::new(id, data).unwrap());
+}
+
+/// All frames that the node has sent.
+fn frames(node: &mut CanNode) -> Vec<(u16, Vec<u8>)> {
+    core::iter::from_fn(|| node.next_frame()).map(|frame| (frame.id(), frame.data().to_vec())).collect()
+}
+
+/// A node that is operational, and has sent its first PDO.
+fn started() -> CanNode {
+    let mut node = node();
+    send(&mut node, 0, &[1, 0]);
+    frames(&mut node);
+    node
+}
+
+#[test]
+fn network_management() {
+    let mut node = node();
+    assert_eq!(frames(&mut node), [(0x705, [0].to_vec())]);
+    send(&mut node, 0, &[1, 6]);
+    assert_eq!(node.state(), NodeState::PreOperational);
+    send(&mut node, 0, &[1, 5]);
+    assert_eq!(node.state(), NodeState::Operational);
+    assert_eq!(frames(&mut node), [(0x185, [0, 0].to_vec())]);
+    send(&mut node, 0, &[2, 0]);
+    // A request that nobody answers.
+    send(&mut node, 0x605, &[0x40, 0, 0x20, 0, 0, 0, 0, 0]);
+    send(&mut node, 0x205, &[1, 0]);
+    assert_eq!((node.state(), frames(&mut node)), (NodeState::Stopped, std::vec![]));
+    set(&mut node, 0x2000, 0, &[9, 9]);
+    set(&mut node, 0x1017, 0, &[9, 9]);
+    send(&mut node, 0, &[130, 5]);
+    assert_eq!(frames(&mut node), [(0x705, [0].to_vec())]);
+    assert_eq!(node.device().slots.number(0x1017, 0), Some(0));
+    assert_eq!(node.device().slots.number(0x2000, 0), Some(0x909));
+    send(&mut node, 0, &[129, 5]);
+    assert_eq!(node.device().slots.number(0x2000, 0), Some(0));
+    assert_eq!(node.state(), NodeState::PreOperational);
+}
+
+#[test]
+fn heartbeat() {
+    let mut node = started();
+    set(&mut node, 0x1017, 0, &[100, 0]);
+    node.advance(Duration::from_millis(250));
+    assert_eq!(frames(&mut node), [(0x705, [5].to_vec()), (0x705, [5].to_vec())]);
+    send(&mut node, 0, &[2, 5]);
+    let next = node.receive(0x705, Duration::from_millis(60)).unwrap();
+    assert_eq!((next.map(|frame| frame.data()[0]), node.now()), (Some(4), Duration::from_millis(300)));
+    assert_eq!(node.receive(0x705, Duration::from_millis(60)), Ok(None));
+    assert_eq!(node.now(), Duration::from_millis(360));
+    set(&mut node, 0x1017, 0, &[0, 0]);
+    node.advance(Duration::from_secs(9));
+    assert_eq!(frames(&mut node), []);
+}
+
+#[test]
+fn pdos_on_change_and_by_timer() {
+    let mut node = started();
+    send(&mut node, 0x205, &[1, 2]);
+    assert_eq!(frames(&mut node), [(0x185, [1, 2].to_vec())]);
+    send(&mut node, 0x205, &[1, 2]);
+    assert_eq!(frames(&mut node), []);
+    set(&mut node, 0x2000, 0, &[3, 0]);
+    assert_eq!(frames(&mut node), [(0x185, [3, 0].to_vec())]);
+    // Not before 10 ms, and then every 50 ms.
+    set(&mut node, 0x1800, 3, &[100, 0]);
+    set(&mut node, 0x1800, 5, &[50, 0]);
+    set(&mut node, 0x2000, 0, &[4, 0]);
+    assert_eq!(frames(&mut node), []);
+    let sent = node.receive(0x185, Duration::from_secs(1)).unwrap();
+    assert_eq!((sent.map(|frame| frame.data()[0]), node.now()), (Some(4), Duration::from_millis(10)));
+    node.advance(Duration::from_millis(120));
+    assert_eq!(frames(&mut node).len(), 2);
+    // Not in another state.
+    send(&mut node, 0, &[128, 0]);
+    node.advance(Duration::from_millis(120));
+    send(&mut node, 0x205, &[7, 7]);
+    assert_eq!(frames(&mut node), []);
+    assert_eq!(node.device().slots.number(0x2000, 0), Some(4));
+}
+
+#[test]
+fn pdos_on_sync() {
+    let mut node = started();
+    set(&mut node, 0x1400, 2, &[1]);
+    set(&mut node, 0x1800, 2, &[2]);
+    send(&mut node, 0x205, &[1, 0]);
+    assert_eq!(node.device().slots.number(0x2000, 0), Some(0));
+    send(&mut node, 0x80, &[]);
+    assert_eq!((node.device().slots.number(0x2000, 0), frames(&mut node)), (Some(1), std::vec![]));
+    send(&mut node, 0x80, &[]);
+    assert_eq!(frames(&mut node), [(0x185, [1, 0].to_vec())]);
+    set(&mut node, 0x1800, 2, &[0]);
+    send(&mut node, 0x80, &[]);
+    assert_eq!(frames(&mut node), []);
+    send(&mut node, 0x205, &[2, 0]);
+    send(&mut node, 0x80, &[]);
+    assert_eq!(frames(&mut node), [(0x185, [2, 0].to_vec())]);
+}
+
+#[test]
+fn emergencies() {
+    let mut node = started();
+    send(&mut node, 0x205, &[1]);
+    assert_eq!(frames(&mut node), [(0x85, [0x10, 0x82, 0x11, 0, 0, 0, 0, 0].to_vec())]);
+    assert_eq!(node.take_refused(), [(0x1600, AbortCode::TOO_SHORT)]);
+    send(&mut node, 0x205, &[1, 0, 0]);
+    let expected = [(0x85, [0x20, 0x82, 0x11, 0, 0, 0, 0, 0].to_vec()), (0x185, [1, 0].to_vec())];
+    assert_eq!((frames(&mut node), node.take_refused()), (expected.to_vec(), std::vec![]));
+    send(&mut node, 0, &[2, 0]);
+    node.device().emit_emergency(0x2310, 3, [1, 2, 3, 4, 5]);
+    assert_eq!(frames(&mut node), []);
+    send(&mut node, 0, &[128, 0]);
+    assert_eq!(frames(&mut node), [(0x85, [0x10, 0x23, 3, 1, 2, 3, 4, 5].to_vec())]);
+    set(&mut node, 0x1014, 0, &[0x85, 0, 0, 0x80]);
+    node.device().emit_emergency(0, 0, [0; 5]);
+    assert_eq!(frames(&mut node), []);
+}
+
+#[test]
+fn transfers() {
+    let mut client = Sdo::new(node(), NODE);
+    let (number, domain) = (Object::new(0x2000, 0), Object::new(0x2001, 0));
+    let long: Vec<u8> = (0..=255).cycle().take(5000).collect();
+    assert_eq!(client.write(number, &[1, 2]), Ok(()));
+    assert_eq!(client.write(domain, &long), Ok(()));
+    let mut buffer = std::vec![0; 6000];
+    assert_eq!(client.read(domain, &mut buffer), Ok(5000));
+    assert_eq!(buffer[..5000], long);
+    assert_eq!(client.write(number, &[1]), Err(Error::Abort(AbortCode::TOO_SHORT)));
+    assert_eq!(client.read(Object::new(0x2005, 0), &mut buffer), Err(Error::Abort(AbortCode::NO_OBJECT)));
+    // Nobody says how many of the four bytes count.
+    send(client.port(), 0x605, &[0x22, 0x00, 0x20, 0, 7, 0, 0xFF, 0xFF]);
+    assert_eq!(frames(client.port()).last(), Some(&(0x585, [0x60, 0, 0x20, 0, 0, 0, 0, 0].to_vec())));
+    assert_eq!(client.port().device().slots.number(0x2000, 0), Some(7));
+}
+
+#[test]
+fn lost_answers_and_given_up_transfers() {
+    let mut client = Sdo::new(node(), NODE);
+    let (object, mut buffer) = (Object::new(0x2000, 0), [0; 2]);
+    client.port().device().fail_next(crate::sim::Fault::Bus);
+    assert_eq!(client.read(object, &mut buffer), Err(Error::Abort(AbortCode::TIMEOUT)));
+    client.port().device().fail_next(AbortCode::DEVICE_STATE);
+    assert_eq!(client.read(object, &mut buffer), Err(Error::Abort(AbortCode::DEVICE_STATE)));
+    client.port().set_connected(false);
+    assert_eq!(client.read(object, &mut buffer), Err(Error::Abort(AbortCode::TIMEOUT)));
+    client.port().set_connected(true);
+    assert_eq!(client.read(object, &mut buffer), Ok(2));
+    // A download of which the segments never come.
+    let node = client.port();
+    frames(node);
+    send(node, 0x605, &[0x21, 0x01, 0x20, 0, 9, 0, 0, 0]);
+    node.advance(Duration::from_secs(2));
+    let expected = [(0x585, [0x60, 1, 0x20, 0, 0, 0, 0, 0]), (0x585, [0x80, 1, 0x20, 0, 0, 0, 4, 5])];
+    assert_eq!(frames(node), expected.map(|(id, data)| (id, data.to_vec())));
+}
