@@ -5,7 +5,7 @@ use std::pin::pin;
 use std::sync::Arc;
 use std::task::{Context, Poll, Wake};
 
-use lexibus::sim::{Device, Exception, Fault};
+use lexibus::sim::{Connection, Device, Exception, Fault};
 use lexibus::table::{AccessRights, Bound, Entry};
 use lexibus::{
     AbortCode, Bus, CanOpen, Client, CoE, DataType, Error, Flags, Modbus, NodeId, Object, Pdo, Register, RegisterTable,
@@ -187,10 +187,10 @@ fn is_special(object: Object) -> bool {
     matches!(object.index, 0x1003 | 0x1010 | 0x1011 | 0x1400..=0x1BFF)
 }
 
-fn objects_round_trip<B: Bus<Address = Object>>(mut device: Device, entries: &[Entry])
+fn objects_round_trip<B>(mut device: Device, entries: &[Entry])
 where
-    for<'d> lexibus::sim::Connection<B, &'d mut Device>: Client<Bus = B, Error = Fault>,
-    B: 'static,
+    B: Bus<Address = Object> + 'static,
+    for<'d> Connection<B, &'d mut Device>: Client<Bus = B, Error = Fault>,
 {
     let mut written = 0;
     for entry in entries {
@@ -327,6 +327,13 @@ fn reactions_refuse_and_see_everything() {
     assert_eq!(*seen.lock().unwrap(), ["Modes of operation"; 2]);
     let missing = device.on_write(vector_step::objects::RPOSTARG, |_, _| Ok(()));
     assert_eq!(missing, Err(AbortCode::NO_OBJECT));
+}
+
+#[test]
+fn a_server_may_have_the_device_in_another_thread() {
+    let mut device = vector();
+    let server = std::thread::spawn(move || device.read_words(RegisterTable::Holding, 8, 2));
+    assert_eq!(server.join().unwrap(), Ok(vec![0, 0]));
 }
 
 #[test]

@@ -66,13 +66,12 @@ fn decode(entry: &Entry, register: Register, words: &[u16]) -> Vec<u8> {
     values::widened(entry.data_type, bytes)
 }
 
-/// The bits of its registers that an item has.
-fn masks(register: Register) -> Vec<u16> {
-    let count = usize::from(register.count);
-    match register.part {
-        Some(part) => encode(register, &mask(part.bits.into()).to_le_bytes(), vec![0; count]),
-        None => vec![0xFFFF; count],
-    }
+/// The bits that an item has of the register at an address.
+fn mask_at(register: Register, address: u16) -> u16 {
+    let Some(part) = register.part else { return 0xFFFF };
+    let bits = encode(register, &mask(part.bits.into()).to_le_bytes(), vec![0; register.count.into()]);
+    let at = address.checked_sub(register.address).map(usize::from);
+    at.and_then(|at| bits.get(at)).copied().unwrap_or(0)
 }
 
 pub(super) const fn is_readable(entry: &Entry) -> bool {
@@ -158,10 +157,7 @@ impl Cells {
     pub fn mask(&self, slots: &Slots, address: Address, which: impl Fn(&Entry) -> bool) -> u16 {
         let items = self.0.get(&address).map_or(&[][..], |cell| &cell.items);
         let entries = items.iter().map(|at| &slots.get(*at).entry).filter(|entry| which(entry));
-        let own = entries.filter_map(|entry| {
-            let register = entry.register?;
-            masks(register).get(usize::from(address.1 - register.address)).copied()
-        });
+        let own = entries.filter_map(|entry| Some(mask_at(entry.register?, address.1)));
         own.fold(0, |all, own| all | own)
     }
 

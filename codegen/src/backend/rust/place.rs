@@ -3,6 +3,9 @@
 use super::scope::Scope;
 use crate::ir::{Binding, Item, RegisterBinding, RegisterSpace, Type};
 
+/// Index and sub-index.
+pub(super) type ObjectAddress = (u16, u8);
+
 /// An item's address on each bus that generated code can reach.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Place<'i> {

@@ -2,7 +2,7 @@
 
 use super::literal;
 use super::model::{addressable, flags, is_module, registers};
-use super::place::Place;
+use super::place::{ObjectAddress, Place};
 use super::scope::Scope;
 use super::value_type::ValueType;
 use super::variant;
@@ -10,7 +10,7 @@ use crate::ir::{Access, Item, Type, Value};
 
 /// A row of the table.
 pub(super) struct EntryModel {
-    pub object: Option<(u16, u8)>,
+    pub object: Option<ObjectAddress>,
     /// The call that makes the register.
     pub register: Option<String>,
     pub name: String,
@@ -40,7 +40,7 @@ pub(super) fn models(scope: &Scope<'_>) -> Vec<EntryModel> {
 }
 
 /// What rows are sorted by: as the runtime sorts objects and registers.
-type Key = (Option<(u16, u8)>, Option<(u8, u16, Option<u8>)>);
+type Key = (Option<ObjectAddress>, Option<(u8, u16, Option<u8>)>);
 
 /// The row of an item: two where its objects on CANopen and on EtherCAT differ, none of a parameter of a serial protocol.
 fn entries(scope: &Scope<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, EntryModel)>) {
@@ -57,7 +57,7 @@ fn entry(
     scope: &Scope<'_>,
     item: &Item,
     name: &str,
-    object: Option<(u16, u8)>,
+    object: Option<ObjectAddress>,
     register: Option<String>,
 ) -> EntryModel {
     let (base, ty) = (scope.base(item.ty), scope.value_type(item.ty));
