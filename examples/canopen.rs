@@ -8,7 +8,7 @@
 use std::error::Error;
 use std::time::Duration;
 
-use lexibus::clients::canopen::{CanFrame, CanPort, Sdo};
+use lexibus::clients::canopen::{sync, CanFrame, CanPort, NmtCommand, NmtState, Node};
 use lexibus::sim::{CanNode, Device};
 use lexibus::{AbortCode, NodeId, Step};
 use lexibus_drives::demo_drive::types::{Command, Controlword, ModesOfOperation, State, Statusword};
@@ -16,17 +16,14 @@ use lexibus_drives::demo_drive::{objects, pdo, DemoDrive, ENTRIES};
 
 /// How long anything may take.
 const PATIENCE: Duration = Duration::from_millis(500);
-const NMT: u16 = 0x000;
-const SYNC: u16 = 0x080;
 
-type Drive = DemoDrive<Sdo<CanNode>>;
+type Drive = DemoDrive<Node<CanNode>>;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let id = NodeId::new(5).ok_or("a node-ID is 1 to 127")?;
-    let mut drive = DemoDrive::new(Sdo::new(simulated_node(id)?, id));
-    if drive.client().port().receive(0x705, PATIENCE)?.is_some() {
-        println!("node {id} has booted");
-    }
+    let mut drive = DemoDrive::new(Node::new(simulated_node(id)?, id));
+    drive.client().wait_for(NmtState::BootUp, PATIENCE)?;
+    println!("node {id} has booted");
     let mut text = [0; 32];
     println!("it is a {:?}", drive.manufacturer_device_name().read_into(&mut text)?);
 
@@ -59,16 +56,17 @@ fn move_to(drive: &mut Drive, id: NodeId, target: i32) -> Result<(), Box<dyn Err
     for write in pdo::RxPdo2::configuration(id).iter().chain(&pdo::TxPdo2::configuration(id)) {
         write.send(drive.client())?;
     }
-    let bus = drive.client().port();
-    send(bus, NMT, &[1, id.get()])?;
+    let node = drive.client();
+    node.nmt(NmtCommand::Start)?;
+    let bus = node.port();
     let enabled = Controlword::new().with_command(Command::EnableOperation);
     let new_set_point = enabled.in_profile_position().with_new_set_point(true).controlword();
     let (out, back) = (pdo::RxPdo2::COB_ID.resolve(id) as u16, pdo::TxPdo2::COB_ID.resolve(id) as u16);
     for cycle in 0..100 {
         let controlword = if cycle == 0 { new_set_point } else { enabled };
         send(bus, out, &pdo::RxPdo2 { controlword, target_position: target }.pack())?;
-        send(bus, SYNC, &[])?;
-        let frame = bus.receive(back, PATIENCE)?.ok_or("no PDO came back")?;
+        bus.send(&sync(), PATIENCE)?;
+        let frame = bus.receive(PATIENCE, &mut |frame| frame.id() == back)?.ok_or("no PDO came back")?;
         let input = pdo::TxPdo2::unpack(frame.data())?;
         println!("cycle {cycle}: at {}", input.position_actual_value);
         if input.statusword.target_reached() {

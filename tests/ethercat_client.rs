@@ -9,8 +9,9 @@ use std::time::Duration;
 use ethercrab::error::{Error as BusError, MailboxError, TimeoutError};
 use ethercrab::subdevice_group::{Op, PreOp};
 use ethercrab::{DefaultLock, MainDevice, MainDeviceConfig, PduStorage, SubDeviceGroup, Timeouts};
-use lexibus::clients::ethercat::{is_a, Emergency, Sdo};
+use lexibus::clients::ethercat::{is_a, Sdo};
 use lexibus::ethercat::{configure_async, Assignment, Device, Mailbox, StartupCommand, Transition};
+use lexibus::Emergency;
 use lexibus::{AbortCode, AsyncClient, Error, LengthError, Object, OutOfRange, Pdo, SdoWrite, Step};
 
 #[path = "../examples/support/ethercat/mod.rs"]
@@ -302,7 +303,7 @@ fn an_emergency_in_front_of_an_answer_is_kept() {
         }
         // This trips the drive, whose emergency message overtakes the answer.
         drive.encoder_offset().write_async(7).await.unwrap();
-        let emergency = Emergency { code: 0x7300, register: 0x21, data: [0; 5] };
+        let emergency = Emergency { code: 0x7300, register: 0x21, vendor: [0; 5] };
         assert_eq!(drive.client().take_emergency(), Some(emergency));
         assert_eq!(drive.client().take_emergency(), None);
         assert_eq!(drive.encoder_offset().read_async().await, Ok(7));

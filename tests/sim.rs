@@ -438,7 +438,7 @@ fn errors_are_listed() {
     let mut device = demo();
     device.emit_emergency(0x8110, 0x11, [1, 2, 3, 4, 5]);
     device.emit_emergency(0x2310, 0x03, [0; 5]);
-    let data: Vec<[u8; 8]> = device.take_emergencies().map(|own| own.data()).collect();
+    let data: Vec<[u8; 8]> = device.take_emergencies().map(|own| own.to_bytes()).collect();
     assert_eq!(data, [[0x10, 0x81, 0x11, 1, 2, 3, 4, 5], [0x10, 0x23, 0x03, 0, 0, 0, 0, 0]]);
     let mut drive = DemoDrive::new(device.into_client::<CanOpen>());
     assert_eq!(drive.error_register().read().map(|own| own.raw()), Ok(3));
@@ -542,8 +542,8 @@ fn without_blocking() {
 mod frames {
     use std::time::Duration;
 
-    use lexibus::clients::canopen::{CanFrame, CanPort, Sdo};
-    use lexibus::sim::{CanNode, NodeState};
+    use lexibus::clients::canopen::{CanFrame, CanPort, NmtState, Node};
+    use lexibus::sim::CanNode;
 
     use super::*;
 
@@ -555,7 +555,7 @@ mod frames {
 
     #[test]
     fn a_driver_over_sdo_and_pdo() {
-        let mut drive = DemoDrive::new(Sdo::new(CanNode::new(moving_drive()), NODE));
+        let mut drive = DemoDrive::new(Node::new(CanNode::new(moving_drive()), NODE));
         while let Step::Command(command) =
             drive.statusword().read().unwrap().state().unwrap().toward(State::OperationEnabled)
         {
@@ -566,21 +566,21 @@ mod frames {
         }
         let node = drive.client().port();
         send(node, 0, &[1, 5]);
-        assert_eq!(node.state(), NodeState::Operational);
+        assert_eq!(node.state(), NmtState::Operational);
         // TPDO 1 is event-driven, and sent when the node starts.
-        let first = node.receive(0x185, PATIENCE).unwrap().unwrap();
+        let first = node.receive(PATIENCE, &mut |frame| frame.id() == 0x185).unwrap().unwrap();
         assert_eq!(pdo::TxPdo1::unpack(first.data()).unwrap().statusword.state(), Some(State::OperationEnabled));
         let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0x1F), target_position: -70_000 };
         send(node, 0x305, &frame.pack());
         send(node, 0x80, &[]);
-        let answer = node.receive(0x285, PATIENCE).unwrap().unwrap();
+        let answer = node.receive(PATIENCE, &mut |frame| frame.id() == 0x285).unwrap().unwrap();
         assert_eq!(pdo::TxPdo2::unpack(answer.data()).unwrap().position_actual_value, -70_000);
         assert_eq!(drive.target_position().read(), Ok(-70_000));
     }
 
     #[test]
     fn every_kind_of_value_and_abort() {
-        let mut drive = DemoDrive::new(Sdo::new(CanNode::new(demo()), NODE));
+        let mut drive = DemoDrive::new(Node::new(CanNode::new(demo()), NODE));
         let mut buffer = [0; 64];
         assert_eq!(drive.manufacturer_device_name().read_into(&mut buffer), Ok("Demo Drive"));
         drive.application_name().write("a longer name of this axis").unwrap();
@@ -606,7 +606,7 @@ mod frames {
     #[test]
     fn an_axis_of_three() {
         let device = vector().with_axes(&vector_step::AXES);
-        let mut drive = VectorStep::new(Sdo::new(CanNode::new(device), NODE));
+        let mut drive = VectorStep::new(Node::new(CanNode::new(device), NODE));
         drive.axis(3).target_position().write(300).unwrap();
         assert_eq!(drive.axis(3).target_position().read(), Ok(300));
         assert_eq!(drive.client().port().device().bytes(Object::new(0x707A, 0)).map(|bytes| bytes[1]), Ok(1));

@@ -7,7 +7,6 @@ use std::vec::Vec;
 
 use super::cells::Cells;
 use super::client::Connection;
-use super::emergency::Emergency;
 use super::fault::Fault;
 use super::modbus::Limits;
 use super::place::Place;
@@ -16,6 +15,7 @@ use super::values;
 use crate::abort::AbortCode;
 use crate::axes::Axes;
 use crate::bus::Object;
+use crate::emergency::Emergency;
 use crate::item::Item;
 use crate::node_id::NodeId;
 use crate::table::{AccessRights, Entry};

@@ -2,27 +2,7 @@
 
 use super::device::Device;
 use crate::bus::Object;
-
-/// An emergency message (CiA 301 7.2.7).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Emergency {
-    /// The error code.
-    pub code: u16,
-    /// The error register (0x1001).
-    pub register: u8,
-    /// What the vendor adds.
-    pub vendor: [u8; 5],
-}
-
-impl Emergency {
-    /// The eight bytes that travel.
-    #[must_use]
-    pub const fn data(&self) -> [u8; 8] {
-        let [low, high] = self.code.to_le_bytes();
-        let [a, b, c, d, e] = self.vendor;
-        [low, high, self.register, a, b, c, d, e]
-    }
-}
+use crate::emergency::Emergency;
 
 /// The list of errors (CiA 301 7.5.2.4).
 const HISTORY: u16 = 0x1003;

@@ -61,9 +61,8 @@ mod store;
 mod values;
 
 #[cfg(feature = "canopen")]
-pub use can::{CanNode, NodeState};
+pub use can::CanNode;
 pub use client::Connection;
 pub use device::{Device, DeviceAxis};
-pub use emergency::Emergency;
 pub use fault::{Exception, Fault};
 pub use place::Place;

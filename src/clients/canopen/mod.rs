@@ -49,7 +49,6 @@ mod port;
 mod sdo;
 
 pub use buffered::Buffered;
-pub use emergency::Emergency;
 pub use frame::CanFrame;
 pub use nmt::{sync, NmtCommand, NmtState};
 pub use node::{Node, TIMEOUT};

@@ -2,10 +2,10 @@
 
 use core::time::Duration;
 
-use super::emergency::Emergency;
 use super::frame::CanFrame;
 use super::nmt::{self, NmtCommand, NmtState};
 use super::port::{AsyncCanPort, CanPort};
+use crate::emergency::Emergency;
 use crate::error::Error;
 use crate::node_id::NodeId;
 

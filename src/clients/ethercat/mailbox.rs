@@ -5,7 +5,8 @@ use core::ops::Deref;
 use ethercrab::error::{Error as BusError, MailboxError, TimeoutError};
 use ethercrab::{Command, EtherCrabWireWrite, MainDevice, RegisterAddress};
 
-use super::protocol::{Answer, Emergency, Request, SMALLEST};
+use super::protocol::{Answer, Request, SMALLEST};
+use crate::emergency::Emergency;
 use crate::error::Error;
 
 /// So many sync managers are looked at: mailboxes are the first two of four.

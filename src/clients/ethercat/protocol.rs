@@ -2,6 +2,7 @@
 
 use crate::abort::AbortCode;
 use crate::bus::Object;
+use crate::emergency::Emergency;
 
 /// Bytes of the header of a mailbox message (ETG.1000.4 5.6).
 const MAILBOX_HEADER: usize = 6;
@@ -20,17 +21,6 @@ const SEGMENT: usize = 7;
 
 /// The protocol CoE in the header of a mailbox message.
 const COE: u8 = 3;
-
-/// An emergency message (ETG.1000.6 5.6.4).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Emergency {
-    /// The error code.
-    pub code: u16,
-    /// The error register (object 0x1001).
-    pub register: u8,
-    /// What the manufacturer adds.
-    pub data: [u8; 5],
-}
 
 /// What a request does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -160,10 +150,7 @@ impl<'d> Answer<'d> {
 }
 
 fn emergency(message: &[u8]) -> Option<Answer<'_>> {
-    let (code, rest) = message.split_first_chunk()?;
-    let (register, rest) = rest.split_first()?;
-    let data = *rest.first_chunk()?;
-    Some(Answer::Emergency(Emergency { code: u16::from_le_bytes(*code), register: *register, data }))
+    Emergency::from_bytes(message.first_chunk::<8>()?).map(Answer::Emergency)
 }
 
 fn response(sdo: &[u8]) -> Option<Answer<'_>> {

@@ -12,27 +12,15 @@ use self::pdo::Pdos;
 use self::sdo::Channel;
 use super::device::Device;
 use crate::abort::AbortCode;
-use crate::clients::canopen::{CanFrame, CanPort};
+use crate::clients::canopen::{CanFrame, CanPort, NmtCommand, NmtState};
+use crate::node_id::NodeId;
 
 /// The commands of network management (CiA 301 7.2.8.3.1), on this identifier.
 const NMT: u16 = 0x000;
-/// Heartbeats and boot-up messages, plus the node-ID.
-const HEARTBEAT: u16 = 0x700;
 /// SDO requests, plus the node-ID.
 const SDO_REQUEST: u16 = 0x600;
 /// So many frames wait for somebody to take them; older ones are lost, as on a bus.
 const MOST_FRAMES: usize = 1024;
-
-/// The states of network management (CiA 301 7.3.2.2), with the numbers of the heartbeat.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum NodeState {
-    /// Only network management is answered.
-    Stopped = 4,
-    /// Everything is.
-    Operational = 5,
-    /// Everything but PDOs is.
-    PreOperational = 127,
-}
 
 /// A simulated device as a node on a CAN bus, frame by frame: the SDO server, network management, heartbeat, emergency
 /// messages, and PDOs on SYNC, on change and by their timers.
@@ -42,19 +30,19 @@ pub enum NodeState {
 ///
 /// ```
 /// use core::time::Duration;
-/// use lexibus::clients::canopen::{CanPort, Sdo};
+///
+/// use lexibus::clients::canopen::{NmtState, Node};
 /// use lexibus::sim::{CanNode, Device};
 /// use lexibus::NodeId;
 /// use lexibus_drives::demo_drive::{DemoDrive, ENTRIES};
 ///
 /// let id = NodeId::new(5).unwrap();
 /// let node = CanNode::new(Device::new(ENTRIES).with_node_id(id));
-/// let mut drive = DemoDrive::new(Sdo::new(node, id));
+/// let mut drive = DemoDrive::new(Node::new(node, id));
 /// drive.producer_heartbeat_time().write(100)?;
 /// assert_eq!(drive.producer_heartbeat_time().read(), Ok(100));
 /// // The heartbeat of a node that is pre-operational.
-/// let heartbeat = drive.client().port().receive(0x705, Duration::from_secs(1)).unwrap();
-/// assert_eq!(heartbeat.map(|frame| frame.data()[0]), Some(127));
+/// assert_eq!(drive.client().heartbeat(Duration::from_secs(1))?, Some(NmtState::PreOperational));
 /// # Ok::<(), lexibus::Error<core::convert::Infallible>>(())
 /// ```
 ///
@@ -62,7 +50,7 @@ pub enum NodeState {
 #[derive(Debug)]
 pub struct CanNode {
     device: Device,
-    state: NodeState,
+    state: NmtState,
     now: Duration,
     outgoing: VecDeque<CanFrame>,
     heartbeat: Option<Heartbeat>,
@@ -84,7 +72,7 @@ impl CanNode {
     #[must_use]
     pub fn new(device: Device) -> Self {
         let mut node = Self {
-            state: NodeState::PreOperational,
+            state: NmtState::PreOperational,
             now: Duration::ZERO,
             outgoing: VecDeque::new(),
             heartbeat: None,
@@ -111,7 +99,7 @@ impl CanNode {
 
     /// The state of network management.
     #[must_use]
-    pub const fn state(&self) -> NodeState {
+    pub const fn state(&self) -> NmtState {
         self.state
     }
 
@@ -140,9 +128,9 @@ impl CanNode {
         self.settle();
         let node = u16::from(self.device.node_id().get());
         match frame.id() {
-            NMT => self.command(frame.data()),
+            NMT => self.command(frame),
             id if id == SDO_REQUEST + node => self.transfer(frame),
-            id if self.state == NodeState::Operational => self.process(id, frame.data()),
+            id if self.state == NmtState::Operational => self.process(id, frame.data()),
             _ => {}
         }
         self.settle();
@@ -168,7 +156,7 @@ impl CanNode {
     /// When the node does something by itself, without anything being received or changed.
     fn next_event(&self) -> Option<Duration> {
         let heartbeat = self.heartbeat.map(|heartbeat| heartbeat.due);
-        let pdos = if self.state == NodeState::Operational { self.pdos.next_event(&self.device) } else { None };
+        let pdos = if self.state == NmtState::Operational { self.pdos.next_event(&self.device) } else { None };
         let events = [heartbeat, pdos, self.channel.deadline()];
         events.into_iter().flatten().filter(|event| *event > self.now).min()
     }
@@ -179,10 +167,10 @@ impl CanNode {
         if let Some(frame) = self.channel.timed_out(self.now) {
             self.send(frame);
         }
-        if self.state != NodeState::Stopped {
+        if self.state != NmtState::Stopped {
             self.tell();
         }
-        if self.state == NodeState::Operational {
+        if self.state == NmtState::Operational {
             for frame in self.pdos.changed(&self.device, self.now) {
                 self.send(frame);
             }
@@ -198,14 +186,6 @@ impl CanNode {
         }
     }
 
-    /// The message with one byte on the identifier of heartbeats.
-    fn send_state(&mut self, state: u8) {
-        let id = HEARTBEAT + u16::from(self.device.node_id().get());
-        if let Some(frame) = CanFrame::new(id, &[state]) {
-            self.send(frame);
-        }
-    }
-
     /// Sends the heartbeat when it is due (0x1017, CiA 301 7.2.8.3.2.2).
     fn beat(&mut self) {
         let period = Duration::from_millis(self.device.slots.number(0x1017, 0).unwrap_or(0));
@@ -216,7 +196,7 @@ impl CanNode {
         let heartbeat = self.heartbeat.filter(|own| own.period == period);
         let mut heartbeat = heartbeat.unwrap_or(Heartbeat { period, due: self.now + period });
         while heartbeat.due <= self.now {
-            self.send_state(self.state as u8);
+            self.send(self.state.heartbeat(self.device.node_id()));
             heartbeat.due += period;
         }
         self.heartbeat = Some(heartbeat);
@@ -229,7 +209,7 @@ impl CanNode {
         let cob_id = self.device.slots.number(0x1014, 0).unwrap_or(default);
         let emergencies: Vec<_> = self.device.take_emergencies().collect();
         for emergency in emergencies.iter().filter(|_| cob_id & UNUSED == 0) {
-            if let Some(frame) = CanFrame::new(cob_id as u16 & 0x7FF, &emergency.data()) {
+            if let Some(frame) = CanFrame::new(cob_id as u16 & 0x7FF, &emergency.to_bytes()) {
                 self.send(frame);
             }
         }
@@ -239,46 +219,43 @@ impl CanNode {
     fn boot(&mut self) {
         self.heartbeat = None;
         self.channel = Channel::new(self.device.node_id());
-        self.enter(NodeState::PreOperational);
-        self.send_state(0);
+        self.enter(NmtState::PreOperational);
+        self.send(NmtState::BootUp.heartbeat(self.device.node_id()));
         self.settle();
     }
 
-    fn enter(&mut self, state: NodeState) {
+    fn enter(&mut self, state: NmtState) {
         if self.state != state {
             self.pdos = Pdos::default();
         }
-        if state == NodeState::Stopped {
+        if state == NmtState::Stopped {
             self.channel = Channel::new(self.device.node_id());
         }
         self.state = state;
     }
 
     /// A command of network management to this node, or to all.
-    fn command(&mut self, data: &[u8]) {
-        let [command, node] = *data else { return };
-        if node != 0 && node != self.device.node_id().get() {
-            return;
-        }
-        match command {
-            1 => self.enter(NodeState::Operational),
-            2 => self.enter(NodeState::Stopped),
-            128 => self.enter(NodeState::PreOperational),
-            129 => {
+    fn command(&mut self, frame: &CanFrame) {
+        let own = |node: Option<NodeId>| node.map_or(true, |node| node == self.device.node_id());
+        match NmtCommand::of(frame).filter(|(_, node)| own(*node)).map(|(command, _)| command) {
+            Some(NmtCommand::Start) => self.enter(NmtState::Operational),
+            Some(NmtCommand::Stop) => self.enter(NmtState::Stopped),
+            Some(NmtCommand::EnterPreOperational) => self.enter(NmtState::PreOperational),
+            Some(NmtCommand::ResetNode) => {
                 self.device.power_cycle();
                 self.boot();
             }
-            130 => {
+            Some(NmtCommand::ResetCommunication) => {
                 let is_communication = |index: u16| (0x1000..=0x1FFF).contains(&index);
                 self.device.reset(|entry| entry.object.is_some_and(|object| is_communication(object.index)));
                 self.boot();
             }
-            _ => {}
+            None => {}
         }
     }
 
     fn transfer(&mut self, frame: &CanFrame) {
-        if self.state == NodeState::Stopped {
+        if self.state == NmtState::Stopped {
             return;
         }
         if let Some(answer) = self.channel.handle(&mut self.device, frame, self.now) {
@@ -309,11 +286,15 @@ impl CanPort for CanNode {
         Ok(true)
     }
 
-    fn receive(&mut self, id: u16, patience: Duration) -> Result<Option<CanFrame>, Infallible> {
+    fn receive(
+        &mut self,
+        patience: Duration,
+        wanted: &mut dyn FnMut(&CanFrame) -> bool,
+    ) -> Result<Option<CanFrame>, Infallible> {
         let end = self.now.saturating_add(patience);
         loop {
             while let Some(frame) = self.next_frame() {
-                if frame.id() == id {
+                if wanted(&frame) {
                     return Ok(Some(frame));
                 }
             }

@@ -1,7 +1,7 @@
 use super::*;
 use crate::bus::Object;
 use crate::client::Client;
-use crate::clients::canopen::Sdo;
+use crate::clients::canopen::Node;
 use crate::data_type::DataType;
 use crate::error::Error;
 use crate::flags::Flags;
@@ -80,15 +80,15 @@ fn network_management() {
     let mut node = node();
     assert_eq!(frames(&mut node), [(0x705, [0].to_vec())]);
     send(&mut node, 0, &[1, 6]);
-    assert_eq!(node.state(), NodeState::PreOperational);
+    assert_eq!(node.state(), NmtState::PreOperational);
     send(&mut node, 0, &[1, 5]);
-    assert_eq!(node.state(), NodeState::Operational);
+    assert_eq!(node.state(), NmtState::Operational);
     assert_eq!(frames(&mut node), [(0x185, [0, 0].to_vec())]);
     send(&mut node, 0, &[2, 0]);
     // A request that nobody answers.
     send(&mut node, 0x605, &[0x40, 0, 0x20, 0, 0, 0, 0, 0]);
     send(&mut node, 0x205, &[1, 0]);
-    assert_eq!((node.state(), frames(&mut node)), (NodeState::Stopped, std::vec![]));
+    assert_eq!((node.state(), frames(&mut node)), (NmtState::Stopped, std::vec![]));
     set(&mut node, 0x2000, 0, &[9, 9]);
     set(&mut node, 0x1017, 0, &[9, 9]);
     send(&mut node, 0, &[130, 5]);
@@ -97,7 +97,7 @@ fn network_management() {
     assert_eq!(node.device().slots.number(0x2000, 0), Some(0x909));
     send(&mut node, 0, &[129, 5]);
     assert_eq!(node.device().slots.number(0x2000, 0), Some(0));
-    assert_eq!(node.state(), NodeState::PreOperational);
+    assert_eq!(node.state(), NmtState::PreOperational);
 }
 
 #[test]
@@ -107,9 +107,9 @@ fn heartbeat() {
     node.advance(Duration::from_millis(250));
     assert_eq!(frames(&mut node), [(0x705, [5].to_vec()), (0x705, [5].to_vec())]);
     send(&mut node, 0, &[2, 5]);
-    let next = node.receive(0x705, Duration::from_millis(60)).unwrap();
+    let next = node.receive(Duration::from_millis(60), &mut |frame| frame.id() == 0x705).unwrap();
     assert_eq!((next.map(|frame| frame.data()[0]), node.now()), (Some(4), Duration::from_millis(300)));
-    assert_eq!(node.receive(0x705, Duration::from_millis(60)), Ok(None));
+    assert_eq!(node.receive(Duration::from_millis(60), &mut |frame| frame.id() == 0x705), Ok(None));
     assert_eq!(node.now(), Duration::from_millis(360));
     set(&mut node, 0x1017, 0, &[0, 0]);
     node.advance(Duration::from_secs(9));
@@ -130,7 +130,7 @@ fn pdos_on_change_and_by_timer() {
     set(&mut node, 0x1800, 5, &[50, 0]);
     set(&mut node, 0x2000, 0, &[4, 0]);
     assert_eq!(frames(&mut node), []);
-    let sent = node.receive(0x185, Duration::from_secs(1)).unwrap();
+    let sent = node.receive(Duration::from_secs(1), &mut |frame| frame.id() == 0x185).unwrap();
     assert_eq!((sent.map(|frame| frame.data()[0]), node.now()), (Some(4), Duration::from_millis(10)));
     node.advance(Duration::from_millis(120));
     assert_eq!(frames(&mut node).len(), 2);
@@ -182,7 +182,7 @@ fn emergencies() {
 
 #[test]
 fn transfers() {
-    let mut client = Sdo::new(node(), NODE);
+    let mut client = Node::new(node(), NODE);
     let (number, domain) = (Object::new(0x2000, 0), Object::new(0x2001, 0));
     let long: Vec<u8> = (0..=255).cycle().take(5000).collect();
     assert_eq!(client.write(number, &[1, 2]), Ok(()));
@@ -200,14 +200,14 @@ fn transfers() {
 
 #[test]
 fn lost_answers_and_given_up_transfers() {
-    let mut client = Sdo::new(node(), NODE);
+    let mut client = Node::new(node(), NODE);
     let (object, mut buffer) = (Object::new(0x2000, 0), [0; 2]);
     client.port().device().fail_next(crate::sim::Fault::Bus);
-    assert_eq!(client.read(object, &mut buffer), Err(Error::Abort(AbortCode::TIMEOUT)));
+    assert_eq!(client.read(object, &mut buffer), Err(Error::Timeout));
     client.port().device().fail_next(AbortCode::DEVICE_STATE);
     assert_eq!(client.read(object, &mut buffer), Err(Error::Abort(AbortCode::DEVICE_STATE)));
     client.port().set_connected(false);
-    assert_eq!(client.read(object, &mut buffer), Err(Error::Abort(AbortCode::TIMEOUT)));
+    assert_eq!(client.read(object, &mut buffer), Err(Error::Timeout));
     client.port().set_connected(true);
     assert_eq!(client.read(object, &mut buffer), Ok(2));
     // A download of which the segments never come.

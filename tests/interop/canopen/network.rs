@@ -1,6 +1,7 @@
 //! What isn't a transfer: the node's state, its heartbeat and its emergency messages.
 
-use lexibus::clients::canopen::{Emergency, NmtCommand, NmtState};
+use lexibus::clients::canopen::{NmtCommand, NmtState};
+use lexibus::Emergency;
 use lexibus::NodeId;
 use lexibus_drives::demo_drive::codes;
 use serde_json::json;

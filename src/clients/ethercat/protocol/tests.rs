@@ -91,7 +91,7 @@ fn acknowledgements() {
 #[test]
 fn what_comes_unasked() {
     let bytes = message(3, 1, &[0x10, 0x32, 0x05, 1, 2, 3, 4, 5]);
-    let emergency = Emergency { code: 0x3210, register: 5, data: [1, 2, 3, 4, 5] };
+    let emergency = Emergency { code: 0x3210, register: 5, vendor: [1, 2, 3, 4, 5] };
     assert_eq!(Answer::parse(&bytes), Answer::Emergency(emergency));
     // Ethernet over EtherCAT, and an answer of the SDO information service.
     assert_eq!(Answer::parse(&message(2, 3, &[0; 8])), Answer::Foreign);

@@ -1,0 +1,72 @@
+//! Emergency messages of CANopen, and of CANopen over EtherCAT.
+
+use crate::codes::CodeTable;
+
+/// What a device tells of an error (CiA 301 7.2.7).
+///
+/// ```
+/// use lexibus::Emergency;
+/// use lexibus_drives::demo_drive::codes::DriveErrors;
+///
+/// let emergency = Emergency::from_bytes(&[0x11, 0x86, 0x21, 0, 0, 0, 0, 0]).expect("eight bytes");
+/// assert_eq!(emergency.alarm::<DriveErrors>(), DriveErrors::FollowingError);
+/// assert!(!emergency.is_reset());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Emergency {
+    /// The error code.
+    pub code: u16,
+    /// The error register, object 0x1001.
+    pub register: u8,
+    /// What the vendor adds.
+    pub vendor: [u8; 5],
+}
+
+impl Emergency {
+    /// The message of eight bytes; `None` where there are more or fewer.
+    #[must_use]
+    pub const fn from_bytes(data: &[u8]) -> Option<Self> {
+        match *data {
+            [low, high, register, a, b, c, d, e] => {
+                Some(Self { code: u16::from_le_bytes([low, high]), register, vendor: [a, b, c, d, e] })
+            }
+            _ => None,
+        }
+    }
+
+    /// The eight bytes that travel.
+    #[must_use]
+    pub const fn to_bytes(&self) -> [u8; 8] {
+        let ([low, high], [a, b, c, d, e]) = (self.code.to_le_bytes(), self.vendor);
+        [low, high, self.register, a, b, c, d, e]
+    }
+
+    /// Whether it says that an error, or all errors, are gone (CiA 301 7.2.7.1: codes 0x0000 to 0x00FF).
+    #[must_use]
+    pub const fn is_reset(&self) -> bool {
+        self.code <= 0xFF
+    }
+
+    /// The code by its name in one of the device's tables, such as the type `codes::Emergency` of generated bindings.
+    #[must_use]
+    pub fn alarm<T: CodeTable>(&self) -> T
+    where
+        T::Raw: From<u16>,
+    {
+        T::from_raw(self.code.into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes() {
+        let emergency = Emergency { code: 0x8130, register: 0x11, vendor: [1, 2, 3, 4, 5] };
+        assert_eq!(emergency.to_bytes(), [0x30, 0x81, 0x11, 1, 2, 3, 4, 5]);
+        assert_eq!(Emergency::from_bytes(&emergency.to_bytes()), Some(emergency));
+        assert_eq!(Emergency::from_bytes(&[0; 7]), None);
+        assert!(Emergency { code: 0, ..emergency }.is_reset());
+    }
+}
