@@ -29,6 +29,7 @@ pub struct Accessor<'c, C, V: Value, A, L> {
 impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
     /// Joins `item` to `client`.
     #[must_use]
+    #[inline]
     pub fn new(client: &'c mut C, item: Item<V, A, L>) -> Self {
         Self { client, item }
     }
@@ -39,6 +40,7 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
         &self.item
     }
 
+    #[inline]
     fn fetch<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
     where
         C: Client,
@@ -59,6 +61,7 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
         Ok(filled(buffer, length)?)
     }
 
+    #[inline]
     fn send(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
     where
         C: Client,
@@ -86,6 +89,7 @@ where
 }
 
 /// The part of `buffer` that a client says it filled.
+#[inline]
 fn filled(buffer: &[u8], length: usize) -> Result<&[u8], LengthError> {
     buffer.get(..length).ok_or(LengthError { expected: buffer.len(), actual: length })
 }

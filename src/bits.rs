@@ -25,6 +25,25 @@ pub const fn check_length(data: &[u8], bits: usize) -> Result<(), LengthError> {
 pub const fn get(data: &[u8], bit: usize, width: u32) -> u64 {
     let rest = skip(data, bit / 8);
     let shift = (bit % 8) as u32;
+    // Where place and width are known to the compiler, one load of as many bytes as it takes.
+    match shift.saturating_add(width).div_ceil(8) {
+        1 => {
+            if let Some(bytes) = rest.first_chunk() {
+                return (u8::from_le_bytes(*bytes) >> shift) as u64 & mask(width);
+            }
+        }
+        2 => {
+            if let Some(bytes) = rest.first_chunk() {
+                return (u16::from_le_bytes(*bytes) >> shift) as u64 & mask(width);
+            }
+        }
+        3 | 4 => {
+            if let Some(bytes) = rest.first_chunk() {
+                return (u32::from_le_bytes(*bytes) >> shift) as u64 & mask(width);
+            }
+        }
+        _ => {}
+    }
     let low = from_bytes(rest) >> shift;
     let high = if rest.len() > 8 { above(rest[8] as u64, shift) } else { 0 };
     (low | high) & mask(width)
@@ -36,12 +55,29 @@ pub const fn get(data: &[u8], bit: usize, width: u32) -> u64 {
 #[inline]
 pub const fn put<const N: usize>(buffer: [u8; N], bit: usize, width: u32, value: u64) -> [u8; N] {
     let (first, shift) = (bit / 8, (bit % 8) as u32);
+    // Where the place is known to the compiler, whole bytes become one store.
+    if shift == 0 && width % 8 == 0 {
+        return put_first(buffer, first, width as usize / 8, value);
+    }
     let field = mask(width);
     let value = value & field;
     let word = from_bytes(skip(&buffer, first)) & !(field << shift) | value << shift;
     let mut out = put_word(buffer, first, word);
     if first < N && N - first > 8 {
         out[first + 8] = (out[first + 8] as u64 & !beyond(field, shift) | beyond(value, shift)) as u8;
+    }
+    out
+}
+
+/// The bytes of `words`, the first word's lowest first. Bytes beyond the last word are 0.
+#[must_use]
+#[inline]
+pub const fn from_words<const W: usize, const N: usize>(words: [u64; W]) -> [u8; N] {
+    let mut out = [0; N];
+    let mut at = 0;
+    while at < W {
+        out = put_word(out, 8 * at, words[at]);
+        at += 1;
     }
     out
 }
@@ -54,6 +90,30 @@ pub fn set(data: &mut [u8], bit: usize, width: u32, value: u64) {
     let field = mask(width);
     let value = value & field;
     let Some(rest) = data.get_mut(first..) else { return };
+    // Where place and width are known to the compiler, only the bytes that it takes are touched.
+    match shift.saturating_add(width).div_ceil(8) {
+        1 => {
+            if let Some(bytes) = rest.first_chunk_mut() {
+                *bytes = (u8::from_le_bytes(*bytes) & !((field << shift) as u8) | (value << shift) as u8).to_le_bytes();
+                return;
+            }
+        }
+        2 => {
+            if let Some(bytes) = rest.first_chunk_mut() {
+                let kept = u16::from_le_bytes(*bytes) & !((field << shift) as u16);
+                *bytes = (kept | (value << shift) as u16).to_le_bytes();
+                return;
+            }
+        }
+        3 | 4 => {
+            if let Some(bytes) = rest.first_chunk_mut() {
+                let kept = u32::from_le_bytes(*bytes) & !((field << shift) as u32);
+                *bytes = (kept | (value << shift) as u32).to_le_bytes();
+                return;
+            }
+        }
+        _ => {}
+    }
     if let Some(bytes) = rest.first_chunk_mut::<8>() {
         *bytes = (u64::from_le_bytes(*bytes) & !(field << shift) | value << shift).to_le_bytes();
     } else {
@@ -70,6 +130,11 @@ pub fn set(data: &mut [u8], bit: usize, width: u32, value: u64) {
 /// Writes `bytes` at `bit` of `data`. Bits that would fall beyond `data` are dropped.
 #[inline]
 pub fn set_bytes(data: &mut [u8], bit: usize, bytes: &[u8]) {
+    if bit % 8 == 0 {
+        let rest = data.get_mut(bit / 8..).unwrap_or_default();
+        let fitting = rest.len().min(bytes.len());
+        return rest[..fitting].copy_from_slice(&bytes[..fitting]);
+    }
     set_bits(data, bit, 8 * bytes.len(), bytes);
 }
 
@@ -86,6 +151,11 @@ pub fn set_bits(data: &mut [u8], bit: usize, width: usize, bytes: &[u8]) {
 #[must_use]
 #[inline]
 pub const fn get_bytes<const N: usize>(data: &[u8], bit: usize) -> [u8; N] {
+    if bit % 8 == 0 {
+        if let Some(bytes) = skip(data, bit / 8).first_chunk() {
+            return *bytes;
+        }
+    }
     let mut out = [0; N];
     let (mut at, mut from) = (0, bit);
     while at < N && from / 8 < data.len() {
@@ -154,10 +224,16 @@ const fn skip(data: &[u8], count: usize) -> &[u8] {
 /// `buffer` with the bytes of `word` from byte `first` on, as far as they fit.
 #[inline]
 const fn put_word<const N: usize>(buffer: [u8; N], first: usize, word: u64) -> [u8; N] {
+    put_first(buffer, first, 8, word)
+}
+
+/// `buffer` with the first `count` bytes of `word` from byte `first` on, as far as they fit.
+#[inline]
+const fn put_first<const N: usize>(buffer: [u8; N], first: usize, count: usize, word: u64) -> [u8; N] {
     let bytes = word.to_le_bytes();
     let mut out = buffer;
     let mut at = 0;
-    while at < 8 && first < N && at < N - first {
+    while at < 8 && at < count && first < N && at < N - first {
         out[first + at] = bytes[at];
         at += 1;
     }
@@ -272,6 +348,14 @@ mod tests {
         let mut data = [0; 3];
         set_bytes(&mut data, usize::MAX - 70, &[0xFF; 20]);
         assert_eq!(data, [0; 3]);
+    }
+
+    #[test]
+    fn words_become_bytes() {
+        let words = [0x0807_0605_0403_0201, 0x100F_0E0D_0C0B_0A09];
+        assert_eq!(from_words::<2, 11>(words), [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
+        assert_eq!(from_words::<1, 10>([u64::MAX])[7..], [0xFF, 0, 0]);
+        assert_eq!(from_words::<0, 1>([]), [0]);
     }
 
     #[test]

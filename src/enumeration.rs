@@ -75,16 +75,15 @@ impl<E: Enumeration> Fixed for E {
     /// Limits of an enumeration are those of its numbers.
     #[inline]
     fn in_range(value: E, range: &Range<E>) -> bool {
-        let base = match *range {
-            Range::Full => return true,
-            Range::From(low) => Range::From(low.native()),
-            Range::To(high) => Range::To(high.native()),
-            Range::Between(low, high) => Range::Between(low.native(), high.native()),
-            Range::OneOf(list) => {
-                return list.iter().any(|(low, high)| E::in_range(value, &Range::Between(*low, *high)))
-            }
-        };
-        <E::Base as Fixed>::in_range(value.native(), &base)
+        // No call of itself: the compiler would not inline that, and could not see through a range that it knows.
+        let within = |base: Range<_>| <E::Base as Fixed>::in_range(value.native(), &base);
+        match *range {
+            Range::Full => true,
+            Range::From(low) => within(Range::From(low.native())),
+            Range::To(high) => within(Range::To(high.native())),
+            Range::Between(low, high) => within(Range::Between(low.native(), high.native())),
+            Range::OneOf(list) => list.iter().any(|(low, high)| within(Range::Between(low.native(), high.native()))),
+        }
     }
 }
 

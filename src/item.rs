@@ -81,6 +81,7 @@ impl<V: Value, A, L> Item<V, A, L> {
     }
 
     /// Joins the item to a client of one device.
+    #[inline]
     pub fn at<C>(self, client: &mut C) -> Accessor<'_, C, V, A, L> {
         Accessor::new(client, self)
     }

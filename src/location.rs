@@ -54,30 +54,35 @@ pub trait On<B: Bus> {
 }
 
 impl<E, M, P, S> On<CanOpen> for Location<Object, E, M, P, S> {
+    #[inline]
     fn address(&self) -> Object {
         self.canopen
     }
 }
 
 impl<C, M, P, S> On<CoE> for Location<C, Object, M, P, S> {
+    #[inline]
     fn address(&self) -> Object {
         self.coe
     }
 }
 
 impl<C, E, P, S> On<Modbus> for Location<C, E, Register, P, S> {
+    #[inline]
     fn address(&self) -> Register {
         self.modbus
     }
 }
 
 impl<C, E, M, S> On<Profinet> for Location<C, E, M, Record, S> {
+    #[inline]
     fn address(&self) -> Record {
         self.profinet
     }
 }
 
 impl<C, E, M, P> On<Serial> for Location<C, E, M, P, Parameter> {
+    #[inline]
     fn address(&self) -> Parameter {
         self.serial
     }

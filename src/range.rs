@@ -19,6 +19,7 @@ pub enum Range<T: 'static> {
 impl<T: PartialOrd> Range<T> {
     /// Whether `value` lies in the range. A NaN lies in [`Range::Full`] only.
     #[must_use]
+    #[inline]
     pub fn contains(&self, value: T) -> bool {
         match self {
             Self::Full => true,

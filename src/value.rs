@@ -91,7 +91,7 @@ impl Fixed for bool {
 }
 
 macro_rules! fixed {
-    ($($native:ty, $bits:literal, $data_type:ident;)*) => {$(
+    ($($native:ty, $bits:literal, $data_type:ident, $value:ident => $raw:expr;)*) => {$(
         impl Value for $native {
             type Native = Self;
             const DATA_TYPE: DataType = DataType::$data_type;
@@ -101,10 +101,8 @@ macro_rules! fixed {
             const BITS: u32 = $bits;
 
             #[inline]
-            fn encode(native: Self, buffer: &mut [u8; 8]) -> Result<usize, OutOfRange> {
-                let bytes = native.to_le_bytes();
-                buffer[..bytes.len()].copy_from_slice(&bytes);
-                Ok(bytes.len())
+            fn encode($value: Self, buffer: &mut [u8; 8]) -> Result<usize, OutOfRange> {
+                Ok(encode_raw($raw, $bits, buffer))
             }
 
             #[inline]
@@ -124,16 +122,16 @@ macro_rules! fixed {
 }
 
 fixed! {
-    u8, 8, Unsigned8;
-    u16, 16, Unsigned16;
-    u32, 32, Unsigned32;
-    u64, 64, Unsigned64;
-    i8, 8, Integer8;
-    i16, 16, Integer16;
-    i32, 32, Integer32;
-    i64, 64, Integer64;
-    f32, 32, Real32;
-    f64, 64, Real64;
+    u8, 8, Unsigned8, value => value.into();
+    u16, 16, Unsigned16, value => value.into();
+    u32, 32, Unsigned32, value => value.into();
+    u64, 64, Unsigned64, value => value;
+    i8, 8, Integer8, value => (value as u8).into();
+    i16, 16, Integer16, value => (value as u16).into();
+    i32, 32, Integer32, value => (value as u32).into();
+    i64, 64, Integer64, value => value as u64;
+    f32, 32, Real32, value => value.to_bits().into();
+    f64, 64, Real64, value => value.to_bits();
 }
 
 #[cfg(test)]

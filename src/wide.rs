@@ -38,6 +38,7 @@ impl<const BITS: u32> Uint<BITS> {
 
     /// The number, or `None` where it doesn't fit in `BITS` bits.
     #[must_use]
+    #[inline]
     pub const fn new(value: u64) -> Option<Self> {
         let cut = Self::from_raw(value);
         if cut.0 == value {
@@ -49,18 +50,21 @@ impl<const BITS: u32> Uint<BITS> {
 
     /// The number.
     #[must_use]
+    #[inline]
     pub const fn get(self) -> u64 {
         self.0
     }
 
     /// The low `BITS` bits of `raw`; the others are ignored.
     #[must_use]
+    #[inline]
     pub const fn from_raw(raw: u64) -> Self {
         Self(raw & mask(Self::WIDTH))
     }
 
     /// The bits of the number, in the low `BITS` bits; the others are 0.
     #[must_use]
+    #[inline]
     pub const fn raw(self) -> u64 {
         self.0
     }
@@ -77,6 +81,7 @@ impl<const BITS: u32> Int<BITS> {
 
     /// The number, or `None` where it doesn't fit in `BITS` bits.
     #[must_use]
+    #[inline]
     pub const fn new(value: i64) -> Option<Self> {
         let cut = Self::from_raw(value as u64);
         if cut.0 == value {
@@ -88,18 +93,21 @@ impl<const BITS: u32> Int<BITS> {
 
     /// The number.
     #[must_use]
+    #[inline]
     pub const fn get(self) -> i64 {
         self.0
     }
 
     /// The low `BITS` bits of `raw`, of which the highest is the sign; the others are ignored.
     #[must_use]
+    #[inline]
     pub const fn from_raw(raw: u64) -> Self {
         Self(sign_extend(raw, Self::WIDTH))
     }
 
     /// The bits of the number, in the low `BITS` bits; the others are 0.
     #[must_use]
+    #[inline]
     pub const fn raw(self) -> u64 {
         self.0 as u64 & mask(Self::WIDTH)
     }
@@ -145,8 +153,11 @@ macro_rules! wide {
 
             #[inline]
             fn encode(native: $native, buffer: &mut [u8; 8]) -> Result<usize, OutOfRange> {
-                let value = Self::new(native.into()).ok_or(OutOfRange)?;
-                Ok(encode_raw(value.raw(), $bits, buffer))
+                const UNUSED: u32 = <$native>::BITS - $bits;
+                if native << UNUSED >> UNUSED != native {
+                    return Err(OutOfRange);
+                }
+                Ok(encode_raw(native as u64 & mask($bits), $bits, buffer))
             }
 
             #[inline]

@@ -3,7 +3,7 @@
 use super::{filled, Accessor};
 use crate::access::{Readable, Writable};
 use crate::client::{AsyncClient, Client};
-use crate::error::{Error, OutOfRange};
+use crate::error::{Error, LengthError, OutOfRange};
 use crate::item::Item;
 use crate::location::On;
 use crate::value::{byte_len, Fixed};
@@ -14,6 +14,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     /// # Errors
     ///
     /// [`Error::Length`] where the device sends another number of bytes than the type takes.
+    #[inline]
     pub fn read(&mut self) -> Result<V::Native, Error<C::Error>>
     where
         A: Readable,
@@ -21,8 +22,9 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
         L: On<C::Bus>,
     {
         let mut buffer = [0; 8];
-        let bytes = self.fetch(room::<V>(&mut buffer))?;
-        Ok(V::decode(bytes)?)
+        let room = room::<V>(&mut buffer);
+        let length = self.client.read(self.item.location().address(), room)?;
+        decode::<V, _>(room, length)
     }
 
     /// Reads the value without blocking.
@@ -37,8 +39,9 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
         L: On<C::Bus>,
     {
         let mut buffer = [0; 8];
-        let bytes = self.fetch_async(room::<V>(&mut buffer)).await?;
-        Ok(V::decode(bytes)?)
+        let room = room::<V>(&mut buffer);
+        let length = self.client.read(self.item.location().address(), room).await?;
+        decode::<V, _>(room, length)
     }
 
     /// Writes the value.
@@ -46,6 +49,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     /// # Errors
     ///
     /// [`Error::OutOfRange`] where the value is outside the item's range or doesn't fit its type; nothing is sent then.
+    #[inline]
     pub fn write(&mut self, value: V::Native) -> Result<(), Error<C::Error>>
     where
         A: Writable,
@@ -53,8 +57,8 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
         L: On<C::Bus>,
     {
         let mut buffer = [0; 8];
-        let data = encode(&self.item, value, &mut buffer)?;
-        self.send(data)
+        let length = encode(&self.item, value, &mut buffer)?;
+        self.send(filled(&buffer, length)?)
     }
 
     /// Writes the value without blocking.
@@ -69,26 +73,33 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
         L: On<C::Bus>,
     {
         let mut buffer = [0; 8];
-        let data = encode(&self.item, value, &mut buffer)?;
-        self.send_async(data).await
+        let length = encode(&self.item, value, &mut buffer)?;
+        self.send_async(filled(&buffer, length)?).await
     }
 }
 
 /// As many bytes as a value of type `V` takes.
+#[inline]
 fn room<V: Fixed>(buffer: &mut [u8; 8]) -> &mut [u8] {
     &mut buffer[..byte_len(V::BITS)]
 }
 
-fn encode<'b, V: Fixed, A, L, E>(
-    item: &Item<V, A, L>,
-    value: V::Native,
-    buffer: &'b mut [u8; 8],
-) -> Result<&'b [u8], Error<E>> {
-    if !V::in_range(value, item.range()) {
-        return Err(OutOfRange.into());
+/// The value of the bytes in `room`, of which the client says that it filled `length`.
+#[inline]
+fn decode<V: Fixed, E>(room: &[u8], length: usize) -> Result<V::Native, Error<E>> {
+    if length != room.len() {
+        return Err(LengthError { expected: room.len(), actual: length }.into());
     }
-    let length = V::encode(value, buffer)?;
-    Ok(filled(buffer, length)?)
+    Ok(V::decode(room)?)
+}
+
+/// Writes a value that is in the item's range to `buffer`, and returns how many bytes it takes.
+#[inline]
+fn encode<V: Fixed, A, L>(item: &Item<V, A, L>, value: V::Native, buffer: &mut [u8; 8]) -> Result<usize, OutOfRange> {
+    if !V::in_range(value, item.range()) {
+        return Err(OutOfRange);
+    }
+    V::encode(value, buffer)
 }
 
 #[cfg(test)]

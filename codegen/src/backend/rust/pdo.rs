@@ -55,6 +55,8 @@ pub(super) struct FieldModel {
     pub encode: String,
     /// The field from its bits, `§` standing for the word that has them lowest.
     pub decode: String,
+    /// The bits that the field has of its Rust type, where these are fewer and its own conversions don't say so.
+    cut: Option<String>,
     pub offset: u32,
     pub bits: u32,
     /// A field of more than a word: copied as bytes, the unused bits of the last one 0.
@@ -314,6 +316,12 @@ fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str) -> FieldMo
             (format!("[u8; {length}]"), format!("rt::pdo::from_bytes(&{own})"), "rt::pdo::to_bytes(§)".to_owned())
         }
     };
+    let cut = match field_type(scope, entry) {
+        FieldType::Named(_, native) if native != format!("u{}", entry.bits) => {
+            Some(format!("{:#X}", u64::MAX >> (WORD - entry.bits)).replace("0X", "0x"))
+        }
+        _ => None,
+    };
     let facts =
         format!("0x{:04X}:{:02X}, {} bits from bit {}.", entry.index, entry.sub_index, entry.bits, entry.bit_offset);
     let title = docs::escape(text);
@@ -329,6 +337,7 @@ fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str) -> FieldMo
         ty,
         encode,
         decode,
+        cut,
         offset: entry.bit_offset,
         bits: entry.bits,
         long: entry.bits > WORD,
@@ -346,6 +355,31 @@ impl PdoModel {
         super::model::method_allow(self.fields.iter().map(|field| field.getter.as_str()))
     }
 
+    /// The statements that pack more than a word. What takes whole bytes is stored byte by byte, which is what a processor
+    /// does best; where something doesn't, words are filled by shifts, and bytes are made of them once.
+    pub(super) fn pack_long(&self) -> Vec<String> {
+        let is_stored = |field: &&FieldModel| field.long || self.fields.iter().all(FieldModel::is_whole);
+        let (stored, shifted): (Vec<_>, Vec<_>) = self.fields.iter().partition(is_stored);
+        let mut lines = Vec::new();
+        let mut data = format!("[0; {}]", self.length);
+        if !shifted.is_empty() {
+            lines.push(format!("let mut words = [0; {}];", self.bits.div_ceil(WORD)));
+            for field in shifted {
+                lines.push(format!("let bits = {};", field.packed()));
+                lines.extend(field.pack_words());
+            }
+            data = "rt::bits::from_words(words)".to_owned();
+        }
+        if stored.is_empty() {
+            lines.push(data);
+            return lines;
+        }
+        lines.push(format!("let mut data = {data};"));
+        lines.extend(stored.iter().flat_map(|field| field.pack_data()));
+        lines.push("data".to_owned());
+        lines
+    }
+
     /// `name: value` for each field, from the frame's bytes.
     pub(super) fn unpacked(&self) -> Vec<String> {
         let value = |field: &FieldModel| if self.word { field.unpack_word() } else { field.unpack_data() };
@@ -360,11 +394,40 @@ impl PdoModel {
 }
 
 impl FieldModel {
+    /// Its bits, none of which is beyond its width.
+    pub(super) fn packed(&self) -> String {
+        match &self.cut {
+            Some(mask) => format!("{} & {mask}", self.encode),
+            None => self.encode.clone(),
+        }
+    }
+
+    /// The statements that put `bits` into the words of a PDO of more than one.
+    fn pack_words(&self) -> Vec<String> {
+        let (word, shift) = (self.offset / WORD, self.offset % WORD);
+        let low = if shift == 0 { "bits".to_owned() } else { format!("bits << {shift}") };
+        let mut lines = vec![format!("words[{word}] |= {low};")];
+        if shift + self.bits > WORD {
+            lines.push(format!("words[{}] |= bits >> {};", word + 1, WORD - shift));
+        }
+        lines
+    }
+
+    /// Whether it takes whole bytes.
+    fn is_whole(&self) -> bool {
+        self.offset.is_multiple_of(8) && self.bits.is_multiple_of(8)
+    }
+
     /// The field from `word`, which has all bits of the PDO.
     pub(super) fn unpack_word(&self) -> String {
-        let shifted = if self.offset == 0 { "word".to_owned() } else { format!("word >> {}", self.offset) };
+        let shifted = match (self.offset, &self.cut) {
+            (0, None) => "word".to_owned(),
+            (0, Some(mask)) => format!("word & {mask}"),
+            (offset, None) => format!("word >> {offset}"),
+            (offset, Some(mask)) => format!("(word >> {offset}) & {mask}"),
+        };
         let in_parentheses = self.decode.contains("(§)") || self.decode == "§";
-        let bits = if self.offset == 0 || in_parentheses { shifted } else { format!("({shifted})") };
+        let bits = if shifted == "word" || in_parentheses { shifted } else { format!("({shifted})") };
         // Precedence of `&` and `==` is plain only with brackets.
         match self.decode.replace('§', &bits).strip_suffix(" & 1 == 1") {
             Some(bit) => format!("({bit}) & 1 == 1").replace("((", "(").replace("))", ")"),
@@ -444,16 +507,17 @@ impl FieldModel {
         format!("rt::bits::set(«self.data.as_mut()¦ {at}¦ {}¦ {value}»);", self.bits)
     }
 
-    /// The statement that puts the field into `data`, for PDOs of more than a word.
-    pub(super) fn pack_data(&self) -> String {
-        if self.long {
-            let (offset, name) = (self.offset, &self.name);
-            return match self.odd_bits() {
-                Some(bits) => format!("data = rt::bits::put_bits(data, {offset}, {bits}, &self.{name});"),
-                None => format!("data = rt::bits::put_bytes(data, {offset}, &self.{name});"),
-            };
+    /// The statements that put the field into `data`, for PDOs of more than a word.
+    fn pack_data(&self) -> Vec<String> {
+        let (offset, bits, name) = (self.offset, self.bits, &self.name);
+        if !self.long {
+            let put = format!("data = rt::bits::put(data, {offset}, {bits}, bits);");
+            return vec![format!("let bits = {};", self.packed()), put];
         }
-        format!("data = rt::bits::put(data, {}, {}, bits);", self.offset, self.bits)
+        vec![match self.odd_bits() {
+            Some(bits) => format!("data = rt::bits::put_bits(data, {offset}, {bits}, &self.{name});"),
+            None => format!("data = rt::bits::put_bytes(data, {offset}, &self.{name});"),
+        }]
     }
 }
 
