@@ -1,0 +1,66 @@
+//! PDOs of at most a word.
+
+use super::{frame, part};
+use lexibus::LengthError;
+
+/// A word of 16 bits and a number of 32.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WordAndLong {
+    /// Control word or status word.
+    pub word: u16,
+    /// Position.
+    pub long: i32,
+}
+
+impl WordAndLong {
+    /// The bytes of a frame.
+    #[inline]
+    pub fn pack(&self) -> [u8; 6] {
+        let mut frame = [0; 6];
+        frame[0..2].copy_from_slice(&self.word.to_le_bytes());
+        frame[2..6].copy_from_slice(&self.long.to_le_bytes());
+        frame
+    }
+
+    /// The fields of a frame.
+    ///
+    /// # Errors
+    ///
+    /// When it is too short.
+    #[inline]
+    pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
+        let data: &[u8; 6] = frame(data)?;
+        Ok(Self { word: u16::from_le_bytes(part(data, 0)), long: i32::from_le_bytes(part(data, 2)) })
+    }
+}
+
+/// A word of 16 bits and a number of 8.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WordAndByte {
+    /// Control word or status word.
+    pub word: u16,
+    /// Mode of operation.
+    pub byte: i8,
+}
+
+impl WordAndByte {
+    /// The bytes of a frame.
+    #[inline]
+    pub fn pack(&self) -> [u8; 3] {
+        let mut frame = [0; 3];
+        frame[0..2].copy_from_slice(&self.word.to_le_bytes());
+        frame[2] = self.byte as u8;
+        frame
+    }
+
+    /// The fields of a frame.
+    ///
+    /// # Errors
+    ///
+    /// When it is too short.
+    #[inline]
+    pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
+        let data: &[u8; 3] = frame(data)?;
+        Ok(Self { word: u16::from_le_bytes(part(data, 0)), byte: data[2] as i8 })
+    }
+}

@@ -1,0 +1,40 @@
+//! Structs as a person writes them who knows the frame by heart: fields at fixed places, nothing general.
+
+mod canopen;
+mod ethercat;
+mod profinet;
+
+pub use canopen::{WordAndByte, WordAndLong};
+pub use ethercat::{ActualValues, Encoder, Image, Mode, SetPoints};
+pub use profinet::{Inputs, Outputs};
+
+use lexibus::LengthError;
+
+/// The first `N` bytes of a frame.
+///
+/// # Errors
+///
+/// When it is too short.
+#[inline]
+pub fn frame<const N: usize>(data: &[u8]) -> Result<&[u8; N], LengthError> {
+    data.first_chunk().ok_or(LengthError::new(N, data.len()))
+}
+
+/// The first `N` bytes of a frame, to be written.
+///
+/// # Errors
+///
+/// When it is too short.
+#[inline]
+pub fn frame_mut<const N: usize>(data: &mut [u8]) -> Result<&mut [u8; N], LengthError> {
+    let error = LengthError::new(N, data.len());
+    data.first_chunk_mut().ok_or(error)
+}
+
+/// The bytes from `at` on.
+#[inline]
+pub fn part<const N: usize>(data: &[u8], at: usize) -> [u8; N] {
+    let mut part = [0; N];
+    part.copy_from_slice(&data[at..at + N]);
+    part
+}

@@ -1,0 +1,58 @@
+//! Calls all pairs of functions, for `valgrind` to count their instructions, and prints the pairs' names.
+
+#[macro_use]
+mod twins;
+
+mod bits;
+mod frames;
+mod items;
+mod views;
+
+use twins::Frame;
+
+/// How often each function is called, each time with other bytes.
+const CALLS: u64 = 100;
+
+/// Bytes that look random and are the same in each run.
+fn noise(seed: u64) -> Frame {
+    let mut state = seed.wrapping_add(1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    core::array::from_fn(|_| {
+        state ^= state >> 12;
+        state ^= state << 25;
+        state ^= state >> 27;
+        (state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 56) as u8
+    })
+}
+
+fn all() -> impl Iterator<Item = &'static twins::Twins> {
+    [frames::ALL, views::ALL, bits::ALL, items::ALL].into_iter().flatten()
+}
+
+fn main() {
+    for twins in all() {
+        println!("{} {}", twins.case, twins.action);
+        (0..CALLS).for_each(|seed| (twins.call)(&noise(seed)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each call panics where the two versions differ.
+    #[test]
+    fn generated_code_does_what_a_person_would_write() {
+        all().for_each(|twins| (0..CALLS).for_each(|seed| (twins.call)(&noise(seed))));
+        assert!(all().count() >= 40);
+    }
+
+    /// Numbers without a name have no more bits than the field.
+    #[test]
+    fn enumerations_leave_their_neighbours_alone() {
+        use lexibus_instructions::axis::{pdo::Encoder, types::Mode};
+
+        let zero = Encoder::unpack(&[0; 6]).unwrap();
+        assert_eq!(Encoder::unpack(&[0xF1, 0xFF, 0, 0, 0, 0]).unwrap().mode, Mode::Off);
+        assert_eq!(Encoder { mode: Mode::Unknown(0xFF), ..zero }.pack(), [0x0E, 0, 0, 0, 0, 0]);
+    }
+}

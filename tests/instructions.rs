@@ -1,0 +1,109 @@
+//! Packing, unpacking and accessing values takes no more instructions than the same written by hand.
+//!
+//! `valgrind --tool=callgrind` counts what the pairs of functions in `benches/instructions` execute, in a release build:
+//! the counts are exact and the same in every run. `cargo test --test instructions -- --nocapture` prints them.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What a pair may differ by, in instructions a call, and why. All others may not.
+const TOLERATED: [(&str, &str, f64); 3] = [
+    // Bytes 4 and 5 of the first PDO are stored by themselves, and LLVM takes them from a word instead of a field.
+    ("several_pdos", "pack", 1.0),
+    // The buffer has 8 bytes for every type. What is read is laid out with the errors in one place: a jump.
+    ("objects", "read", 2.0),
+    // The value passes through an enumeration, which names most of its numbers.
+    ("objects", "write_mode", 4.0),
+];
+
+/// Calls of a function, and the instructions that these took, with all that it calls.
+type Costs = HashMap<String, (u64, u64)>;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The binary that calls all pairs.
+fn build() -> PathBuf {
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("instructions");
+    let output = Command::new(env!("CARGO"))
+        .args(["build", "--quiet", "--release", "-p", "lexibus-instructions"])
+        .current_dir(root())
+        .env("CARGO_TARGET_DIR", &target)
+        .env_remove("RUSTFLAGS")
+        .output()
+        .expect("cargo runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    target.join("release/lexibus-instructions")
+}
+
+/// Runs the binary under `valgrind`: the names of the pairs, `case action`, and what each function cost.
+fn count(binary: &Path) -> (Vec<(String, String)>, Costs) {
+    let profile = Path::new(env!("CARGO_TARGET_TMPDIR")).join("callgrind.out");
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--compress-strings=no", "--compress-pos=no", "--demangle=no"])
+        .arg(format!("--callgrind-out-file={}", profile.display()))
+        .arg(binary)
+        .output()
+        .expect("valgrind runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let names = String::from_utf8(output.stdout).expect("names");
+    let pairs = names.lines().filter_map(|line| line.split_once(' ')).map(|(a, b)| (a.into(), b.into())).collect();
+    (pairs, costs(&std::fs::read_to_string(profile).expect("a profile")))
+}
+
+/// Reads the calls of a profile: `cfn=` names the function, `calls=` says how often it is called from this place, and the
+/// line behind it ends with what these calls cost.
+fn costs(profile: &str) -> Costs {
+    let mut costs = Costs::new();
+    let (mut function, mut lines) = ("", profile.lines());
+    while let Some(line) = lines.next() {
+        if let Some(name) = line.strip_prefix("cfn=") {
+            function = name;
+        } else if let Some(calls) = line.strip_prefix("calls=") {
+            let number = |text: Option<&str>| text.and_then(|text| text.parse::<u64>().ok()).expect("a number");
+            let (calls, _) = calls.split_once(' ').expect("a count and a place");
+            let cost = costs.entry(function.to_owned()).or_default();
+            cost.0 += number(Some(calls));
+            cost.1 += number(lines.next().and_then(|line| line.split_once(' ')).map(|(_, cost)| cost));
+        }
+    }
+    costs
+}
+
+/// What a call of a function costs. Mangled names hold the names of modules with their lengths in front.
+fn cost(costs: &Costs, case: &str, action: &str, side: &str) -> f64 {
+    let path: String = [case, action, side].iter().map(|name| format!("{}{name}", name.len())).collect();
+    let found: Vec<_> = costs.iter().filter(|(name, _)| name.contains(&path)).collect();
+    let [(_, (calls, instructions))] = found[..] else { panic!("{path} should be one function: {found:?}") };
+    assert_eq!(*calls, 100, "{path} has been merged with another function, or inlined");
+    *instructions as f64 / *calls as f64
+}
+
+#[test]
+fn generated_code_costs_what_a_person_would_write() {
+    if !cfg!(target_arch = "x86_64") || Command::new("valgrind").arg("--version").output().is_err() {
+        println!("skipped: instructions are counted on x86-64 with `valgrind`, which isn't here");
+        return;
+    }
+    let (pairs, costs) = count(&build());
+    assert!(pairs.len() >= 40, "{}", pairs.len());
+    let mut worse = Vec::new();
+    for (case, action) in &pairs {
+        let (ours, hand) = (cost(&costs, case, action, "ours"), cost(&costs, case, action, "hand"));
+        println!("{case:22} {action:10} {ours:7.2} by hand {hand:7.2}");
+        let tolerated = TOLERATED.iter().find(|one| (one.0, one.1) == (case, action)).map_or(0.0, |one| one.2);
+        if ours > hand + tolerated {
+            worse.push(format!("{case} {action}: {ours} instead of {hand}"));
+        }
+    }
+    assert!(worse.is_empty(), "instructions a call: {worse:#?}");
+}
+
+#[test]
+fn reads_a_profile() {
+    let profile = "fn=main\n10 3\ncfn=a\ncalls=2 40\n12 20\ncfn=b\ncalls=1 50\n13 5\ncfn=a\ncalls=1 40\n14 10\n";
+    let costs = costs(profile);
+    assert_eq!((costs["a"], costs["b"]), ((3, 30), (1, 5)));
+}
