@@ -97,7 +97,8 @@ impl Client for Wire {
         for (to, from) in self.data.iter_mut().zip(data) {
             *to = *from;
         }
-        Ok(black_box(()))
+        black_box(());
+        Ok(())
     }
 }
 
