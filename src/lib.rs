@@ -127,7 +127,7 @@ pub use location::{
 };
 pub use machine::{Step, Transition};
 pub use node_id::NodeId;
-pub use pdo::{CobId, MappedEntry, Pdo, SdoWrite};
+pub use pdo::{AnyPdo, CobId, Mappable, MappedEntry, Pdo, Remappable, Rpdo, SdoWrite, Tpdo};
 pub use quantity::{Exponential, Fraction, Number, OrNone, PerItem, Quantity, Reciprocal, Scaled};
 pub use range::Range;
 pub use register::{Register, RegisterPart, RegisterTable, WordOrder};

@@ -7,7 +7,7 @@ use super::mailbox::Transition;
 use super::pdo::PdoInfo;
 use super::startup::StartupCommand;
 use super::Device;
-use crate::pdo::SdoWrite;
+use crate::pdo::{MappedEntry, Pdo, SdoWrite};
 
 /// Index of the assignment object of sync manager 0 (ETG.1000.6 5.6.7.4).
 pub(super) const ASSIGN: u16 = 0x1C10;
@@ -21,6 +21,10 @@ pub struct Placed {
     pub sync_manager: u8,
     /// Its first bit, counted from the first of the sync manager's data.
     pub bit: u32,
+    /// Length in bits.
+    pub bits: u32,
+    /// What it carries: the mapping of the description, or [one's own](Assignment::with_mapping).
+    pub mapping: &'static [MappedEntry],
 }
 
 /// A legal choice of at most `N` PDOs of a device.
@@ -58,6 +62,8 @@ pub enum AssignmentError {
     },
     /// There are more PDOs than the assignment has room for.
     TooMany,
+    /// The mapping of the PDO can't be changed.
+    Fixed(u16),
 }
 
 impl fmt::Display for AssignmentError {
@@ -74,6 +80,7 @@ impl fmt::Display for AssignmentError {
                 write!(f, "the data of sync manager {sync_manager} have {bytes} bytes, and at most {max} fit")
             }
             AssignmentError::TooMany => f.write_str("there are more PDOs than the assignment has room for"),
+            AssignmentError::Fixed(index) => write!(f, "the mapping of the PDO {index:#06X} can't be changed"),
         }
     }
 }
@@ -104,14 +111,43 @@ impl<const N: usize> Assignment<N> {
         if let Some(pdo) = missing {
             return Err(AssignmentError::Missing(pdo.index));
         }
-        for own in device.sync_managers {
-            let bytes = assignment.bytes(own.number);
+        assignment.check_lengths()?;
+        Ok(assignment)
+    }
+
+    /// The same PDOs, with a mapping of one's own for one of them: a struct that [`pdo!`](crate::pdo!) made. The PDOs
+    /// behind it move.
+    ///
+    /// # Errors
+    ///
+    /// [`AssignmentError::Unknown`] where the PDO isn't assigned, [`AssignmentError::Fixed`] where the device lets nobody
+    /// write its mapping, and [`AssignmentError::TooLong`].
+    pub fn with_mapping<P: Pdo>(mut self) -> Result<Self, AssignmentError> {
+        let configures = self.device.mailbox.coe.is_some_and(|coe| coe.pdo_config);
+        let mut placed = self.placed.iter_mut().flatten();
+        let placed = placed.find(|placed| placed.pdo.index == P::INDEX).ok_or(AssignmentError::Unknown(P::INDEX))?;
+        if placed.pdo.fixed || !configures {
+            return Err(AssignmentError::Fixed(P::INDEX));
+        }
+        (placed.mapping, placed.bits) = (P::MAPPING, crate::pdo::own::bits(P::MAPPING));
+        for at in 0..self.len {
+            let (before, rest) = self.placed.split_at_mut(at);
+            let Some(Some(own)) = rest.first_mut() else { continue };
+            own.bit = bits_of(before, own.sync_manager);
+        }
+        self.check_lengths()?;
+        Ok(self)
+    }
+
+    fn check_lengths(&self) -> Result<(), AssignmentError> {
+        for own in self.device.sync_managers {
+            let bytes = self.bytes(own.number);
             let max = own.max_size.map_or(usize::MAX, usize::from);
             if bytes > max {
                 return Err(AssignmentError::TooLong { sync_manager: own.number, bytes, max });
             }
         }
-        Ok(assignment)
+        Ok(())
     }
 
     fn add(&mut self, index: u16) -> Result<(), AssignmentError> {
@@ -125,7 +161,7 @@ impl<const N: usize> Assignment<N> {
             }
         }
         let sync_manager = self.device.sync_manager_of(pdo).ok_or(AssignmentError::NoSyncManager(index))?;
-        let placed = Placed { pdo, sync_manager, bit: self.bits(sync_manager) };
+        let placed = Placed { pdo, sync_manager, bit: self.bits(sync_manager), bits: pdo.bits, mapping: pdo.mapping };
         *self.placed.get_mut(self.len).ok_or(AssignmentError::TooMany)? = Some(placed);
         self.len += 1;
         Ok(())
@@ -145,8 +181,7 @@ impl<const N: usize> Assignment<N> {
     /// Length in bits of the data of a sync manager.
     #[must_use]
     pub fn bits(&self, sync_manager: u8) -> u32 {
-        let own = self.pdos().filter(|placed| placed.sync_manager == sync_manager);
-        own.map(|placed| placed.pdo.bits).fold(0, u32::saturating_add)
+        bits_of(&self.placed, sync_manager)
     }
 
     /// Length in bytes of the data of a sync manager, the last one perhaps not full.
@@ -171,15 +206,20 @@ impl<const N: usize> Assignment<N> {
         let configures = coe.is_some_and(|coe| coe.pdo_config);
         let managers = move || self.device.sync_managers.iter().filter(move |own| assigns && own.carries_data());
         let clear = managers().map(|own| SdoWrite::new_u8(own.assignment(), 0, 0));
-        let mappings = self.pdos().filter(move |placed| configures && placed.pdo.is_writable());
-        let mappings =
-            mappings.flat_map(|placed| mapping_writes(placed.pdo.index, placed.pdo.mapping, Growth::default()));
+        let mappings = self.pdos().filter(move |placed| configures && placed.pdo.holds(placed.mapping));
+        let mappings = mappings.flat_map(|placed| mapping_writes(placed.pdo.index, placed.mapping, Growth::default()));
         let assign = managers().flat_map(move |own| {
             let placed = move || self.pdos().filter(move |placed| placed.sync_manager == own.number);
             assignment_writes(own.assignment(), move || placed().map(|placed| placed.pdo.index))
         });
         clear.chain(mappings).chain(assign)
     }
+}
+
+/// Length in bits of those of `placed` that are on this sync manager.
+fn bits_of(placed: &[Option<Placed>], sync_manager: u8) -> u32 {
+    let own = placed.iter().flatten().filter(|placed| placed.sync_manager == sync_manager);
+    own.fold(0, |bits, placed| bits.saturating_add(placed.bits))
 }
 
 impl super::SyncManager {
@@ -247,6 +287,44 @@ mod tests {
         assert_eq!(new(&[0x1A00, 0x1A01]), AssignmentError::TooLong { sync_manager: 3, bytes: 10, max: 8 });
         let one = Assignment::<1>::by_default(&DRIVE).map(|_| ()).unwrap_err();
         assert_eq!(one, AssignmentError::TooMany);
+    }
+
+    /// A mapping of one's own: the status word and a gap of 5 bits, or a `LONG` one of 50.
+    struct Own<const INDEX: u16, const LONG: bool>;
+
+    impl<const INDEX: u16, const LONG: bool> Pdo for Own<INDEX, LONG> {
+        const INDEX: u16 = INDEX;
+        const MAPPING: &'static [MappedEntry] =
+            &[MappedEntry::new(0x6041, 0, 16), MappedEntry::new(0, 0, if LONG { 50 } else { 5 })];
+        const LEN: usize = 3;
+    }
+
+    #[test]
+    fn a_mapping_of_ones_own_takes_the_place_of_the_description_s() {
+        let assignment = Assignment::<8>::by_default(&DRIVE).unwrap();
+        let own = assignment.with_mapping::<Own<0x1A00, false>>().unwrap();
+        assert_eq!((assignment.bits(3), own.bits(2), own.bits(3)), (16, 16, 21));
+        let commands: Vec<_> = own.commands().filter(|write| write.object().index == 0x1A00).collect();
+        assert_eq!(
+            commands,
+            [
+                SdoWrite::new_u8(0x1A00, 0, 0),
+                SdoWrite::new_u32(0x1A00, 1, 0x6041_0010),
+                SdoWrite::new_u32(0x1A00, 2, 0x0000_0005),
+                SdoWrite::new_u8(0x1A00, 0, 2),
+            ]
+        );
+    }
+
+    #[test]
+    fn mappings_that_the_device_does_not_take_are_refused() {
+        let assignment = Assignment::<8>::by_default(&DRIVE).unwrap();
+        let long = assignment.with_mapping::<Own<0x1A00, true>>().map(|_| ()).unwrap_err();
+        assert_eq!(long, AssignmentError::TooLong { sync_manager: 3, bytes: 9, max: 8 });
+        let fixed = assignment.with_mapping::<Own<0x1600, false>>().map(|_| ()).unwrap_err();
+        assert_eq!(fixed, AssignmentError::Fixed(0x1600));
+        let unknown = assignment.with_mapping::<Own<0x1A01, false>>().map(|_| ()).unwrap_err();
+        assert_eq!(unknown, AssignmentError::Unknown(0x1A01));
     }
 
     #[test]

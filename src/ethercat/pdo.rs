@@ -47,6 +47,11 @@ impl PdoInfo {
     /// Whether a mapping object can hold the mapping: it has 254 sub-indices, and 8 bits for the length of an entry.
     #[must_use]
     pub fn is_writable(&self) -> bool {
-        !self.fixed && self.mapping.len() <= 254 && self.mapping.iter().all(|entry| entry.bits <= 255)
+        self.holds(self.mapping)
+    }
+
+    /// Whether the mapping object can hold `mapping`.
+    pub(super) fn holds(&self, mapping: &[MappedEntry]) -> bool {
+        !self.fixed && mapping.len() <= 254 && mapping.iter().all(|entry| entry.bits <= 255)
     }
 }

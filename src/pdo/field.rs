@@ -1,0 +1,315 @@
+//! What a field of a PDO can be, and how fields become bytes.
+
+use crate::bits;
+use crate::enumeration::Enumeration;
+use crate::error::LengthError;
+use crate::pdo::{from_bytes, mask, sign_extend, to_bytes};
+use crate::time::{TimeDifference, TimeOfDay};
+use crate::value::Value;
+use crate::wide::{Int, Uint};
+
+/// A type that a field of a PDO can have: a number, a truth value, an enumeration, a bit field, a time, bytes.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` can't be a field of a PDO",
+    label = "not a type of a fixed number of bits"
+)]
+pub trait Field: Copy {
+    /// The bits of the field, the lowest first, as far as a word holds them. What is above them is no matter.
+    #[must_use]
+    fn to_word(self) -> u64;
+
+    /// The field that the low `bits` bits of `word` are; those above are 0.
+    #[must_use]
+    fn from_word(word: u64, bits: u32) -> Self;
+
+    /// Writes the field, of `bits` bits, at bit `at` of `data`.
+    #[inline]
+    fn put(self, data: &mut [u8], at: usize, bits: u32) {
+        bits::set(data, at, bits, self.to_word());
+    }
+
+    /// The field of `bits` bits at bit `at` of `data`.
+    #[must_use]
+    #[inline]
+    fn get(data: &[u8], at: usize, bits: u32) -> Self {
+        Self::from_word(bits::get(data, at, bits), bits)
+    }
+}
+
+impl Field for bool {
+    #[inline]
+    fn to_word(self) -> u64 {
+        self.into()
+    }
+
+    #[inline]
+    fn from_word(word: u64, _: u32) -> Self {
+        word != 0
+    }
+}
+
+macro_rules! numbers {
+    ($($unsigned:ident $signed:ident)*) => {$(
+        impl Field for $unsigned {
+            #[inline]
+            fn to_word(self) -> u64 {
+                self.into()
+            }
+
+            #[inline]
+            fn from_word(word: u64, _: u32) -> Self {
+                word as Self
+            }
+        }
+
+        impl Field for $signed {
+            #[inline]
+            fn to_word(self) -> u64 {
+                self as u64
+            }
+
+            #[inline]
+            fn from_word(word: u64, bits: u32) -> Self {
+                sign_extend(word, bits) as Self
+            }
+        }
+    )*};
+}
+
+numbers! { u8 i8 u16 i16 u32 i32 u64 i64 }
+
+impl Field for f32 {
+    #[inline]
+    fn to_word(self) -> u64 {
+        self.to_bits().into()
+    }
+
+    #[inline]
+    fn from_word(word: u64, _: u32) -> Self {
+        f32::from_bits(word as u32)
+    }
+}
+
+impl Field for f64 {
+    #[inline]
+    fn to_word(self) -> u64 {
+        self.to_bits()
+    }
+
+    #[inline]
+    fn from_word(word: u64, _: u32) -> Self {
+        f64::from_bits(word)
+    }
+}
+
+macro_rules! raw {
+    ($([$($generics:tt)*] $ty:ty;)*) => {$(
+        impl<$($generics)*> Field for $ty {
+            #[inline]
+            fn to_word(self) -> u64 {
+                self.raw()
+            }
+
+            #[inline]
+            fn from_word(word: u64, _: u32) -> Self {
+                Self::from_raw(word)
+            }
+        }
+    )*};
+}
+
+raw! {
+    [const BITS: u32] Uint<BITS>;
+    [const BITS: u32] Int<BITS>;
+    [] TimeOfDay;
+    [] TimeDifference;
+}
+
+impl<E: Enumeration> Field for E
+where
+    <E::Base as Value>::Native: Field,
+{
+    #[inline]
+    fn to_word(self) -> u64 {
+        self.native().to_word()
+    }
+
+    #[inline]
+    fn from_word(word: u64, bits: u32) -> Self {
+        E::from_native(Field::from_word(word, bits))
+    }
+}
+
+/// Bytes, such as those of a text.
+impl<const N: usize> Field for [u8; N] {
+    #[inline]
+    fn to_word(self) -> u64 {
+        from_bytes(&self)
+    }
+
+    #[inline]
+    fn from_word(word: u64, _: u32) -> Self {
+        to_bytes(word)
+    }
+
+    #[inline]
+    fn put(self, data: &mut [u8], at: usize, bits: u32) {
+        bits::set_bits(data, at, bits as usize, &self);
+    }
+
+    #[inline]
+    fn get(data: &[u8], at: usize, bits: u32) -> Self {
+        bits::get_bits(data, at, bits as usize)
+    }
+}
+
+/// The `LEN` bytes of a PDO while its fields are put in. What [`pdo!`](crate::pdo!) makes packs with it.
+///
+/// Up to 8 bytes are one word, in which the compiler knows all shifts.
+pub struct Frame<const LEN: usize> {
+    word: u64,
+    data: [u8; LEN],
+}
+
+impl<const LEN: usize> Frame<LEN> {
+    /// No field is in yet: all bits are 0.
+    #[must_use]
+    #[inline]
+    pub const fn new() -> Self {
+        Self { word: 0, data: [0; LEN] }
+    }
+
+    /// Puts in a field of `bits` bits, cut to them, whose first is bit `at`. Nothing has been put there before.
+    #[must_use]
+    #[inline]
+    pub fn with<F: Field>(mut self, field: F, at: u32, bits: u32) -> Self {
+        if LEN <= 8 {
+            self.word |= (field.to_word() & mask(bits)) << at;
+        } else {
+            field.put(&mut self.data, at as usize, bits);
+        }
+        self
+    }
+
+    /// The bytes.
+    #[must_use]
+    #[inline]
+    pub const fn into_bytes(self) -> [u8; LEN] {
+        if LEN <= 8 {
+            to_bytes(self.word)
+        } else {
+            self.data
+        }
+    }
+}
+
+impl<const LEN: usize> Default for Frame<LEN> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// The bytes of a PDO of `LEN` bytes, to take its fields from. What [`pdo!`](crate::pdo!) makes unpacks with it.
+pub struct Fields<'d, const LEN: usize> {
+    word: u64,
+    data: &'d [u8],
+}
+
+impl<'d, const LEN: usize> Fields<'d, LEN> {
+    /// The fields of `data`. Bytes behind the mapped ones are not looked at.
+    ///
+    /// # Errors
+    ///
+    /// [`LengthError`] where `data` has fewer than `LEN` bytes.
+    #[inline]
+    pub const fn new(data: &'d [u8]) -> Result<Self, LengthError> {
+        if data.len() < LEN {
+            return Err(LengthError::new(LEN, data.len()));
+        }
+        Ok(Self { word: from_bytes(data), data })
+    }
+
+    /// The field of `bits` bits whose first is bit `at`.
+    #[must_use]
+    #[inline]
+    pub fn get<F: Field>(&self, at: u32, bits: u32) -> F {
+        if LEN <= 8 {
+            F::from_word(self.word >> at & mask(bits), bits)
+        } else {
+            F::get(self.data, at as usize, bits)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::fmt::Debug;
+
+    use super::*;
+
+    fn travels<F: Field + PartialEq + Debug>(field: F, bits: u32, word: u64) {
+        assert_eq!(field.to_word() & mask(bits), word);
+        assert_eq!(F::from_word(word, bits), field);
+        // At bit 7 of a word, and behind one.
+        let short = Frame::<8>::new().with(field, 7, bits).into_bytes();
+        assert_eq!(short, (word << 7).to_le_bytes());
+        assert_eq!(Fields::<8>::new(&short).unwrap().get::<F>(7, bits), field);
+        let long = Frame::<20>::new().with(field, 79, bits).into_bytes();
+        assert_eq!(bits::get(&long, 79, bits), word);
+        assert_eq!((bits::get(&long, 0, 64), bits::get(&long, 79 + bits as usize, 64)), (0, 0));
+        assert_eq!(Fields::<20>::new(&long).unwrap().get::<F>(79, bits), field);
+    }
+
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    struct Level(i8);
+
+    impl Enumeration for Level {
+        type Base = i8;
+
+        fn from_native(native: i8) -> Self {
+            Level(native)
+        }
+
+        fn native(self) -> i8 {
+            self.0
+        }
+    }
+
+    #[test]
+    fn all_types_travel() {
+        travels(true, 1, 1);
+        travels(0xFEu8, 8, 0xFE);
+        travels(5u8, 3, 5);
+        travels(-2i8, 8, 0xFE);
+        travels(-2i32, 24, 0xFF_FFFE);
+        travels(0x1234_5678u32, 32, 0x1234_5678);
+        travels(-1i64, 40, 0xFF_FFFF_FFFF);
+        travels(1.0f32, 32, 0x3F80_0000);
+        travels(Uint::<12>::from_raw(0xABC), 12, 0xABC);
+        travels(Int::<24>::from_raw(0xFF_FFFE), 24, 0xFF_FFFE);
+        travels(TimeOfDay::new(1, 2), 48, 0x0002_0000_0001);
+        travels(Level(-3), 8, 0xFD);
+        travels([1, 2, 3], 24, 0x03_0201);
+        assert_eq!(f64::from_word(1.5f64.to_word(), 64), 1.5);
+    }
+
+    #[test]
+    fn fields_are_cut_to_their_bits() {
+        let frame = Frame::<2>::new().with(0xFFu8, 3, 2).with(-1i16, 8, 4).into_bytes();
+        assert_eq!(frame, [0b0001_1000, 0x0F]);
+    }
+
+    #[test]
+    fn long_bytes_travel() {
+        let text = *b"more than a word";
+        let frame = Frame::<20>::new().with(text, 9, 128).into_bytes();
+        assert_eq!(Fields::<20>::new(&frame).unwrap().get::<[u8; 16]>(9, 128), text);
+        assert_eq!(frame[1], b'm' << 1);
+    }
+
+    #[test]
+    fn short_data_are_refused() {
+        assert_eq!(Fields::<3>::new(&[0; 2]).map(|_| ()), Err(LengthError { expected: 3, actual: 2 }));
+        assert!(Fields::<3>::new(&[0; 4]).is_ok());
+    }
+}
