@@ -26,6 +26,7 @@ mod pdo;
 mod place;
 mod profinet;
 mod quantity;
+mod remap;
 mod scope;
 mod table;
 mod value_type;

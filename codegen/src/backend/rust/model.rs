@@ -13,6 +13,7 @@ use super::options::{Presence, RustOptions};
 use super::pdo::{self, PdoModel};
 use super::place::{Buses, Place as Address};
 use super::quantity;
+use super::remap::{self, RemappableModel};
 use super::scope::{ObjectBus, Scope};
 use super::table::{self, EntryModel};
 use super::value_type::ValueType;
@@ -62,6 +63,8 @@ pub(super) struct Model<'a> {
     /// Private names of the types of handles: name, access and arguments.
     pub handle_types: Vec<(String, &'static str, String)>,
     pub pdos: Vec<PdoModel>,
+    /// PDOs that can be mapped anew.
+    pub remappable: Vec<RemappableModel>,
     /// Whether there are views of PDOs within a process image.
     pub has_views: bool,
     pub ethercat: Option<EtherCatModel>,
@@ -91,6 +94,11 @@ pub(super) struct ObjectModel {
 }
 
 impl ObjectModel {
+    /// Whether one of its items can be mapped into PDOs.
+    pub(super) fn has_mappable(&self) -> bool {
+        self.items.iter().any(|item| item.mappable.is_some())
+    }
+
     /// Whether its items need the runtime's name.
     pub(super) fn names_runtime(&self) -> bool {
         self.items.iter().any(|item| item.arguments.contains("rt::") || item.constructor.contains("rt::"))
@@ -114,9 +122,22 @@ pub(super) struct ItemModel {
     pub constructor: String,
     /// Whether a literal may resemble a mathematical constant.
     pub real: bool,
+    /// The object on the bus of the PDOs.
+    pub object: Option<(u16, u8)>,
+    /// The arguments of the type that says how it is mapped into PDOs.
+    pub mappable: Option<String>,
 }
 
 impl ItemModel {
+    /// The name under which `lexibus::pdo!` finds it: that of the method, unless that would hide a type.
+    pub(super) fn mappable_name(&self) -> String {
+        const PRIMITIVES: [&str; 15] = [
+            "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "f32", "f64",
+        ];
+        let hides = PRIMITIVES.contains(&self.method.as_str());
+        format!("{}{}", self.method, if hides { "_" } else { "" })
+    }
+
     /// The expression that joins a handle to the device's client. A long name would break the chain of calls.
     pub(super) fn at_client(&self) -> String {
         const LONG: usize = 48;
@@ -203,10 +224,11 @@ impl<'a> Model<'a> {
 
     fn of_scope(scope: Scope<'a>, types: Types, options: &'a RustOptions) -> Self {
         let locations = Locations::of(&scope);
-        let objects = objects(&scope, &locations);
+        let mut objects = objects(&scope, &locations);
         let aliases = ALIASES.iter().filter(|alias| uses(&objects, alias.name)).copied().collect();
         let handle_types = handle_types(&objects);
         let pdos = if options.pdos { pdo::models(&scope, options) } else { Vec::new() };
+        let remappable = if options.pdos { remap::models(&scope, &mut objects) } else { Vec::new() };
         Model {
             handle_types,
             options,
@@ -230,6 +252,7 @@ impl<'a> Model<'a> {
             module: None,
             has_views: scope.bus == ObjectBus::CoE && !pdos.is_empty(),
             pdos,
+            remappable,
             table: (options.table != Presence::Never).then(|| table::models(&scope)),
             table_feature: match &options.table {
                 Presence::Feature(feature) => Some(literal::string(feature)),
@@ -525,6 +548,8 @@ fn item(scope: &Scope<'_>, locations: &Locations, item: &Item, name: &str, origi
         alias: format!("{}{word}{on}", alias(item.access)),
         constructor: constructor(&address, item, ty, &literal::string(original), named.map(|_| path(outer))),
         real: ty.is_real() && (item.default.is_some() || !item.limits.is_empty()),
+        object: address.object_on(scope.bus),
+        mappable: None,
     }
 }
 

@@ -6,9 +6,10 @@ use super::docs;
 use super::ethercat::{beside, depends_on};
 use super::layout;
 use super::model::addressable;
+use super::named::NamedType;
 use super::options::RustOptions;
 use super::scope::{ObjectBus, Scope};
-use crate::ir::{Direction, Group, Pdo, PdoEntry, PdoEntryKind, Type, Value};
+use crate::ir::{Direction, Group, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Type, Value};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// The longest name of a field: the lines that pack it have to stay below the margin.
@@ -70,7 +71,7 @@ pub(super) fn models(scope: &Scope<'_>, options: &RustOptions) -> Vec<PdoModel> 
 }
 
 /// Those of CANopen go by their number, on EtherCAT too if the device is on both; those of EtherCAT have names.
-fn names(scope: &Scope<'_>) -> Vec<String> {
+pub(super) fn names(scope: &Scope<'_>) -> Vec<String> {
     if scope.bus == ObjectBus::CanOpen || scope.pdos.iter().all(|pdo| pdo.communication.is_some()) {
         return scope.pdos.iter().map(|pdo| format!("{}{}", prefix(pdo.direction), pdo.number)).collect();
     }
@@ -105,19 +106,12 @@ fn model(scope: &Scope<'_>, pdo: &Pdo, struct_name: String, options: &RustOption
         return None;
     }
     let fields = fields(scope, &mapped);
-    let title = match (scope.bus, pdo.direction) {
-        (ObjectBus::CanOpen, Direction::Receive) => format!("RPDO {}", pdo.number),
-        (ObjectBus::CanOpen, Direction::Transmit) => format!("TPDO {}", pdo.number),
-        (ObjectBus::CoE, Direction::Receive) => format!("RxPDO 0x{:04X}", pdo.mapping_index),
-        (ObjectBus::CoE, Direction::Transmit) => format!("TxPDO 0x{:04X}", pdo.mapping_index),
-    };
-    let name = if pdo.name.is_empty() { String::new() } else { format!(": {}", docs::escape(&pdo.name)) };
-    let is_constant = !mapped.iter().any(|entry| matches!(field_type(scope, entry), FieldType::Real(_)));
+    let is_constant = !mapped.iter().any(|entry| matches!(field_type(scope, entry.ty, entry.bits), FieldType::Real(_)));
     let word = pdo.bits() <= WORD;
     Some(PdoModel {
         name: struct_name,
         docs: vec![
-            docs::sentence(&format!("{title}{name}")),
+            title(scope, pdo),
             String::new(),
             format!("Mapping 0x{:04X}, {} bits.", pdo.mapping_index, pdo.bits()),
         ],
@@ -137,6 +131,18 @@ fn model(scope: &Scope<'_>, pdo: &Pdo, struct_name: String, options: &RustOption
     })
 }
 
+/// What the PDO is called, as a sentence.
+pub(super) fn title(scope: &Scope<'_>, pdo: &Pdo) -> String {
+    let title = match (scope.bus, pdo.direction) {
+        (ObjectBus::CanOpen, Direction::Receive) => format!("RPDO {}", pdo.number),
+        (ObjectBus::CanOpen, Direction::Transmit) => format!("TPDO {}", pdo.number),
+        (ObjectBus::CoE, Direction::Receive) => format!("RxPDO 0x{:04X}", pdo.mapping_index),
+        (ObjectBus::CoE, Direction::Transmit) => format!("TxPDO 0x{:04X}", pdo.mapping_index),
+    };
+    let name = if pdo.name.is_empty() { String::new() } else { format!(": {}", docs::escape(&pdo.name)) };
+    docs::sentence(&format!("{title}{name}"))
+}
+
 fn is_field(entry: &PdoEntry) -> bool {
     entry.kind != PdoEntryKind::Padding && entry.bits > 0
 }
@@ -146,7 +152,7 @@ fn covered(scope: &Scope<'_>, mapped: &[&PdoEntry]) -> String {
     const TIME: u64 = 0xFFFF_0FFF_FFFF;
     let mut covered: u64 = 0;
     for entry in mapped.iter().filter(|entry| entry.bit_offset + entry.bits <= WORD) {
-        let bits = match field_type(scope, entry) {
+        let bits = match field_type(scope, entry.ty, entry.bits) {
             FieldType::Time(_) => TIME,
             _ => u64::MAX >> (WORD - entry.bits),
         };
@@ -231,7 +237,7 @@ fn field_text(scope: &Scope<'_>, entry: &PdoEntry) -> String {
 }
 
 /// How the bits of an entry are written in Rust.
-enum FieldType {
+pub(super) enum FieldType {
     Bool,
     /// An integer of Rust's own.
     Native(&'static str),
@@ -244,12 +250,30 @@ enum FieldType {
     Named(String, &'static str),
 }
 
-fn field_type(scope: &Scope<'_>, entry: &PdoEntry) -> FieldType {
-    let bits = entry.bits;
-    if let Some(named) = scope.enumeration(entry.ty).filter(|named| named.bits == bits && !named.is_signed()) {
+impl FieldType {
+    /// The type in Rust; `outer` leads to the device's place.
+    pub fn path(&self, outer: &str) -> String {
+        match self {
+            FieldType::Bool => "bool".to_owned(),
+            FieldType::Native(native) => (*native).to_owned(),
+            FieldType::Odd(true, bits) => format!("rt::Int<{bits}>"),
+            FieldType::Odd(false, bits) => format!("rt::Uint<{bits}>"),
+            FieldType::Real(bits) => format!("f{bits}"),
+            FieldType::Time(path) => (*path).to_owned(),
+            FieldType::Bytes(length) => format!("[u8; {length}]"),
+            FieldType::Named(name, _) => format!("{outer}types::{name}"),
+        }
+    }
+}
+
+/// How `bits` bits of a type are written.
+pub(super) fn field_type(scope: &Scope<'_>, ty: Type, bits: u32) -> FieldType {
+    // The sign of a number has its place at the top of an integer of Rust's own.
+    let is_whole = |named: &NamedType| !named.is_signed() || native_bits(named.native) == bits;
+    if let Some(named) = scope.enumeration(ty).filter(|named| named.bits == bits && is_whole(named)) {
         return FieldType::Named(named.name.clone(), named.native);
     }
-    let ty = scope.base(entry.ty);
+    let ty = scope.base(ty);
     let is_whole = ty.bits() == Some(bits);
     match ty {
         Type::Boolean if bits == 1 => FieldType::Bool,
@@ -265,6 +289,11 @@ fn field_type(scope: &Scope<'_>, entry: &PdoEntry) -> FieldType {
         _ if bits > WORD => FieldType::Bytes(bits.div_ceil(8)),
         _ => integer(false, bits),
     }
+}
+
+/// Bits of an integer of Rust's own.
+fn native_bits(native: &str) -> u32 {
+    native[1..].parse().unwrap_or(0)
 }
 
 fn integer(signed: bool, bits: u32) -> FieldType {
@@ -284,40 +313,38 @@ fn integer(signed: bool, bits: u32) -> FieldType {
 fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str) -> FieldModel {
     let name = names_unique::escaped(name);
     let own = format!("self.{name}");
-    let (ty, encode, decode) = match field_type(scope, entry) {
-        FieldType::Named(name, native) => {
-            let path = format!("super::types::{name}");
-            let decode = if native == "u64" {
-                format!("{path}::from_raw(§)")
-            } else {
-                format!("{path}::from_raw(§ as {native})")
+    let kind = field_type(scope, entry.ty, entry.bits);
+    let ty = kind.path("super::");
+    let (encode, decode) = match &kind {
+        FieldType::Named(_, native) => {
+            let number = |own: &str| match native.strip_prefix('i') {
+                Some("64") => format!("{own}.raw() as u64"),
+                Some(bits) => format!("{own}.raw() as u{bits} as u64"),
+                None if *native == "u64" => format!("{own}.raw()"),
+                None => format!("{own}.raw() as u64"),
             };
-            let encode = if native == "u64" { format!("{own}.raw()") } else { format!("{own}.raw() as u64") };
-            (path, encode, decode)
+            let from = if *native == "u64" { "§".to_owned() } else { format!("§ as {native}") };
+            (number(&own), format!("{ty}::from_raw({from})"))
         }
-        FieldType::Bool => ("bool".to_owned(), format!("{own} as u64"), "§ & 1 == 1".to_owned()),
-        FieldType::Native("u64") => ("u64".to_owned(), own, "§".to_owned()),
-        FieldType::Native("i64") => ("i64".to_owned(), format!("{own} as u64"), "§ as i64".to_owned()),
+        FieldType::Bool => (format!("{own} as u64"), "§ & 1 == 1".to_owned()),
+        FieldType::Native("u64") => (own, "§".to_owned()),
+        FieldType::Native("i64") => (format!("{own} as u64"), "§ as i64".to_owned()),
         // A signed number is cut to its width before it is widened, or its sign would spread over the word.
         FieldType::Native(signed) if signed.starts_with('i') => {
-            (signed.to_owned(), format!("{own} as u{} as u64", entry.bits), format!("§ as {signed}"))
+            (format!("{own} as u{} as u64", entry.bits), format!("§ as {signed}"))
         }
-        FieldType::Native(unsigned) => (unsigned.to_owned(), format!("{own} as u64"), format!("§ as {unsigned}")),
-        FieldType::Odd(signed, bits) => {
-            let name = if signed { "rt::Int" } else { "rt::Uint" };
-            (format!("{name}<{bits}>"), format!("{own}.raw()"), format!("{name}::from_raw(§)"))
+        FieldType::Native(unsigned) => (format!("{own} as u64"), format!("§ as {unsigned}")),
+        FieldType::Odd(signed, _) => {
+            let name = if *signed { "rt::Int" } else { "rt::Uint" };
+            (format!("{own}.raw()"), format!("{name}::from_raw(§)"))
         }
-        FieldType::Real(32) => {
-            ("f32".to_owned(), format!("{own}.to_bits() as u64"), "f32::from_bits(§ as u32)".to_owned())
-        }
-        FieldType::Real(_) => ("f64".to_owned(), format!("{own}.to_bits()"), "f64::from_bits(§)".to_owned()),
-        FieldType::Time(path) => (path.to_owned(), format!("{own}.raw()"), format!("{path}::from_raw(§)")),
-        FieldType::Bytes(length) => {
-            (format!("[u8; {length}]"), format!("rt::pdo::from_bytes(&{own})"), "rt::pdo::to_bytes(§)".to_owned())
-        }
+        FieldType::Real(32) => (format!("{own}.to_bits() as u64"), "f32::from_bits(§ as u32)".to_owned()),
+        FieldType::Real(_) => (format!("{own}.to_bits()"), "f64::from_bits(§)".to_owned()),
+        FieldType::Time(path) => (format!("{own}.raw()"), format!("{path}::from_raw(§)")),
+        FieldType::Bytes(_) => (format!("rt::pdo::from_bytes(&{own})"), "rt::pdo::to_bytes(§)".to_owned()),
     };
-    let cut = match field_type(scope, entry) {
-        FieldType::Named(_, native) if native != format!("u{}", entry.bits) => {
+    let cut = match &kind {
+        FieldType::Named(_, native) if native_bits(native) > entry.bits => {
             Some(format!("{:#X}", u64::MAX >> (WORD - entry.bits)).replace("0X", "0x"))
         }
         _ => None,
@@ -521,7 +548,7 @@ impl FieldModel {
     }
 }
 
-fn cob_id(pdo: &Pdo) -> Option<String> {
+pub(super) fn cob_id(pdo: &Pdo) -> Option<String> {
     let value = pdo.communication.as_ref()?.cob_id.as_ref()?;
     let number = |value: &i128| u32::try_from(*value).ok();
     match value {
@@ -541,23 +568,25 @@ fn configuration(scope: &Scope<'_>, pdo: &Pdo) -> Vec<String> {
     }
     let mut writes = vec![write("u32", communication.index, 1, "cob_id | 0x8000_0000")];
     writes.extend(mapping_writes(scope, pdo));
+    writes.extend(timing_writes(communication));
+    writes.push(write("u32", communication.index, 1, "cob_id & 0x7FFF_FFFF"));
+    writes
+}
+
+/// The writes that set the timing up as it is by default.
+pub(super) fn timing_writes(communication: &PdoCommunication) -> Vec<String> {
     let timing = [
         (2, "u8", communication.transmission_type.map(u16::from)),
         (3, "u16", communication.inhibit_time),
         (5, "u16", communication.event_timer),
         (6, "u8", communication.sync_start.map(u16::from)),
     ];
-    for (sub, ty, value) in timing {
-        if let Some(value) = value.filter(|_| communication.writable.contains(&sub)) {
-            writes.push(write(ty, communication.index, sub, &value.to_string()));
-        }
-    }
-    writes.push(write("u32", communication.index, 1, "cob_id & 0x7FFF_FFFF"));
-    writes
+    let writable = timing.into_iter().filter(|(sub, ..)| communication.writable.contains(sub));
+    writable.filter_map(|(sub, ty, value)| Some(write(ty, communication.index, sub, &value?.to_string()))).collect()
 }
 
 /// Whether the default names an identifier at all; a PDO that is switched off by default often doesn't.
-fn has_identifier(pdo: &Pdo) -> bool {
+pub(super) fn has_identifier(pdo: &Pdo) -> bool {
     const IDENTIFIER: i128 = 0x1FFF_FFFF;
     let value = pdo.communication.as_ref().and_then(|communication| communication.cob_id.as_ref());
     matches!(value, Some(Value::NodeId(base) | Value::Int(base)) if base & IDENTIFIER != 0)

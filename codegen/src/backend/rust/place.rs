@@ -1,6 +1,6 @@
 //! Where an item is found: the type of a handle's location, and the code that makes it.
 
-use super::scope::Scope;
+use super::scope::{ObjectBus, Scope};
 use crate::ir::{Binding, Item, RegisterBinding, RegisterSpace, Type};
 
 /// Index and sub-index.
@@ -109,6 +109,14 @@ impl<'i> Place<'i> {
             coe: self.coe.is_some(),
             modbus: self.modbus.is_some(),
             serial: self.serial.is_some(),
+        }
+    }
+
+    /// The object on the bus of `scope`, or on the other one that has objects.
+    pub fn object_on(&self, bus: ObjectBus) -> Option<(u16, u8)> {
+        match bus {
+            ObjectBus::CanOpen => self.canopen.or(self.coe),
+            ObjectBus::CoE => self.coe.or(self.canopen),
         }
     }
 

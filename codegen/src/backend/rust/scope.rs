@@ -19,6 +19,8 @@ pub(super) struct Scope<'a> {
     pub groups: &'a [Group],
     pub types: &'a [TypeDef],
     pub pdos: &'a [Pdo],
+    /// The device; a module has none.
+    pub device: Option<&'a Device>,
     /// What is known of the manual that the description was taken from.
     pub manual: Manual,
     /// The enumerations and bit fields that an item, a PDO or a bit field has, by the position of their types.
@@ -31,6 +33,7 @@ impl<'a> Scope<'a> {
         let bus = if device.ethercat.is_some() || device.dictionary_only { ObjectBus::CoE } else { ObjectBus::CanOpen };
         let mut scope = Scope::new(bus, &device.groups, &device.types, &device.process_data.pdos);
         scope.manual = Manual::of(device);
+        scope.device = Some(device);
         scope.with_types(&device.machines, options)
     }
 
@@ -41,7 +44,7 @@ impl<'a> Scope<'a> {
     }
 
     fn new(bus: ObjectBus, groups: &'a [Group], types: &'a [TypeDef], pdos: &'a [Pdo]) -> Self {
-        Scope { bus, groups, types, pdos, manual: Manual::default(), named: Vec::new() }
+        Scope { bus, groups, types, pdos, device: None, manual: Manual::default(), named: Vec::new() }
     }
 
     fn with_types(mut self, machines: &[StateMachine], options: &RustOptions) -> (Self, Types) {

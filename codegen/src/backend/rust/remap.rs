@@ -1,0 +1,208 @@
+//! What `lexibus::pdo!` needs: which PDOs can be mapped anew, within which limits, and what can be mapped into them.
+
+use std::collections::HashMap;
+
+use super::model::{addressable, ObjectModel};
+use super::pdo;
+use super::scope::{ObjectBus, Scope};
+use crate::ir::{Device, Direction, Item, Mappable, Pdo, PdoEntry, PdoEntryKind, Type};
+
+/// The most entries that a mapping object has.
+const MAX_ENTRIES: usize = 254;
+
+/// The most bits that the length of an entry can say.
+const MAX_ENTRY: u32 = 0xFF;
+
+/// The most bytes that a sync manager takes: its length has 16 bits (ETG.1000.4 6.7.2).
+const MAX_SYNC_MANAGER: u16 = u16::MAX;
+
+/// A PDO that can be mapped anew.
+pub(super) struct RemappableModel {
+    pub name: String,
+    pub title: String,
+    pub direction: &'static str,
+    /// What stands for its identifier.
+    pub cob_id: &'static str,
+    /// Constants, each with its type and value.
+    pub constants: Vec<String>,
+}
+
+/// The PDOs that can be mapped anew; where there are any, items get to know how they are mapped.
+pub(super) fn models(scope: &Scope<'_>, objects: &mut [ObjectModel]) -> Vec<RemappableModel> {
+    let Some(device) = scope.device else { return Vec::new() };
+    let names = pdo::names(scope);
+    let models = scope.pdos.iter().zip(names).filter_map(|(pdo, name)| model(scope, device, pdo, name));
+    let models: Vec<RemappableModel> = models.collect();
+    if models.is_empty() || !set_mappable(scope, objects) {
+        return Vec::new();
+    }
+    models
+}
+
+fn model(scope: &Scope<'_>, device: &Device, pdo: &Pdo, name: String) -> Option<RemappableModel> {
+    let is_module_s = pdo.depends_on_slot || pdo.depends_on_slot_group;
+    if pdo.fixed || pdo.is_virtual || is_module_s {
+        return None;
+    }
+    let entries = writable_entries(scope, pdo);
+    let mut constants = vec![format!("INDEX: u16 = 0x{:04X}", pdo.mapping_index)];
+    let cob_id = match &pdo.communication {
+        Some(_) => {
+            constants.push(format!("ENTRIES: usize = {}", entries?));
+            on_canopen(device, pdo, &mut constants)?
+        }
+        None => {
+            let entries = entries.or_else(|| configures(device).then_some(MAX_ENTRIES));
+            constants.push(format!("ENTRIES: usize = {}", entries?));
+            on_ethercat(scope, device, pdo, &mut constants)?
+        }
+    };
+    let kept: Vec<String> = pdo.entries.iter().filter(|entry| entry.fixed).map(word_of).collect();
+    constants.extend(words("KEPT", &kept));
+    Some(RemappableModel {
+        name,
+        title: pdo::title(scope, pdo),
+        direction: match pdo.direction {
+            Direction::Receive => "rt::Rpdo",
+            Direction::Transmit => "rt::Tpdo",
+        },
+        cob_id,
+        constants,
+    })
+}
+
+/// How many entries of the mapping object can be written, where the number of them can, too.
+fn writable_entries(scope: &Scope<'_>, pdo: &Pdo) -> Option<usize> {
+    let mapping = addressable(scope).find(|group| group.index() == Some(pdo.mapping_index))?;
+    let writable = |sub: &u8| mapping.sub(*sub).is_some_and(|item| item.access.writable());
+    let entries = (1..=u8::MAX).take_while(writable).count().min(MAX_ENTRIES);
+    (writable(&0) && entries > 0).then_some(entries)
+}
+
+/// What CANopen adds, and what stands for the identifier; nothing where the mapping is fixed.
+fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<String>) -> Option<&'static str> {
+    let communication = pdo.communication.as_ref()?;
+    let settings = device.canopen.as_deref();
+    match settings.and_then(|settings| settings.granularity) {
+        // CiA 306: the mapping is fixed.
+        Some(0) => return None,
+        Some(bits @ 2..) => constants.push(format!("GRANULARITY: u32 = {bits}")),
+        _ => {}
+    }
+    let receives = pdo.direction == Direction::Receive;
+    let dummies = settings.filter(|_| receives).map_or(&[][..], |settings| &settings.dummies);
+    let dummies = dummies.iter().filter_map(|&code| {
+        let bits = Type::from_cia301(code.into())?.bits()?;
+        Some(word(code.into(), 0, bits))
+    });
+    constants.extend(words("DUMMIES", &dummies.collect::<Vec<_>>()));
+    if communication.writable.contains(&1) {
+        constants.push(format!("COMMUNICATION: Option<u16> = Some(0x{:04X})", communication.index));
+    }
+    let timing = pdo::timing_writes(communication);
+    if !timing.is_empty() {
+        constants.push(format!("TIMING: &'static [rt::SdoWrite] = &[«{}»]", timing.join("¦ ")));
+    }
+    match pdo::cob_id(pdo).filter(|_| pdo::has_identifier(pdo)) {
+        Some(cob_id) => {
+            constants.push(format!("COB_ID: rt::CobId = {cob_id}"));
+            Some("rt::CobId")
+        }
+        None => Some("rt::pdo::NoCobId"),
+    }
+}
+
+/// What EtherCAT adds, and what stands for the identifier.
+fn on_ethercat(scope: &Scope<'_>, device: &Device, pdo: &Pdo, constants: &mut Vec<String>) -> Option<&'static str> {
+    if scope.bus != ObjectBus::CoE || device.dictionary_only {
+        return None;
+    }
+    let managers = &device.process_data.sync_managers;
+    let own = managers.iter().find(|manager| Some(manager.number) == pdo.sync_manager);
+    let bytes = own.and_then(|manager| manager.size_range.1).unwrap_or(MAX_SYNC_MANAGER);
+    constants.push(format!("MAX_BITS: u32 = {}", u32::from(bytes) * 8));
+    Some("rt::pdo::OnEtherCat")
+}
+
+/// Whether the device says that its mappings may be written.
+fn configures(device: &Device) -> bool {
+    let mailbox = device.ethercat.as_ref().and_then(|ethercat| ethercat.mailbox.as_ref());
+    mailbox.and_then(|mailbox| mailbox.coe.as_ref()).is_some_and(|coe| coe.pdo_config)
+}
+
+fn words(name: &str, words: &[String]) -> Option<String> {
+    (!words.is_empty()).then(|| format!("{name}: &'static [u32] = &[«{}»]", words.join("¦ ")))
+}
+
+fn word_of(entry: &PdoEntry) -> String {
+    word(entry.index, entry.sub_index, entry.bits)
+}
+
+/// An entry as the mapping object holds it.
+fn word(index: u16, sub_index: u8, bits: u32) -> String {
+    format!("0x{index:04X}_{sub_index:02X}{:02X}", bits & MAX_ENTRY)
+}
+
+/// Tells every item that can be mapped how; whether there is one.
+fn set_mappable(scope: &Scope<'_>, objects: &mut [ObjectModel]) -> bool {
+    let items = scope.groups.iter().flat_map(|group| &group.items);
+    let items: HashMap<(u16, u8), &Item> = items.filter_map(|item| Some((item.object()?, item))).collect();
+    let by_default = mapped_by_default(scope);
+    let mut any = false;
+    for object in objects {
+        let outer = if object.is_module { "super::super::" } else { "super::" };
+        for model in &mut object.items {
+            let Some((place, item)) = model.object.and_then(|place| Some((place, items.get(&place)?))) else {
+                continue;
+            };
+            let mut into = item.mappable;
+            if let Some(proven) = by_default.get(&place) {
+                into.rpdo |= proven.rpdo;
+                into.tpdo |= proven.tpdo;
+            }
+            model.mappable = arguments(scope, item, place, into, outer);
+            any |= model.mappable.is_some();
+        }
+    }
+    any
+}
+
+/// What is mapped by default can be mapped in that direction, even where the description forgets to say so.
+fn mapped_by_default(scope: &Scope<'_>) -> HashMap<(u16, u8), Mappable> {
+    let mut mapped: HashMap<(u16, u8), Mappable> = HashMap::new();
+    for pdo in scope.pdos {
+        for entry in pdo.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
+            let own = mapped.entry((entry.index, entry.sub_index)).or_default();
+            own.rpdo |= pdo.direction == Direction::Receive;
+            own.tpdo |= pdo.direction == Direction::Transmit;
+        }
+    }
+    mapped
+}
+
+/// The arguments of `rt::Mappable`: the type of the field, the direction, the entry of the mapping.
+fn arguments(
+    scope: &Scope<'_>,
+    item: &Item,
+    (index, sub_index): (u16, u8),
+    into: Mappable,
+    outer: &str,
+) -> Option<String> {
+    let direction = match (into.rpdo, into.tpdo) {
+        (true, true) => "rt::AnyPdo",
+        (true, false) => "rt::Rpdo",
+        (false, true) => "rt::Tpdo",
+        (false, false) => return None,
+    };
+    let bits = bits(scope.base(item.ty)).filter(|bits| (1..=MAX_ENTRY).contains(bits))?;
+    let field = pdo::field_type(scope, item.ty, bits).path(outer);
+    Some(format!("{field}¦ {direction}¦ {}", word(index, sub_index, bits)))
+}
+
+/// Length in bits, of texts as well where it is known.
+fn bits(ty: Type) -> Option<u32> {
+    match ty {
+        Type::VisibleString(Some(bytes)) | Type::OctetString(Some(bytes)) => bytes.checked_mul(8),
+        _ => ty.bits(),
+    }
+}
