@@ -50,8 +50,13 @@ pub trait Enumeration: Copy + 'static {
     /// The value of a number.
     fn from_native(native: <Self::Base as Value>::Native) -> Self;
 
-    /// The number of a value.
+    /// The number of a value, as it is written to an item: reserved bits of a bit field are as the device wants them.
     fn native(self) -> <Self::Base as Value>::Native;
+
+    /// The number with all bits as they are, as it goes into a PDO.
+    fn as_is(self) -> <Self::Base as Value>::Native {
+        self.native()
+    }
 }
 
 impl<E: Enumeration> Value for E {

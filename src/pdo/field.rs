@@ -131,7 +131,7 @@ where
 {
     #[inline]
     fn to_word(self) -> u64 {
-        self.native().to_word()
+        self.as_is().to_word()
     }
 
     #[inline]

@@ -1,6 +1,68 @@
 //! The macro `pdo!`.
+//!
+//! It is a declarative one, so that it needs no feature and runs no code on the build machine. Generated code has what it
+//! looks up by name: `remappable` the PDOs, `mappable` the objects. A name that isn't there can't be mapped, and rustc says
+//! so at the name; what two things don't agree on is a trait that isn't implemented, and what all of them don't is a constant
+//! that panics.
 
 /// A mapping of one's own: a struct for a PDO whose mapping the device lets anyone change, checked while it is compiled.
+///
+/// ```
+/// use lexibus::NodeId;
+/// use lexibus_drives::demo_drive::{self, types::Controlword};
+///
+/// lexibus::pdo! {
+///     /// Cyclic set-points.
+///     #[derive(Clone, Copy, Debug, PartialEq)]
+///     pub struct Fast: demo_drive::pdo::RxPdo2 { controlword, profile_velocity }
+/// }
+///
+/// lexibus::pdo! {
+///     /// What comes back.
+///     pub struct Feedback: demo_drive::pdo::TxPdo2 {
+///         /// Under a name of one's own: an entry of an array.
+///         pressure: analogue_inputs::input_2,
+///         position: position_actual_value,
+///     }
+/// }
+///
+/// let frame = Fast { controlword: Controlword::from_raw(0x000F), profile_velocity: 1000 }.pack();
+/// assert_eq!(frame, [0x0F, 0x00, 0xE8, 0x03, 0x00, 0x00]);
+/// assert_eq!(Feedback::unpack(&[0xFE, 0xFF, 5, 0, 0, 0])?.pressure, -2);
+///
+/// // On CANopen: disable, clear, map, count, timing, enable.
+/// # let node_id = NodeId::new(5).unwrap();
+/// for write in Fast::configuration(node_id) {
+///     println!("{write:?}");
+/// }
+/// # Ok::<(), lexibus::LengthError>(())
+/// ```
+///
+/// The path is that of the PDO's struct in `pdo`, through the module of its device; a PDO that is empty by default is named
+/// in the same way. Fields are called as the accessors: `controlword`, or `analogue_inputs::input_2` for an entry of
+/// an array or a record, behind a name for the field. They have the types of the values. `_: 8` is a gap of 8 bits: a dummy
+/// entry on CANopen (CiA 301 7.4.9.2), which the device has to have, and padding on EtherCAT. Attributes of the struct
+/// and its fields are passed on; nothing is derived that isn't asked for.
+///
+/// # What it makes
+///
+/// As the structs of generated code: `BITS`, `LEN`, `COB_ID`, `pack`, `unpack`, an implementation of [`Pdo`](crate::Pdo), and
+///
+/// - on CANopen `configuration(node_id)` and `configuration_as(cob_id)`, the writes that set the device up;
+/// - `mapping_writes()`, those of the mapping alone: what EtherCAT needs in Pre-Operational while the PDO isn't assigned.
+///   [`Assignment::with_mapping`](crate::ethercat::Assignment::with_mapping) has them at their place in the assignment.
+///
+/// # What the compiler checks
+///
+/// The PDO can be mapped anew, and each object exists and can be mapped (`cannot find type … in module …::mappable`) in its
+/// direction; the bits of each are a multiple of the granularity; there are dummy entries for all gaps, no more entries than
+/// the mapping object has, and no more bits than 64 on CANopen or than the sync manager takes on EtherCAT; and entries that the
+/// device keeps are there (`Fixed`, ETG.2000).
+///
+/// An object can be mapped where the description says so, or maps it by default. A description that says too
+/// little is corrected by an overlay, with `pdo = "rx"`, `"tx"` or `"both"`.
+///
+/// A mapping of more than 60 documented fields may need `#![recursion_limit = "256"]`.
 #[macro_export]
 macro_rules! pdo {
     ($(#[$attribute:meta])* $visibility:vis struct $name:ident: $($segment:ident)::+ { $($body:tt)* }) => {
@@ -23,7 +85,7 @@ macro_rules! pdo {
     (@path $head:tt $name:ident [$($device:tt)*] [$($rest:ident)*] $body:tt) => {
         ::core::compile_error!(::core::concat!(
             "expected the path of a PDO that leads through its device, as `drive::pdo::RxPdo1`; found `",
-            ::core::stringify!($($device)*), $("::", ::core::stringify!($rest),)* "`"
+            ::core::stringify!($($device)* $($rest)::*), "`"
         ));
     };
 
