@@ -544,6 +544,9 @@ pub mod types {
         fn native(self) -> u16 {
             self.0 & !0x400
         }
+        fn as_is(self) -> u16 {
+            self.0
+        }
     }
     impl core::fmt::Debug for Controlword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
@@ -1205,6 +1208,9 @@ pub mod types {
         fn native(self) -> u8 {
             self.0 & !0x40
         }
+        fn as_is(self) -> u8 {
+            self.0
+        }
     }
     impl core::fmt::Debug for ErrorRegister {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
@@ -1488,6 +1494,9 @@ pub mod types {
         }
         fn native(self) -> u32 {
             self.0 & !0x40000000
+        }
+        fn as_is(self) -> u32 {
+            self.0
         }
     }
     impl core::fmt::Debug for EmergencyIdentifier {
@@ -3389,6 +3398,112 @@ pub mod objects {
         rt::Flags::NONE,
     );
 }
+/// PDOs whose mapping can be changed: `lexibus::pdo!` looks them up here.
+pub mod remappable {
+    use ::lexibus as rt;
+    /// RPDO 1: RPDO 1 mapping.
+    pub enum RxPdo1 {}
+    impl rt::Remappable for RxPdo1 {
+        type Direction = rt::Rpdo;
+        type CobId = rt::CobId;
+        const INDEX: u16 = 0x1600;
+        const ENTRIES: usize = 1;
+        const GRANULARITY: u32 = 8;
+        const DUMMIES: &'static [u32] = &[
+            0x0002_0008,
+            0x0003_0010,
+            0x0004_0020,
+            0x0005_0008,
+            0x0006_0010,
+            0x0007_0020,
+        ];
+        const COMMUNICATION: Option<u16> = Some(0x1400);
+        const TIMING: &'static [rt::SdoWrite] = &[
+            rt::SdoWrite::new_u8(0x1400, 0x02, 255),
+        ];
+        const COB_ID: rt::CobId = rt::CobId::from_node(0x200);
+    }
+    /// RPDO 2: RPDO 2 mapping.
+    pub enum RxPdo2 {}
+    impl rt::Remappable for RxPdo2 {
+        type Direction = rt::Rpdo;
+        type CobId = rt::CobId;
+        const INDEX: u16 = 0x1601;
+        const ENTRIES: usize = 2;
+        const GRANULARITY: u32 = 8;
+        const DUMMIES: &'static [u32] = &[
+            0x0002_0008,
+            0x0003_0010,
+            0x0004_0020,
+            0x0005_0008,
+            0x0006_0010,
+            0x0007_0020,
+        ];
+        const COMMUNICATION: Option<u16> = Some(0x1401);
+        const TIMING: &'static [rt::SdoWrite] = &[rt::SdoWrite::new_u8(0x1401, 0x02, 1)];
+        const COB_ID: rt::CobId = rt::CobId::from_node(0x300);
+    }
+    /// TPDO 1: TPDO 1 mapping.
+    pub enum TxPdo1 {}
+    impl rt::Remappable for TxPdo1 {
+        type Direction = rt::Tpdo;
+        type CobId = rt::CobId;
+        const INDEX: u16 = 0x1A00;
+        const ENTRIES: usize = 1;
+        const GRANULARITY: u32 = 8;
+        const COMMUNICATION: Option<u16> = Some(0x1800);
+        const TIMING: &'static [rt::SdoWrite] = &[
+            rt::SdoWrite::new_u8(0x1800, 0x02, 255),
+        ];
+        const COB_ID: rt::CobId = rt::CobId::from_node(0x180);
+    }
+    /// TPDO 2: TPDO 2 mapping.
+    pub enum TxPdo2 {}
+    impl rt::Remappable for TxPdo2 {
+        type Direction = rt::Tpdo;
+        type CobId = rt::CobId;
+        const INDEX: u16 = 0x1A01;
+        const ENTRIES: usize = 2;
+        const GRANULARITY: u32 = 8;
+        const COMMUNICATION: Option<u16> = Some(0x1801);
+        const TIMING: &'static [rt::SdoWrite] = &[rt::SdoWrite::new_u8(0x1801, 0x02, 1)];
+        const COB_ID: rt::CobId = rt::CobId::from_node(0x280);
+    }
+}
+/// What can be mapped into PDOs, by the names of the accessors: `lexibus::pdo!` looks it up here.
+#[allow(missing_docs, non_camel_case_types)]
+pub mod mappable {
+    use ::lexibus as rt;
+    pub type error_register = rt::Mappable<
+        super::types::ErrorRegister,
+        rt::Tpdo,
+        0x1001_0008,
+    >;
+    pub mod analogue_inputs {
+        use super::rt;
+        pub type input_1 = rt::Mappable<i16, rt::Tpdo, 0x2010_0110>;
+        pub type input_2 = rt::Mappable<i16, rt::Tpdo, 0x2010_0210>;
+    }
+    pub type controlword = rt::Mappable<
+        super::types::Controlword,
+        rt::Rpdo,
+        0x6040_0010,
+    >;
+    pub type statusword = rt::Mappable<super::types::Statusword, rt::Tpdo, 0x6041_0010>;
+    pub type modes_of_operation = rt::Mappable<
+        super::types::ModesOfOperation,
+        rt::AnyPdo,
+        0x6060_0008,
+    >;
+    pub type modes_of_operation_display = rt::Mappable<
+        super::types::ModesOfOperation,
+        rt::Tpdo,
+        0x6061_0008,
+    >;
+    pub type position_actual_value = rt::Mappable<i32, rt::Tpdo, 0x6064_0020>;
+    pub type target_position = rt::Mappable<i32, rt::AnyPdo, 0x607A_0020>;
+    pub type profile_velocity = rt::Mappable<u32, rt::AnyPdo, 0x6081_0020>;
+}
 /// Process data objects as they are mapped by default.
 pub mod pdo {
     use ::lexibus as rt;
@@ -3408,6 +3523,7 @@ pub mod pdo {
         /// The identifier by default (CiA 301 7.5.2.35).
         pub const COB_ID: rt::CobId = rt::CobId::from_node(0x200);
         /// The bytes of a frame; padding is zero.
+        #[inline]
         pub const fn pack(&self) -> [u8; 2] {
             let mut word = 0;
             let bits = self.controlword.raw() as u64;
@@ -3419,10 +3535,11 @@ pub mod pdo {
         /// # Errors
         ///
         /// When `data` has fewer bytes than the PDO.
+        #[inline]
         pub const fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
-            if data.len() < Self::LEN {
+            let Some(data) = data.first_chunk::<2>() else {
                 return Err(rt::LengthError::new(Self::LEN, data.len()));
-            }
+            };
             let word = rt::pdo::from_bytes(data);
             let pdo = Self {
                 controlword: super::types::Controlword::from_raw(word as u16),
@@ -3481,6 +3598,7 @@ pub mod pdo {
         /// The identifier by default (CiA 301 7.5.2.35).
         pub const COB_ID: rt::CobId = rt::CobId::from_node(0x300);
         /// The bytes of a frame; padding is zero.
+        #[inline]
         pub const fn pack(&self) -> [u8; 6] {
             let mut word = 0;
             let bits = self.controlword.raw() as u64;
@@ -3494,10 +3612,11 @@ pub mod pdo {
         /// # Errors
         ///
         /// When `data` has fewer bytes than the PDO.
+        #[inline]
         pub const fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
-            if data.len() < Self::LEN {
+            let Some(data) = data.first_chunk::<6>() else {
                 return Err(rt::LengthError::new(Self::LEN, data.len()));
-            }
+            };
             let word = rt::pdo::from_bytes(data);
             let pdo = Self {
                 controlword: super::types::Controlword::from_raw(word as u16),
@@ -3557,6 +3676,7 @@ pub mod pdo {
         /// The identifier by default (CiA 301 7.5.2.35).
         pub const COB_ID: rt::CobId = rt::CobId::from_node(0x180);
         /// The bytes of a frame; padding is zero.
+        #[inline]
         pub const fn pack(&self) -> [u8; 2] {
             let mut word = 0;
             let bits = self.statusword.raw() as u64;
@@ -3568,10 +3688,11 @@ pub mod pdo {
         /// # Errors
         ///
         /// When `data` has fewer bytes than the PDO.
+        #[inline]
         pub const fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
-            if data.len() < Self::LEN {
+            let Some(data) = data.first_chunk::<2>() else {
                 return Err(rt::LengthError::new(Self::LEN, data.len()));
-            }
+            };
             let word = rt::pdo::from_bytes(data);
             let pdo = Self {
                 statusword: super::types::Statusword::from_raw(word as u16),
@@ -3630,6 +3751,7 @@ pub mod pdo {
         /// The identifier by default (CiA 301 7.5.2.35).
         pub const COB_ID: rt::CobId = rt::CobId::from_node(0x280);
         /// The bytes of a frame; padding is zero.
+        #[inline]
         pub const fn pack(&self) -> [u8; 6] {
             let mut word = 0;
             let bits = self.statusword.raw() as u64;
@@ -3643,10 +3765,11 @@ pub mod pdo {
         /// # Errors
         ///
         /// When `data` has fewer bytes than the PDO.
+        #[inline]
         pub const fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
-            if data.len() < Self::LEN {
+            let Some(data) = data.first_chunk::<6>() else {
                 return Err(rt::LengthError::new(Self::LEN, data.len()));
-            }
+            };
             let word = rt::pdo::from_bytes(data);
             let pdo = Self {
                 statusword: super::types::Statusword::from_raw(word as u16),

@@ -11626,6 +11626,9 @@ pub mod types {
         fn native(self) -> u8 {
             self.0 & !0x40
         }
+        fn as_is(self) -> u8 {
+            self.0
+        }
     }
     impl core::fmt::Debug for ErrorRegister {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
@@ -11870,6 +11873,9 @@ pub mod types {
         }
         fn native(self) -> u32 {
             self.0 & !0xFF000000
+        }
+        fn as_is(self) -> u32 {
+            self.0
         }
     }
     impl core::fmt::Debug for ConsumerHeartbeat {
@@ -37180,6 +37186,396 @@ pub mod objects {
         "www.aec-smd.it",
     );
 }
+/// PDOs whose mapping can be changed: `lexibus::pdo!` looks them up here.
+pub mod remappable {
+    use ::lexibus as rt;
+    /// RxPDO 0x1600: RxPDO1 Mapping Parameters.
+    pub enum RxPdo1 {}
+    impl rt::Remappable for RxPdo1 {
+        type Direction = rt::Rpdo;
+        type CobId = rt::CobId;
+        const INDEX: u16 = 0x1600;
+        const ENTRIES: usize = 8;
+        const GRANULARITY: u32 = 8;
+        const COMMUNICATION: Option<u16> = Some(0x1400);
+        const TIMING: &'static [rt::SdoWrite] = &[
+            rt::SdoWrite::new_u8(0x1400, 0x02, 254),
+        ];
+        const COB_ID: rt::CobId = rt::CobId::from_node(0x200);
+    }
+    /// RxPDO 0x1601: RxPDO2 Mapping Parameters.
+    pub enum RxPdo2 {}
+    impl rt::Remappable for RxPdo2 {
+        type Direction = rt::Rpdo;
+        type CobId = rt::CobId;
+        const INDEX: u16 = 0x1601;
+        const ENTRIES: usize = 8;
+        const GRANULARITY: u32 = 8;
+        const COMMUNICATION: Option<u16> = Some(0x1401);
+        const TIMING: &'static [rt::SdoWrite] = &[
+            rt::SdoWrite::new_u8(0x1401, 0x02, 254),
+        ];
+        const COB_ID: rt::CobId = rt::CobId::from_node(0x300);
+    }
+    /// RxPDO 0x1602: RxPDO3 Mapping Parameters.
+    pub enum RxPdo3 {}
+    impl rt::Remappable for RxPdo3 {
+        type Direction = rt::Rpdo;
+        type CobId = rt::CobId;
+        const INDEX: u16 = 0x1602;
+        const ENTRIES: usize = 8;
+        const GRANULARITY: u32 = 8;
+        const COMMUNICATION: Option<u16> = Some(0x1402);
+        const TIMING: &'static [rt::SdoWrite] = &[
+            rt::SdoWrite::new_u8(0x1402, 0x02, 254),
+        ];
+        const COB_ID: rt::CobId = rt::CobId::from_node(0x400);
+    }
+    /// RxPDO 0x1603: RxPDO4 Mapping Parameters.
+    pub enum RxPdo4 {}
+    impl rt::Remappable for RxPdo4 {
+        type Direction = rt::Rpdo;
+        type CobId = rt::CobId;
+        const INDEX: u16 = 0x1603;
+        const ENTRIES: usize = 8;
+        const GRANULARITY: u32 = 8;
+        const COMMUNICATION: Option<u16> = Some(0x1403);
+        const TIMING: &'static [rt::SdoWrite] = &[
+            rt::SdoWrite::new_u8(0x1403, 0x02, 254),
+        ];
+        const COB_ID: rt::CobId = rt::CobId::from_node(0x500);
+    }
+    /// TxPDO 0x1A00: TxPDO1 Mapping Parameters.
+    pub enum TxPdo1 {}
+    impl rt::Remappable for TxPdo1 {
+        type Direction = rt::Tpdo;
+        type CobId = rt::CobId;
+        const INDEX: u16 = 0x1A00;
+        const ENTRIES: usize = 8;
+        const GRANULARITY: u32 = 8;
+        const COMMUNICATION: Option<u16> = Some(0x1800);
+        const TIMING: &'static [rt::SdoWrite] = &[
+            rt::SdoWrite::new_u8(0x1800, 0x02, 254),
+            rt::SdoWrite::new_u16(0x1800, 0x03, 0),
+            rt::SdoWrite::new_u16(0x1800, 0x05, 0),
+        ];
+        const COB_ID: rt::CobId = rt::CobId::from_node(0x180);
+    }
+    /// TxPDO 0x1A01: TxPDO2 Mapping Parameters.
+    pub enum TxPdo2 {}
+    impl rt::Remappable for TxPdo2 {
+        type Direction = rt::Tpdo;
+        type CobId = rt::CobId;
+        const INDEX: u16 = 0x1A01;
+        const ENTRIES: usize = 8;
+        const GRANULARITY: u32 = 8;
+        const COMMUNICATION: Option<u16> = Some(0x1801);
+        const TIMING: &'static [rt::SdoWrite] = &[
+            rt::SdoWrite::new_u8(0x1801, 0x02, 254),
+            rt::SdoWrite::new_u16(0x1801, 0x03, 0),
+            rt::SdoWrite::new_u16(0x1801, 0x05, 0),
+        ];
+        const COB_ID: rt::CobId = rt::CobId::from_node(0x280);
+    }
+    /// TxPDO 0x1A02: TxPDO3 Mapping Parameters.
+    pub enum TxPdo3 {}
+    impl rt::Remappable for TxPdo3 {
+        type Direction = rt::Tpdo;
+        type CobId = rt::CobId;
+        const INDEX: u16 = 0x1A02;
+        const ENTRIES: usize = 8;
+        const GRANULARITY: u32 = 8;
+        const COMMUNICATION: Option<u16> = Some(0x1802);
+        const TIMING: &'static [rt::SdoWrite] = &[
+            rt::SdoWrite::new_u8(0x1802, 0x02, 254),
+            rt::SdoWrite::new_u16(0x1802, 0x03, 0),
+            rt::SdoWrite::new_u16(0x1802, 0x05, 0),
+        ];
+        const COB_ID: rt::CobId = rt::CobId::from_node(0x380);
+    }
+    /// TxPDO 0x1A03: TxPDO4 Mapping Parameters.
+    pub enum TxPdo4 {}
+    impl rt::Remappable for TxPdo4 {
+        type Direction = rt::Tpdo;
+        type CobId = rt::CobId;
+        const INDEX: u16 = 0x1A03;
+        const ENTRIES: usize = 8;
+        const GRANULARITY: u32 = 8;
+        const COMMUNICATION: Option<u16> = Some(0x1803);
+        const TIMING: &'static [rt::SdoWrite] = &[
+            rt::SdoWrite::new_u8(0x1803, 0x02, 254),
+            rt::SdoWrite::new_u16(0x1803, 0x03, 0),
+            rt::SdoWrite::new_u16(0x1803, 0x05, 0),
+        ];
+        const COB_ID: rt::CobId = rt::CobId::from_node(0x480);
+    }
+}
+/// What can be mapped into PDOs, by the names of the accessors: `lexibus::pdo!` looks it up here.
+#[allow(missing_docs, non_camel_case_types)]
+pub mod mappable {
+    use ::lexibus as rt;
+    pub type rposact = rt::Mappable<i32, rt::Tpdo, 0x2000_0120>;
+    pub type rposactreq = rt::Mappable<i32, rt::Tpdo, 0x2004_0120>;
+    pub type rpostarg = rt::Mappable<i32, rt::Rpdo, 0x2008_0120>;
+    pub type rupplim = rt::Mappable<i32, rt::Rpdo, 0x200C_0120>;
+    pub type rlowlim = rt::Mappable<i32, rt::Rpdo, 0x2010_0120>;
+    pub type rstsflg = rt::Mappable<super::types::Status, rt::Tpdo, 0x20C7_0110>;
+    pub type rstsflg1 = rt::Mappable<super::types::Status1, rt::Tpdo, 0x20C8_0110>;
+    pub type rvel = rt::Mappable<i32, rt::Rpdo, 0x203F_0120>;
+    pub type rvss = rt::Mappable<i32, rt::Rpdo, 0x2041_0120>;
+    pub type racc = rt::Mappable<u32, rt::Rpdo, 0x2043_0120>;
+    pub type rdec = rt::Mappable<u32, rt::Rpdo, 0x2046_0120>;
+    pub type rdeceme = rt::Mappable<u32, rt::Rpdo, 0x2049_0120>;
+    pub type rvelact = rt::Mappable<i32, rt::Tpdo, 0x204B_0120>;
+    pub type rvelactreq = rt::Mappable<i32, rt::Tpdo, 0x204D_0120>;
+    pub type rveltarg = rt::Mappable<i32, rt::Rpdo, 0x21ED_0120>;
+    pub type rcmdwr = rt::Mappable<super::types::Command, rt::Rpdo, 0x203B_0110>;
+    pub type rcmd1wr = rt::Mappable<super::types::Command1, rt::Rpdo, 0x203C_0110>;
+    pub type rcmdrd = rt::Mappable<super::types::CommandState, rt::Tpdo, 0x203D_0110>;
+    pub type rcmd1rd = rt::Mappable<super::types::CommandState1, rt::Tpdo, 0x203E_0110>;
+    pub type rhcurcoll = rt::Mappable<u16, rt::Rpdo, 0x2028_0110>;
+    pub type rhmode = rt::Mappable<super::types::HomingMethodI16, rt::Rpdo, 0x2052_0110>;
+    pub type rhvh = rt::Mappable<i32, rt::Rpdo, 0x2053_0120>;
+    pub type rhvl = rt::Mappable<i32, rt::Rpdo, 0x2055_0120>;
+    pub type rhacc = rt::Mappable<u32, rt::Rpdo, 0x2057_0120>;
+    pub type rbestpflg = rt::Mappable<super::types::BestopSetup, rt::Rpdo, 0x2031_0110>;
+    pub type rbestppar = rt::Mappable<u16, rt::Rpdo, 0x2032_0110>;
+    pub type restpflg = rt::Mappable<super::types::EstopSetup, rt::Rpdo, 0x202D_0110>;
+    pub type restppar1 = rt::Mappable<u32, rt::Rpdo, 0x202E_0120>;
+    pub type restppar2 = rt::Mappable<u16, rt::Rpdo, 0x2030_0110>;
+    pub type ralarm = rt::Mappable<super::types::Alarm, rt::Tpdo, 0x20E3_0110>;
+    pub type rwarning = rt::Mappable<super::types::Warning, rt::Tpdo, 0x20E4_0110>;
+    pub type rflwdisp = rt::Mappable<i32, rt::Tpdo, 0x2103_0120>;
+    pub type ralarm32 = rt::Mappable<super::types::Alarm32, rt::Tpdo, 0x222F_0120>;
+    pub type rwarning32 = rt::Mappable<super::types::Warning32, rt::Tpdo, 0x2231_0120>;
+    pub type rhslsi = rt::Mappable<super::types::LimitSwitches, rt::Tpdo, 0x206B_0110>;
+    pub type rhsinp = rt::Mappable<super::types::DigitalInputs, rt::Tpdo, 0x206C_0110>;
+    pub type rlsi = rt::Mappable<super::types::LimitSwitches, rt::Tpdo, 0x206D_0110>;
+    pub type rinp = rt::Mappable<super::types::DigitalInputs, rt::Tpdo, 0x2072_0110>;
+    pub type rout = rt::Mappable<super::types::DigitalOutputs, rt::Rpdo, 0x2077_0110>;
+    pub type ranainp = rt::Mappable<i16, rt::Tpdo, 0x2089_0110>;
+    pub type ranaout = rt::Mappable<u16, rt::Rpdo, 0x208F_0110>;
+    pub type ranainp1 = rt::Mappable<i16, rt::Tpdo, 0x21AE_0110>;
+    pub type ranainp2 = rt::Mappable<i16, rt::Tpdo, 0x21B4_0110>;
+    pub type rmotenc = rt::Mappable<i32, rt::Tpdo, 0x2097_0120>;
+    pub type renc1pos = rt::Mappable<i32, rt::AnyPdo, 0x471F_0120>;
+    pub type rextencvel = rt::Mappable<u16, rt::Tpdo, 0x2033_0110>;
+    pub type rextencsmp = rt::Mappable<u16, rt::Rpdo, 0x2034_0110>;
+    pub type rextencvelmul = rt::Mappable<u16, rt::Rpdo, 0x2035_0110>;
+    pub type rextencveldiv = rt::Mappable<u16, rt::Rpdo, 0x2036_0110>;
+    pub type rextenc = rt::Mappable<i32, rt::Tpdo, 0x2099_0120>;
+    pub type renc2pos = rt::Mappable<i32, rt::AnyPdo, 0x4721_0120>;
+    pub type rssienccounts = rt::Mappable<u16, rt::Tpdo, 0x2060_0110>;
+    pub type rssiencturns = rt::Mappable<i16, rt::Tpdo, 0x2061_0110>;
+    pub type rencabsquote = rt::Mappable<i32, rt::AnyPdo, 0x4725_0120>;
+    pub type rencabspos = rt::Mappable<u16, rt::AnyPdo, 0x4727_0110>;
+    pub type rencabsturns = rt::Mappable<i16, rt::AnyPdo, 0x4728_0110>;
+    pub type reepsts32 = rt::Mappable<
+        super::types::EepromStatus32,
+        rt::Tpdo,
+        0x2149_0120,
+    >;
+    pub type rcuract = rt::Mappable<i16, rt::Tpdo, 0x20D1_0110>;
+    pub type rcurnom = rt::Mappable<u16, rt::Rpdo, 0x20D2_0110>;
+    pub type rcurred = rt::Mappable<u16, rt::Rpdo, 0x20D3_0110>;
+    pub type rcurboost = rt::Mappable<u16, rt::Rpdo, 0x20D4_0110>;
+    pub type rcurtorque = rt::Mappable<i16, rt::Rpdo, 0x20D5_0110>;
+    pub type rcurmodeact = rt::Mappable<
+        super::types::CurrentLevelState,
+        rt::Tpdo,
+        0x20DC_0110,
+    >;
+    pub type rtrqdisp = rt::Mappable<u32, rt::Tpdo, 0x2108_0120>;
+    pub type rla = rt::Mappable<i16, rt::Tpdo, 0x2172_0110>;
+    pub type rlb = rt::Mappable<i16, rt::Tpdo, 0x2173_0110>;
+    pub type rlan = rt::Mappable<i16, rt::Tpdo, 0x2174_0110>;
+    pub type rlbn = rt::Mappable<i16, rt::Tpdo, 0x2175_0110>;
+    pub type riq = rt::Mappable<i16, rt::Tpdo, 0x217B_0110>;
+    pub type rtempact = rt::Mappable<i16, rt::Tpdo, 0x2094_0110>;
+    pub type rtensact = rt::Mappable<u16, rt::Tpdo, 0x2095_0110>;
+    pub type rlineupcmd = rt::Mappable<
+        super::types::LineUpCommand,
+        rt::Rpdo,
+        0x21A4_0110,
+    >;
+    pub type rlineupdef = rt::Mappable<
+        super::types::LineUpDefinition,
+        rt::Rpdo,
+        0x21AB_0110,
+    >;
+    pub type rtouchprobefunc = rt::Mappable<
+        super::types::TouchProbeControl,
+        rt::Rpdo,
+        0x214B_0110,
+    >;
+    pub type rtouchprobestatus = rt::Mappable<
+        super::types::TouchProbeStatusBeforeV6,
+        rt::Tpdo,
+        0x214C_0110,
+    >;
+    pub type rtouchprobepos1pos = rt::Mappable<i32, rt::Tpdo, 0x214D_0120>;
+    pub type rtouchprobepos1neg = rt::Mappable<i32, rt::Tpdo, 0x214F_0120>;
+    pub type rtouchprobepos2pos = rt::Mappable<i32, rt::Tpdo, 0x2151_0120>;
+    pub type rtouchprobe2neg = rt::Mappable<i32, rt::Tpdo, 0x2153_0120>;
+    pub type rtouchprobe1inpdef = rt::Mappable<
+        super::types::TouchProbeInput,
+        rt::Rpdo,
+        0x2155_0110,
+    >;
+    pub type rtouchprobe2inpdef = rt::Mappable<
+        super::types::TouchProbeInput,
+        rt::Rpdo,
+        0x2156_0110,
+    >;
+    pub type rcamstrtphase = rt::Mappable<u16, rt::Tpdo, 0x217E_0110>;
+    pub type rcamstposact = rt::Mappable<u16, rt::Tpdo, 0x217F_0110>;
+    pub type rcamflgrd = rt::Mappable<super::types::CamStatus, rt::Tpdo, 0x2182_0110>;
+    pub type rcamstspctrl = rt::Mappable<
+        super::types::CamStartStopControl,
+        rt::Rpdo,
+        0x21CC_0110,
+    >;
+    pub type rcamstspstatus = rt::Mappable<
+        super::types::CamStartStopStatus,
+        rt::Tpdo,
+        0x21CD_0110,
+    >;
+    pub type rwindctrl = rt::Mappable<
+        super::types::WindingControl,
+        rt::Rpdo,
+        0x21DC_0110,
+    >;
+    pub type rwindstatus = rt::Mappable<
+        super::types::WindingStatus,
+        rt::Tpdo,
+        0x21DD_0110,
+    >;
+    pub type rwindrevcnt = rt::Mappable<u16, rt::Tpdo, 0x21EA_0110>;
+    pub type rusrpidsetpoint = rt::Mappable<i32, rt::Rpdo, 0x21FD_0120>;
+    pub type rusrpidprocessvalue = rt::Mappable<i32, rt::Tpdo, 0x21FF_0120>;
+    pub type rusrpidout = rt::Mappable<i32, rt::Tpdo, 0x2201_0120>;
+    pub type error_register = rt::Mappable<
+        super::types::ErrorRegister,
+        rt::Tpdo,
+        0x1001_0008,
+    >;
+    pub mod read_write_variable {
+        use super::rt;
+        pub type variable_number_write_pdo = rt::Mappable<u16, rt::Rpdo, 0x23E8_0310>;
+        pub type variable_value_write_pdo = rt::Mappable<i32, rt::Rpdo, 0x23E8_0420>;
+        pub type variable_number_read_pdo = rt::Mappable<u16, rt::Rpdo, 0x23E8_0510>;
+        pub type variable_value_read_pdo = rt::Mappable<i32, rt::Tpdo, 0x23E8_0620>;
+    }
+    pub type controlword = rt::Mappable<
+        super::types::Controlword,
+        rt::Rpdo,
+        0x6040_0010,
+    >;
+    pub type statusword = rt::Mappable<super::types::Statusword, rt::Tpdo, 0x6041_0010>;
+    pub type modes_of_operation = rt::Mappable<
+        super::types::ModesOfOperation,
+        rt::Rpdo,
+        0x6060_0008,
+    >;
+    pub type modes_of_operation_display = rt::Mappable<
+        super::types::ModesOfOperation,
+        rt::Tpdo,
+        0x6061_0008,
+    >;
+    pub type position_actual_value = rt::Mappable<i32, rt::Tpdo, 0x6064_0020>;
+    pub type following_error_window = rt::Mappable<u32, rt::Rpdo, 0x6065_0020>;
+    pub type following_error_time_out = rt::Mappable<u16, rt::Rpdo, 0x6066_0010>;
+    pub type position_window = rt::Mappable<u32, rt::Rpdo, 0x6067_0020>;
+    pub type position_window_time_out = rt::Mappable<u16, rt::Rpdo, 0x6068_0010>;
+    pub type velocity_actual_value = rt::Mappable<i32, rt::Tpdo, 0x606C_0020>;
+    pub type target_position = rt::Mappable<i32, rt::Rpdo, 0x607A_0020>;
+    pub type home_offset = rt::Mappable<i32, rt::Rpdo, 0x607C_0020>;
+    pub type profile_velocity = rt::Mappable<u32, rt::Rpdo, 0x6081_0020>;
+    pub type end_velocity = rt::Mappable<i32, rt::Rpdo, 0x6082_0020>;
+    pub type profile_acceleration = rt::Mappable<u32, rt::Rpdo, 0x6083_0020>;
+    pub type profile_deceleration = rt::Mappable<u32, rt::Rpdo, 0x6084_0020>;
+    pub type motion_profile_type = rt::Mappable<
+        super::types::MotionProfileType,
+        rt::Rpdo,
+        0x6086_0010,
+    >;
+    pub type homing_method = rt::Mappable<
+        super::types::HomingMethod,
+        rt::Rpdo,
+        0x6098_0008,
+    >;
+    pub mod homing_speeds {
+        use super::rt;
+        pub type speed_during_search_for_switch = rt::Mappable<
+            u32,
+            rt::Rpdo,
+            0x6099_0120,
+        >;
+        pub type speed_during_search_for_zero = rt::Mappable<u32, rt::Rpdo, 0x6099_0220>;
+    }
+    pub type homing_acceleration = rt::Mappable<u32, rt::Rpdo, 0x609A_0020>;
+    pub type touch_probe_function = rt::Mappable<
+        super::types::TouchProbeFunction,
+        rt::Rpdo,
+        0x60B8_0010,
+    >;
+    pub type touch_probe_status = rt::Mappable<
+        super::types::TouchProbeStatus,
+        rt::Tpdo,
+        0x60B9_0010,
+    >;
+    pub type touch_probe_position_1_positive_value = rt::Mappable<
+        i32,
+        rt::Tpdo,
+        0x60BA_0020,
+    >;
+    pub type touch_probe_position_1_negative_value = rt::Mappable<
+        i32,
+        rt::Tpdo,
+        0x60BB_0020,
+    >;
+    pub type touch_probe_position_2_positive_value = rt::Mappable<
+        i32,
+        rt::Tpdo,
+        0x60BC_0020,
+    >;
+    pub type touch_probe_position_2_negative_value = rt::Mappable<
+        i32,
+        rt::Tpdo,
+        0x60BD_0020,
+    >;
+    pub mod interpolation_data_record {
+        use super::rt;
+        pub type _1st_ip_function_parameter = rt::Mappable<i32, rt::Rpdo, 0x60C1_0120>;
+        pub type _2nd_ip_function_parameter = rt::Mappable<i32, rt::Rpdo, 0x60C1_0220>;
+    }
+    pub mod interpolation_time_period {
+        use super::rt;
+        pub type interpolation_time_units = rt::Mappable<u8, rt::Rpdo, 0x60C2_0108>;
+    }
+    pub mod interpolation_data_configuration {
+        use super::rt;
+        pub type buffer_position = rt::Mappable<u8, rt::Rpdo, 0x60C4_0408>;
+    }
+    pub type digital_inputs = rt::Mappable<
+        super::types::ProfileDigitalInputs,
+        rt::Tpdo,
+        0x60FD_0020,
+    >;
+    pub mod digital_outputs {
+        use super::rt;
+        pub type physical_outputs = rt::Mappable<
+            super::super::types::ProfileDigitalOutputs,
+            rt::Rpdo,
+            0x60FE_0120,
+        >;
+        pub type bit_mask = rt::Mappable<
+            super::super::types::ProfileDigitalOutputs,
+            rt::Rpdo,
+            0x60FE_0220,
+        >;
+    }
+}
 /// Process data objects as they are mapped by default.
 pub mod pdo {
     use ::lexibus as rt;
@@ -37191,7 +37587,7 @@ pub mod pdo {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
         pub controlword: super::types::Controlword,
         /// Modes of operation: 0x6060:00, 8 bits from bit 16.
-        pub modes_of_operation: i8,
+        pub modes_of_operation: super::types::ModesOfOperation,
     }
     impl RxPdo1 {
         /// Length in bits.
@@ -37201,11 +37597,12 @@ pub mod pdo {
         /// The identifier by default (CiA 301 7.5.2.35).
         pub const COB_ID: rt::CobId = rt::CobId::from_node(0x200);
         /// The bytes of a frame; padding is zero.
+        #[inline]
         pub const fn pack(&self) -> [u8; 3] {
             let mut word = 0;
             let bits = self.controlword.raw() as u64;
             word |= bits;
-            let bits = self.modes_of_operation as u8 as u64;
+            let bits = self.modes_of_operation.raw() as u8 as u64;
             word |= bits << 16;
             rt::pdo::to_bytes(word)
         }
@@ -37214,14 +37611,17 @@ pub mod pdo {
         /// # Errors
         ///
         /// When `data` has fewer bytes than the PDO.
+        #[inline]
         pub const fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
-            if data.len() < Self::LEN {
+            let Some(data) = data.first_chunk::<3>() else {
                 return Err(rt::LengthError::new(Self::LEN, data.len()));
-            }
+            };
             let word = rt::pdo::from_bytes(data);
             let pdo = Self {
                 controlword: super::types::Controlword::from_raw(word as u16),
-                modes_of_operation: (word >> 16) as i8,
+                modes_of_operation: super::types::ModesOfOperation::from_raw(
+                    (word >> 16) as i8,
+                ),
             };
             Ok(pdo)
         }
@@ -37279,6 +37679,7 @@ pub mod pdo {
         /// The identifier by default (CiA 301 7.5.2.35).
         pub const COB_ID: rt::CobId = rt::CobId::from_node(0x300);
         /// The bytes of a frame; padding is zero.
+        #[inline]
         pub const fn pack(&self) -> [u8; 6] {
             let mut word = 0;
             let bits = self.controlword.raw() as u64;
@@ -37292,10 +37693,11 @@ pub mod pdo {
         /// # Errors
         ///
         /// When `data` has fewer bytes than the PDO.
+        #[inline]
         pub const fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
-            if data.len() < Self::LEN {
+            let Some(data) = data.first_chunk::<6>() else {
                 return Err(rt::LengthError::new(Self::LEN, data.len()));
-            }
+            };
             let word = rt::pdo::from_bytes(data);
             let pdo = Self {
                 controlword: super::types::Controlword::from_raw(word as u16),
@@ -37347,7 +37749,7 @@ pub mod pdo {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
         pub statusword: super::types::Statusword,
         /// Modes of operation display: 0x6061:00, 8 bits from bit 16.
-        pub modes_of_operation_display: i8,
+        pub modes_of_operation_display: super::types::ModesOfOperation,
     }
     impl TxPdo1 {
         /// Length in bits.
@@ -37357,11 +37759,12 @@ pub mod pdo {
         /// The identifier by default (CiA 301 7.5.2.35).
         pub const COB_ID: rt::CobId = rt::CobId::from_node(0x180);
         /// The bytes of a frame; padding is zero.
+        #[inline]
         pub const fn pack(&self) -> [u8; 3] {
             let mut word = 0;
             let bits = self.statusword.raw() as u64;
             word |= bits;
-            let bits = self.modes_of_operation_display as u8 as u64;
+            let bits = self.modes_of_operation_display.raw() as u8 as u64;
             word |= bits << 16;
             rt::pdo::to_bytes(word)
         }
@@ -37370,14 +37773,17 @@ pub mod pdo {
         /// # Errors
         ///
         /// When `data` has fewer bytes than the PDO.
+        #[inline]
         pub const fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
-            if data.len() < Self::LEN {
+            let Some(data) = data.first_chunk::<3>() else {
                 return Err(rt::LengthError::new(Self::LEN, data.len()));
-            }
+            };
             let word = rt::pdo::from_bytes(data);
             let pdo = Self {
                 statusword: super::types::Statusword::from_raw(word as u16),
-                modes_of_operation_display: (word >> 16) as i8,
+                modes_of_operation_display: super::types::ModesOfOperation::from_raw(
+                    (word >> 16) as i8,
+                ),
             };
             Ok(pdo)
         }
@@ -37437,6 +37843,7 @@ pub mod pdo {
         /// The identifier by default (CiA 301 7.5.2.35).
         pub const COB_ID: rt::CobId = rt::CobId::from_node(0x280);
         /// The bytes of a frame; padding is zero.
+        #[inline]
         pub const fn pack(&self) -> [u8; 6] {
             let mut word = 0;
             let bits = self.statusword.raw() as u64;
@@ -37450,10 +37857,11 @@ pub mod pdo {
         /// # Errors
         ///
         /// When `data` has fewer bytes than the PDO.
+        #[inline]
         pub const fn unpack(data: &[u8]) -> Result<Self, rt::LengthError> {
-            if data.len() < Self::LEN {
+            let Some(data) = data.first_chunk::<6>() else {
                 return Err(rt::LengthError::new(Self::LEN, data.len()));
-            }
+            };
             let word = rt::pdo::from_bytes(data);
             let pdo = Self {
                 statusword: super::types::Statusword::from_raw(word as u16),
@@ -37539,8 +37947,10 @@ pub mod view {
         }
         /// Modes of operation: 0x6060:00, 8 bits from bit 16.
         #[inline]
-        pub fn modes_of_operation(&self) -> i8 {
-            rt::bits::get(self.data.as_ref(), self.bit + 16, 8) as i8
+        pub fn modes_of_operation(&self) -> super::types::ModesOfOperation {
+            super::types::ModesOfOperation::from_raw(
+                rt::bits::get(self.data.as_ref(), self.bit + 16, 8) as i8,
+            )
         }
     }
     impl<B: AsMut<[u8]>> RxPdo1<B> {
@@ -37551,8 +37961,13 @@ pub mod view {
         }
         /// Modes of operation: 0x6060:00, 8 bits from bit 16.
         #[inline]
-        pub fn set_modes_of_operation(&mut self, value: i8) {
-            rt::bits::set(self.data.as_mut(), self.bit + 16, 8, value as u8 as u64);
+        pub fn set_modes_of_operation(&mut self, value: super::types::ModesOfOperation) {
+            rt::bits::set(
+                self.data.as_mut(),
+                self.bit + 16,
+                8,
+                value.raw() as u8 as u64,
+            );
         }
     }
     /// RxPDO 0x1601: RxPDO2 Mapping Parameters.
@@ -37643,8 +38058,10 @@ pub mod view {
         }
         /// Modes of operation display: 0x6061:00, 8 bits from bit 16.
         #[inline]
-        pub fn modes_of_operation_display(&self) -> i8 {
-            rt::bits::get(self.data.as_ref(), self.bit + 16, 8) as i8
+        pub fn modes_of_operation_display(&self) -> super::types::ModesOfOperation {
+            super::types::ModesOfOperation::from_raw(
+                rt::bits::get(self.data.as_ref(), self.bit + 16, 8) as i8,
+            )
         }
     }
     impl<B: AsMut<[u8]>> TxPdo1<B> {
@@ -37655,8 +38072,16 @@ pub mod view {
         }
         /// Modes of operation display: 0x6061:00, 8 bits from bit 16.
         #[inline]
-        pub fn set_modes_of_operation_display(&mut self, value: i8) {
-            rt::bits::set(self.data.as_mut(), self.bit + 16, 8, value as u8 as u64);
+        pub fn set_modes_of_operation_display(
+            &mut self,
+            value: super::types::ModesOfOperation,
+        ) {
+            rt::bits::set(
+                self.data.as_mut(),
+                self.bit + 16,
+                8,
+                value.raw() as u8 as u64,
+            );
         }
     }
     /// TxPDO 0x1A01: TxPDO2 Mapping Parameters.

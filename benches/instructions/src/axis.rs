@@ -385,6 +385,9 @@ pub mod types {
         fn native(self) -> u16 {
             self.0 & !0x400
         }
+        fn as_is(self) -> u16 {
+            self.0
+        }
     }
     impl core::fmt::Debug for Controlword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
@@ -1132,6 +1135,160 @@ pub mod codes {
         rt::codes::Code::new(0xF003, 0xF003, "stroke operation", "", &[]),
         rt::codes::Code::new(0xF004, 0xF004, "control", "", &[]),
     ];
+    /// A code of [`DRIVE_ERRORS`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum DriveErrors {
+        /// 0x2310: continuous over-current.
+        ContinuousOverCurrent,
+        /// 0x2320: short circuit or earth leakage.
+        ShortCircuitOrEarthLeakage,
+        /// 0x2330: earth leakage.
+        EarthLeakage,
+        /// 0x3110: mains over-voltage.
+        MainsOverVoltage,
+        /// 0x3120: mains under-voltage.
+        MainsUnderVoltage,
+        /// 0x3130: phase failure.
+        PhaseFailure,
+        /// 0x3210: DC link over-voltage.
+        DcLinkOverVoltage,
+        /// 0x3220: DC link under-voltage.
+        DcLinkUnderVoltage,
+        /// 0x4110: ambient temperature too high.
+        AmbientTemperatureTooHigh,
+        /// 0x4210: device temperature too high.
+        DeviceTemperatureTooHigh,
+        /// 0x4310: drive temperature too high.
+        DriveTemperatureTooHigh,
+        /// 0x5530: non-volatile memory.
+        NonVolatileMemory,
+        /// 0x6010: software reset by the watchdog.
+        SoftwareResetByTheWatchdog,
+        /// 0x6310: loss of parameters.
+        LossOfParameters,
+        /// 0x6320: parameter error.
+        ParameterError,
+        /// 0x7110: brake chopper.
+        BrakeChopper,
+        /// 0x7121: motor blocked.
+        MotorBlocked,
+        /// 0x7122: motor error, or commutation.
+        MotorErrorOrCommutation,
+        /// 0x7305: incremental sensor 1.
+        IncrementalSensor1,
+        /// 0x7306: incremental sensor 2.
+        IncrementalSensor2,
+        /// 0x7310: speed sensor.
+        SpeedSensor,
+        /// 0x7320: position sensor.
+        PositionSensor,
+        /// 0x8311: torque too high.
+        TorqueTooHigh,
+        /// 0x8331: torque fault.
+        TorqueFault,
+        /// 0x8400: velocity controller.
+        VelocityController,
+        /// 0x8500: position controller.
+        PositionController,
+        /// 0x8600: positioning controller.
+        PositioningController,
+        /// 0x8611: following error.
+        FollowingError,
+        /// 0x8612: reference limit.
+        ReferenceLimit,
+        /// 0xF001: deceleration.
+        Deceleration,
+        /// 0xF002: sub-synchronous run.
+        SubSynchronousRun,
+        /// 0xF003: stroke operation.
+        StrokeOperation,
+        /// 0xF004: control.
+        Control,
+        /// Any other number.
+        Unknown(u16),
+    }
+    impl rt::codes::CodeTable for DriveErrors {
+        type Raw = u16;
+        fn codes() -> &'static [rt::codes::Code] {
+            DRIVE_ERRORS
+        }
+        fn from_raw(code: u16) -> Self {
+            match code {
+                0x2310 => Self::ContinuousOverCurrent,
+                0x2320 => Self::ShortCircuitOrEarthLeakage,
+                0x2330 => Self::EarthLeakage,
+                0x3110 => Self::MainsOverVoltage,
+                0x3120 => Self::MainsUnderVoltage,
+                0x3130 => Self::PhaseFailure,
+                0x3210 => Self::DcLinkOverVoltage,
+                0x3220 => Self::DcLinkUnderVoltage,
+                0x4110 => Self::AmbientTemperatureTooHigh,
+                0x4210 => Self::DeviceTemperatureTooHigh,
+                0x4310 => Self::DriveTemperatureTooHigh,
+                0x5530 => Self::NonVolatileMemory,
+                0x6010 => Self::SoftwareResetByTheWatchdog,
+                0x6310 => Self::LossOfParameters,
+                0x6320 => Self::ParameterError,
+                0x7110 => Self::BrakeChopper,
+                0x7121 => Self::MotorBlocked,
+                0x7122 => Self::MotorErrorOrCommutation,
+                0x7305 => Self::IncrementalSensor1,
+                0x7306 => Self::IncrementalSensor2,
+                0x7310 => Self::SpeedSensor,
+                0x7320 => Self::PositionSensor,
+                0x8311 => Self::TorqueTooHigh,
+                0x8331 => Self::TorqueFault,
+                0x8400 => Self::VelocityController,
+                0x8500 => Self::PositionController,
+                0x8600 => Self::PositioningController,
+                0x8611 => Self::FollowingError,
+                0x8612 => Self::ReferenceLimit,
+                0xF001 => Self::Deceleration,
+                0xF002 => Self::SubSynchronousRun,
+                0xF003 => Self::StrokeOperation,
+                0xF004 => Self::Control,
+                _ => Self::Unknown(code),
+            }
+        }
+        fn raw(self) -> u16 {
+            match self {
+                Self::ContinuousOverCurrent => 0x2310,
+                Self::ShortCircuitOrEarthLeakage => 0x2320,
+                Self::EarthLeakage => 0x2330,
+                Self::MainsOverVoltage => 0x3110,
+                Self::MainsUnderVoltage => 0x3120,
+                Self::PhaseFailure => 0x3130,
+                Self::DcLinkOverVoltage => 0x3210,
+                Self::DcLinkUnderVoltage => 0x3220,
+                Self::AmbientTemperatureTooHigh => 0x4110,
+                Self::DeviceTemperatureTooHigh => 0x4210,
+                Self::DriveTemperatureTooHigh => 0x4310,
+                Self::NonVolatileMemory => 0x5530,
+                Self::SoftwareResetByTheWatchdog => 0x6010,
+                Self::LossOfParameters => 0x6310,
+                Self::ParameterError => 0x6320,
+                Self::BrakeChopper => 0x7110,
+                Self::MotorBlocked => 0x7121,
+                Self::MotorErrorOrCommutation => 0x7122,
+                Self::IncrementalSensor1 => 0x7305,
+                Self::IncrementalSensor2 => 0x7306,
+                Self::SpeedSensor => 0x7310,
+                Self::PositionSensor => 0x7320,
+                Self::TorqueTooHigh => 0x8311,
+                Self::TorqueFault => 0x8331,
+                Self::VelocityController => 0x8400,
+                Self::PositionController => 0x8500,
+                Self::PositioningController => 0x8600,
+                Self::FollowingError => 0x8611,
+                Self::ReferenceLimit => 0x8612,
+                Self::Deceleration => 0xF001,
+                Self::SubSynchronousRun => 0xF002,
+                Self::StrokeOperation => 0xF003,
+                Self::Control => 0xF004,
+                Self::Unknown(code) => code,
+            }
+        }
+    }
     /// emergency.
     pub static EMERGENCY: &[rt::codes::Code] = &[
         rt::codes::Code::new(0, 0, "no error", "Or an error is gone.", &[]),
@@ -1188,6 +1345,168 @@ pub mod codes {
         rt::codes::Code::new(0xF000, 0xF0FF, "additional functions", "", &[]),
         rt::codes::Code::new(0xFF00, 0xFFFF, "device specific", "", &[]),
     ];
+    /// A code of [`EMERGENCY`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum Emergency {
+        /// 0: no error. Or an error is gone.
+        NoError,
+        /// 0x1000 to 0x10FF: generic error.
+        GenericError(u16),
+        /// 0x2000 to 0x20FF: current.
+        Current(u16),
+        /// 0x2100 to 0x21FF: current on the input side.
+        CurrentOnTheInputSide(u16),
+        /// 0x2200 to 0x22FF: current inside the device.
+        CurrentInsideTheDevice(u16),
+        /// 0x2300 to 0x23FF: current on the output side.
+        CurrentOnTheOutputSide(u16),
+        /// 0x3000 to 0x30FF: voltage.
+        Voltage(u16),
+        /// 0x3100 to 0x31FF: mains voltage.
+        MainsVoltage(u16),
+        /// 0x3200 to 0x32FF: voltage inside the device.
+        VoltageInsideTheDevice(u16),
+        /// 0x3300 to 0x33FF: output voltage.
+        OutputVoltage(u16),
+        /// 0x4000 to 0x40FF: temperature.
+        Temperature(u16),
+        /// 0x4100 to 0x41FF: ambient temperature.
+        AmbientTemperature(u16),
+        /// 0x4200 to 0x42FF: device temperature.
+        DeviceTemperature(u16),
+        /// 0x5000 to 0x50FF: hardware of the device.
+        HardwareOfTheDevice(u16),
+        /// 0x6000 to 0x60FF: software of the device.
+        SoftwareOfTheDevice(u16),
+        /// 0x6100 to 0x61FF: internal software.
+        InternalSoftware(u16),
+        /// 0x6200 to 0x62FF: user software.
+        UserSoftware(u16),
+        /// 0x6300 to 0x63FF: data set.
+        DataSet(u16),
+        /// 0x7000 to 0x70FF: additional modules.
+        AdditionalModules(u16),
+        /// 0x8000 to 0x80FF: monitoring.
+        Monitoring(u16),
+        /// 0x8100: communication.
+        Communication,
+        /// 0x8110: CAN overrun. Objects were lost.
+        CanOverrun,
+        /// 0x8120: CAN error passive.
+        CanErrorPassive,
+        /// 0x8130: life guarding or heartbeat.
+        LifeGuardingOrHeartbeat,
+        /// 0x8140: recovered from bus off.
+        RecoveredFromBusOff,
+        /// 0x8150: two nodes with one identifier.
+        TwoNodesWithOneIdentifier,
+        /// 0x8200: protocol.
+        Protocol,
+        /// 0x8210: PDO too short. It wasn't processed.
+        PdoTooShort,
+        /// 0x8220: PDO too long. More was received than is mapped.
+        PdoTooLong,
+        /// 0x8230: destination of a multiplexed PDO doesn't exist.
+        DestinationOfAMultiplexedPdoDoesnTExist,
+        /// 0x8240: SYNC of another length.
+        SyncOfAnotherLength,
+        /// 0x8250: RPDO timeout.
+        RpdoTimeout,
+        /// 0x9000 to 0x90FF: external error.
+        ExternalError(u16),
+        /// 0xF000 to 0xF0FF: additional functions.
+        AdditionalFunctions(u16),
+        /// 0xFF00 to 0xFFFF: device specific.
+        DeviceSpecific(u16),
+        /// Any other number.
+        Unknown(u16),
+    }
+    impl rt::codes::CodeTable for Emergency {
+        type Raw = u16;
+        fn codes() -> &'static [rt::codes::Code] {
+            EMERGENCY
+        }
+        fn from_raw(code: u16) -> Self {
+            match code {
+                0 => Self::NoError,
+                0x1000..=0x10FF => Self::GenericError(code),
+                0x2000..=0x20FF => Self::Current(code),
+                0x2100..=0x21FF => Self::CurrentOnTheInputSide(code),
+                0x2200..=0x22FF => Self::CurrentInsideTheDevice(code),
+                0x2300..=0x23FF => Self::CurrentOnTheOutputSide(code),
+                0x3000..=0x30FF => Self::Voltage(code),
+                0x3100..=0x31FF => Self::MainsVoltage(code),
+                0x3200..=0x32FF => Self::VoltageInsideTheDevice(code),
+                0x3300..=0x33FF => Self::OutputVoltage(code),
+                0x4000..=0x40FF => Self::Temperature(code),
+                0x4100..=0x41FF => Self::AmbientTemperature(code),
+                0x4200..=0x42FF => Self::DeviceTemperature(code),
+                0x5000..=0x50FF => Self::HardwareOfTheDevice(code),
+                0x6000..=0x60FF => Self::SoftwareOfTheDevice(code),
+                0x6100..=0x61FF => Self::InternalSoftware(code),
+                0x6200..=0x62FF => Self::UserSoftware(code),
+                0x6300..=0x63FF => Self::DataSet(code),
+                0x7000..=0x70FF => Self::AdditionalModules(code),
+                0x8000..=0x80FF => Self::Monitoring(code),
+                0x8100 => Self::Communication,
+                0x8110 => Self::CanOverrun,
+                0x8120 => Self::CanErrorPassive,
+                0x8130 => Self::LifeGuardingOrHeartbeat,
+                0x8140 => Self::RecoveredFromBusOff,
+                0x8150 => Self::TwoNodesWithOneIdentifier,
+                0x8200 => Self::Protocol,
+                0x8210 => Self::PdoTooShort,
+                0x8220 => Self::PdoTooLong,
+                0x8230 => Self::DestinationOfAMultiplexedPdoDoesnTExist,
+                0x8240 => Self::SyncOfAnotherLength,
+                0x8250 => Self::RpdoTimeout,
+                0x9000..=0x90FF => Self::ExternalError(code),
+                0xF000..=0xF0FF => Self::AdditionalFunctions(code),
+                0xFF00..=0xFFFF => Self::DeviceSpecific(code),
+                _ => Self::Unknown(code),
+            }
+        }
+        fn raw(self) -> u16 {
+            match self {
+                Self::NoError => 0,
+                Self::GenericError(code) => code,
+                Self::Current(code) => code,
+                Self::CurrentOnTheInputSide(code) => code,
+                Self::CurrentInsideTheDevice(code) => code,
+                Self::CurrentOnTheOutputSide(code) => code,
+                Self::Voltage(code) => code,
+                Self::MainsVoltage(code) => code,
+                Self::VoltageInsideTheDevice(code) => code,
+                Self::OutputVoltage(code) => code,
+                Self::Temperature(code) => code,
+                Self::AmbientTemperature(code) => code,
+                Self::DeviceTemperature(code) => code,
+                Self::HardwareOfTheDevice(code) => code,
+                Self::SoftwareOfTheDevice(code) => code,
+                Self::InternalSoftware(code) => code,
+                Self::UserSoftware(code) => code,
+                Self::DataSet(code) => code,
+                Self::AdditionalModules(code) => code,
+                Self::Monitoring(code) => code,
+                Self::Communication => 0x8100,
+                Self::CanOverrun => 0x8110,
+                Self::CanErrorPassive => 0x8120,
+                Self::LifeGuardingOrHeartbeat => 0x8130,
+                Self::RecoveredFromBusOff => 0x8140,
+                Self::TwoNodesWithOneIdentifier => 0x8150,
+                Self::Protocol => 0x8200,
+                Self::PdoTooShort => 0x8210,
+                Self::PdoTooLong => 0x8220,
+                Self::DestinationOfAMultiplexedPdoDoesnTExist => 0x8230,
+                Self::SyncOfAnotherLength => 0x8240,
+                Self::RpdoTimeout => 0x8250,
+                Self::ExternalError(code) => code,
+                Self::AdditionalFunctions(code) => code,
+                Self::DeviceSpecific(code) => code,
+                Self::Unknown(code) => code,
+            }
+        }
+    }
 }
 /// A handle for every entry of the object dictionary.
 pub mod objects {
@@ -1464,7 +1783,7 @@ pub mod pdo {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
         pub controlword: super::types::Controlword,
         /// Modes of operation: 0x6060:00, 8 bits from bit 16.
-        pub modes_of_operation: i8,
+        pub modes_of_operation: super::types::ModesOfOperation,
         /// Target position: 0x607A:00, 32 bits from bit 32.
         pub target_position: i32,
         /// Target velocity: 0x60FF:00, 32 bits from bit 64.
@@ -1483,7 +1802,7 @@ pub mod pdo {
             let mut data = [0; 14];
             let bits = self.controlword.raw() as u64;
             data = rt::bits::put(data, 0, 16, bits);
-            let bits = self.modes_of_operation as u8 as u64;
+            let bits = self.modes_of_operation.raw() as u8 as u64;
             data = rt::bits::put(data, 16, 8, bits);
             let bits = self.target_position as u32 as u64;
             data = rt::bits::put(data, 32, 32, bits);
@@ -1507,7 +1826,9 @@ pub mod pdo {
                 controlword: super::types::Controlword::from_raw(
                     rt::bits::get(data, 0, 16) as u16,
                 ),
-                modes_of_operation: rt::bits::get(data, 16, 8) as i8,
+                modes_of_operation: super::types::ModesOfOperation::from_raw(
+                    rt::bits::get(data, 16, 8) as i8,
+                ),
                 target_position: rt::bits::get(data, 32, 32) as i32,
                 target_velocity: rt::bits::get(data, 64, 32) as i32,
                 torque_offset: rt::bits::get(data, 96, 16) as i16,
@@ -1735,8 +2056,10 @@ pub mod view {
         }
         /// Modes of operation: 0x6060:00, 8 bits from bit 16.
         #[inline]
-        pub fn modes_of_operation(&self) -> i8 {
-            rt::bits::get(self.data.as_ref(), self.bit + 16, 8) as i8
+        pub fn modes_of_operation(&self) -> super::types::ModesOfOperation {
+            super::types::ModesOfOperation::from_raw(
+                rt::bits::get(self.data.as_ref(), self.bit + 16, 8) as i8,
+            )
         }
         /// Target position: 0x607A:00, 32 bits from bit 32.
         #[inline]
@@ -1762,8 +2085,13 @@ pub mod view {
         }
         /// Modes of operation: 0x6060:00, 8 bits from bit 16.
         #[inline]
-        pub fn set_modes_of_operation(&mut self, value: i8) {
-            rt::bits::set(self.data.as_mut(), self.bit + 16, 8, value as u8 as u64);
+        pub fn set_modes_of_operation(&mut self, value: super::types::ModesOfOperation) {
+            rt::bits::set(
+                self.data.as_mut(),
+                self.bit + 16,
+                8,
+                value.raw() as u8 as u64,
+            );
         }
         /// Target position: 0x607A:00, 32 bits from bit 32.
         #[inline]
