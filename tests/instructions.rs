@@ -31,6 +31,8 @@ fn build() -> PathBuf {
         .args(["build", "--quiet", "--release", "-p", "lexibus-instructions"])
         .current_dir(root())
         .env("CARGO_TARGET_DIR", &target)
+        // Parts that are compiled apart aren't inlined into each other.
+        .env("CARGO_INCREMENTAL", "0")
         .env_remove("RUSTFLAGS")
         .output()
         .expect("cargo runs");

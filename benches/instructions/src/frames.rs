@@ -44,19 +44,19 @@ frames! {
         same |ours, hand| (ours.controlword.raw(), ours.target_position) == (hand.word, hand.long);
     demo_tx_pdo_2: 6, demo::pdo::TxPdo2, hand::WordAndLong,
         same |ours, hand| (ours.statusword.raw(), ours.position_actual_value) == (hand.word, hand.long);
-    vector_step_rx_pdo_1: 3, vector_step::pdo::RxPdo1, hand::WordAndByte,
-        same |ours, hand| (ours.controlword.raw(), ours.modes_of_operation) == (hand.word, hand.byte);
+    vector_step_rx_pdo_1: 3, vector_step::pdo::RxPdo1, hand::WordAndMode,
+        same |ours, hand| (ours.controlword.raw(), ours.modes_of_operation.raw()) == (hand.word, hand.mode.raw());
     vector_step_rx_pdo_2: 6, vector_step::pdo::RxPdo2, hand::WordAndLong,
         same |ours, hand| (ours.controlword.raw(), ours.target_position) == (hand.word, hand.long);
-    vector_step_tx_pdo_1: 3, vector_step::pdo::TxPdo1, hand::WordAndByte,
-        same |ours, hand| (ours.statusword.raw(), ours.modes_of_operation_display) == (hand.word, hand.byte);
+    vector_step_tx_pdo_1: 3, vector_step::pdo::TxPdo1, hand::WordAndMode,
+        same |ours, hand| (ours.statusword.raw(), ours.modes_of_operation_display.raw()) == (hand.word, hand.mode.raw());
     vector_step_tx_pdo_2: 6, vector_step::pdo::TxPdo2, hand::WordAndLong,
         same |ours, hand| (ours.statusword.raw(), ours.position_actual_value) == (hand.word, hand.long);
     odd_bits: 6, axis::pdo::Encoder, hand::Encoder, same |ours, hand| hand == from_encoder(ours);
     long_whole_bytes: 14, axis::pdo::SetPoints, hand::SetPoints,
         same |ours, hand| hand == hand::SetPoints {
             controlword: ours.controlword.raw(),
-            mode: ours.modes_of_operation,
+            mode: hand::AxisMode::from_raw(ours.modes_of_operation.raw()),
             position: ours.target_position,
             velocity: ours.target_velocity,
             torque: ours.torque_offset,

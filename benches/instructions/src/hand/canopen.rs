@@ -1,6 +1,6 @@
 //! PDOs of at most a word.
 
-use super::{frame, part};
+use super::{frame, part, StepMode};
 use lexibus::LengthError;
 
 /// A word of 16 bits and a number of 32.
@@ -34,22 +34,22 @@ impl WordAndLong {
     }
 }
 
-/// A word of 16 bits and a number of 8.
+/// A word of 16 bits and a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WordAndByte {
+pub struct WordAndMode {
     /// Control word or status word.
     pub word: u16,
     /// Mode of operation.
-    pub byte: i8,
+    pub mode: StepMode,
 }
 
-impl WordAndByte {
+impl WordAndMode {
     /// The bytes of a frame.
     #[inline]
     pub fn pack(&self) -> [u8; 3] {
         let mut frame = [0; 3];
         frame[0..2].copy_from_slice(&self.word.to_le_bytes());
-        frame[2] = self.byte as u8;
+        frame[2] = self.mode.raw() as u8;
         frame
     }
 
@@ -61,6 +61,6 @@ impl WordAndByte {
     #[inline]
     pub fn unpack(data: &[u8]) -> Result<Self, LengthError> {
         let data: &[u8; 3] = frame(data)?;
-        Ok(Self { word: u16::from_le_bytes(part(data, 0)), byte: data[2] as i8 })
+        Ok(Self { word: u16::from_le_bytes(part(data, 0)), mode: StepMode::from_raw(data[2] as i8) })
     }
 }

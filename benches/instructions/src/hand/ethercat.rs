@@ -1,6 +1,6 @@
 //! Process data of EtherCAT.
 
-use super::{frame, part};
+use super::{frame, part, AxisMode};
 use lexibus::LengthError;
 
 /// A mode of three bits.
@@ -106,7 +106,7 @@ pub struct SetPoints {
     /// Bytes 0 and 1.
     pub controlword: u16,
     /// Byte 2; byte 3 is padding.
-    pub mode: i8,
+    pub mode: AxisMode,
     /// Bytes 4 to 7.
     pub position: i32,
     /// Bytes 8 to 11.
@@ -121,7 +121,7 @@ impl SetPoints {
     pub fn pack(&self) -> [u8; 14] {
         let mut frame = [0; 14];
         frame[0..2].copy_from_slice(&self.controlword.to_le_bytes());
-        frame[2] = self.mode as u8;
+        frame[2] = self.mode.raw() as u8;
         frame[4..8].copy_from_slice(&self.position.to_le_bytes());
         frame[8..12].copy_from_slice(&self.velocity.to_le_bytes());
         frame[12..14].copy_from_slice(&self.torque.to_le_bytes());
@@ -138,7 +138,7 @@ impl SetPoints {
         let data: &[u8; 14] = frame(data)?;
         Ok(Self {
             controlword: u16::from_le_bytes(part(data, 0)),
-            mode: data[2] as i8,
+            mode: AxisMode::from_raw(data[2] as i8),
             position: i32::from_le_bytes(part(data, 4)),
             velocity: i32::from_le_bytes(part(data, 8)),
             torque: i16::from_le_bytes(part(data, 12)),

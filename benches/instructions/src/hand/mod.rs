@@ -2,10 +2,12 @@
 
 mod canopen;
 mod ethercat;
+mod modes;
 mod profinet;
 
-pub use canopen::{WordAndByte, WordAndLong};
+pub use canopen::{WordAndLong, WordAndMode};
 pub use ethercat::{ActualValues, Encoder, Image, Mode, SetPoints};
+pub use modes::{AxisMode, StepMode};
 pub use profinet::{Inputs, Outputs};
 
 use lexibus::LengthError;
