@@ -8,7 +8,7 @@
 use std::error::Error;
 use std::time::Duration;
 
-use lexibus::clients::canopen::{sync, CanFrame, CanPort, NmtCommand, NmtState, Node};
+use lexibus::clients::canopen::{NmtCommand, NmtState, Node};
 use lexibus::sim::{CanNode, Device};
 use lexibus::{AbortCode, NodeId, Step};
 use lexibus_drives::demo_drive::types::{Command, Controlword, ModesOfOperation, State, Statusword};
@@ -58,15 +58,14 @@ fn move_to(drive: &mut Drive, id: NodeId, target: i32) -> Result<(), Box<dyn Err
     }
     let node = drive.client();
     node.nmt(NmtCommand::Start)?;
-    let bus = node.port();
     let enabled = Controlword::new().with_command(Command::EnableOperation);
     let new_set_point = enabled.in_profile_position().with_new_set_point(true).controlword();
-    let (out, back) = (pdo::RxPdo2::COB_ID.resolve(id) as u16, pdo::TxPdo2::COB_ID.resolve(id) as u16);
     for cycle in 0..100 {
         let controlword = if cycle == 0 { new_set_point } else { enabled };
-        send(bus, out, &pdo::RxPdo2 { controlword, target_position: target }.pack())?;
-        bus.send(&sync(), PATIENCE)?;
-        let frame = bus.receive(PATIENCE, &mut |frame| frame.id() == back)?.ok_or("no PDO came back")?;
+        let output = pdo::RxPdo2 { controlword, target_position: target };
+        node.send_pdo(pdo::RxPdo2::COB_ID, &output.pack())?;
+        node.sync()?;
+        let frame = node.receive_pdo(pdo::TxPdo2::COB_ID, PATIENCE)?;
         let input = pdo::TxPdo2::unpack(frame.data())?;
         println!("cycle {cycle}: at {}", input.position_actual_value);
         if input.statusword.target_reached() {
@@ -75,11 +74,6 @@ fn move_to(drive: &mut Drive, id: NodeId, target: i32) -> Result<(), Box<dyn Err
         }
     }
     Err("the drive doesn't get there".into())
-}
-
-fn send(bus: &mut CanNode, id: u16, data: &[u8]) -> Result<(), Box<dyn Error>> {
-    let frame = CanFrame::new(id, data).ok_or("no frame of CAN")?;
-    bus.send(&frame, PATIENCE)?.then_some(()).ok_or_else(|| "the bus is busy".into())
 }
 
 /// A drive that follows its controlword, and goes a bit of its way with each of them.

@@ -6,8 +6,9 @@ use super::frame::CanFrame;
 use super::nmt::{self, NmtCommand, NmtState};
 use super::port::{AsyncCanPort, CanPort};
 use crate::emergency::Emergency;
-use crate::error::Error;
+use crate::error::{Error, LengthError, OutOfRange};
 use crate::node_id::NodeId;
+use crate::pdo::CobId;
 
 /// How long an answer may take where nothing else is said.
 pub const TIMEOUT: Duration = Duration::from_millis(500);
@@ -69,6 +70,19 @@ fn state_of(frame: &CanFrame, id: NodeId) -> Option<NmtState> {
     NmtState::of(frame).filter(|(node, _)| *node == id).map(|(_, state)| state)
 }
 
+/// The identifier of a PDO of `node`: one of 11 bits, of a PDO that is used.
+fn identifier<E>(cob_id: CobId, node: NodeId) -> Result<u16, Error<E>> {
+    const BITS: u32 = 0x7FF;
+    // Bit 30 of a TPDO says only that no remote request is answered.
+    let id = cob_id.resolve(node) & !(1 << 30);
+    u16::try_from(id).ok().filter(|_| id <= BITS).ok_or(Error::OutOfRange(OutOfRange))
+}
+
+fn pdo<E>(cob_id: CobId, node: NodeId, data: &[u8]) -> Result<CanFrame, Error<E>> {
+    let id = identifier(cob_id, node)?;
+    CanFrame::new(id, data).ok_or(Error::Length(LengthError::new(8, data.len())))
+}
+
 impl<P: CanPort> Node<P> {
     /// Sends a frame, whoever it is for.
     ///
@@ -108,7 +122,8 @@ impl<P: CanPort> Node<P> {
         Ok(frame.map_err(Error::Client)?.and_then(|frame| state_of(&frame, id)))
     }
 
-    /// Waits for a heartbeat that tells `state`; [`NmtState::BootUp`] is the message of a node that has just started.
+    /// Waits for a heartbeat that tells `state`; [`NmtState::BootUp`] is the message of a node that has just started. One that
+    /// a [`Buffered`](super::Buffered) interface has kept counts, too: [`clear`](super::Buffered::clear) forgets it.
     ///
     /// # Errors
     ///
@@ -128,6 +143,29 @@ impl<P: CanPort> Node<P> {
         let id = self.id;
         let frame = self.port.receive(patience, &mut |frame| Emergency::of(frame, id).is_some());
         Ok(frame.map_err(Error::Client)?.and_then(|frame| Emergency::of(&frame, id)))
+    }
+
+    /// Sends a PDO to the node: `data` is what `pack` of a generated struct gives, `cob_id` its `COB_ID`.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`send`](Self::send); [`Error::OutOfRange`] where `cob_id` has more than 11 bits or says that the PDO isn't
+    /// used, [`Error::Length`] where there are more than 8 bytes.
+    pub fn send_pdo(&mut self, cob_id: CobId, data: &[u8]) -> Result<(), Error<P::Error>> {
+        let frame = pdo(cob_id, self.id, data)?;
+        self.send(&frame)
+    }
+
+    /// The next PDO that the node sends with this identifier, for `unpack` of a generated struct.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Client`] where the interface fails, [`Error::Timeout`] where none comes within `patience`,
+    /// [`Error::OutOfRange`] as of [`send_pdo`](Self::send_pdo).
+    pub fn receive_pdo(&mut self, cob_id: CobId, patience: Duration) -> Result<CanFrame, Error<P::Error>> {
+        let id = identifier(cob_id, self.id)?;
+        let frame = self.port.receive(patience, &mut |frame| frame.id() == id);
+        frame.map_err(Error::Client)?.ok_or(Error::Timeout)
     }
 }
 
@@ -191,5 +229,26 @@ impl<P: AsyncCanPort> Node<P> {
         let id = self.id;
         let frame = self.port.receive(patience, &mut |frame| Emergency::of(frame, id).is_some()).await;
         Ok(frame.map_err(Error::Client)?.and_then(|frame| Emergency::of(&frame, id)))
+    }
+
+    /// Sends a PDO to the node, as [`send_pdo`](Self::send_pdo) does.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`send_pdo`](Self::send_pdo).
+    pub async fn send_pdo_async(&mut self, cob_id: CobId, data: &[u8]) -> Result<(), Error<P::Error>> {
+        let frame = pdo(cob_id, self.id, data)?;
+        self.send_async(&frame).await
+    }
+
+    /// The next PDO that the node sends with this identifier, as [`receive_pdo`](Self::receive_pdo) gives it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`receive_pdo`](Self::receive_pdo).
+    pub async fn receive_pdo_async(&mut self, cob_id: CobId, patience: Duration) -> Result<CanFrame, Error<P::Error>> {
+        let id = identifier(cob_id, self.id)?;
+        let frame = self.port.receive(patience, &mut |frame| frame.id() == id).await;
+        frame.map_err(Error::Client)?.ok_or(Error::Timeout)
     }
 }

@@ -8,7 +8,7 @@ use canopen_sdo::{ObjectDictionary, SdoAbortCode, SdoFrame, SdoServer, ServerCon
 
 use super::*;
 use crate::codes::{Code, CodeTable};
-use crate::{AbortCode, AsyncClient, Client, Error, LengthError, NodeId, Object};
+use crate::{AbortCode, AsyncClient, Client, CobId, Error, LengthError, NodeId, Object, OutOfRange};
 use crate::{Domain, Flags, Initial, Item, OnCanOpen, Range, Ro, Rw, VisibleString, Wo};
 
 const NODE: u8 = 5;
@@ -208,6 +208,19 @@ fn emergencies_are_the_devices_alarms() {
     assert_eq!(Alarm::Blocked.row().map(|row| row.name), Some("motor blocked"));
 }
 
+#[test]
+fn pdos_have_the_identifiers_of_the_node() {
+    let mut node = node();
+    node.port().answers.extend([CanFrame::new(0x186, &[1]), CanFrame::new(0x185, &[2, 3])].into_iter().flatten());
+    let received = node.receive_pdo(CobId::from_node(0x4000_0180), Duration::ZERO).unwrap();
+    assert_eq!(received.data(), [2, 3]);
+    assert_eq!(node.receive_pdo(CobId::from_node(0x180), Duration::ZERO), Err(Error::Timeout));
+    assert_eq!(node.send_pdo(CobId::from_node(0x200), &[1, 2]), Ok(()));
+    assert_eq!(node.send_pdo(CobId::from_node(0x8000_0200), &[]), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(node.send_pdo(CobId::fixed(0x2000_0800), &[]), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(node.send_pdo(CobId::fixed(0x205), &[0; 9]), Err(Error::Length(LengthError::new(8, 9))));
+}
+
 #[tokio::test]
 async fn without_blocking() {
     let mut node = Node::new(Buffered::<_, 16>::new(NoWait(Bus::new())), NodeId::new(NODE).expect("a node-ID"));
@@ -221,6 +234,8 @@ async fn without_blocking() {
     assert_eq!(&buffer[..label.len()], label.as_bytes());
     node.nmt_async(NmtCommand::Stop).await.unwrap();
     node.sync_async().await.unwrap();
+    node.send_pdo_async(CobId::from_node(0x200), &[1, 2]).await.unwrap();
+    assert_eq!(node.receive_pdo_async(CobId::from_node(0x180), Duration::ZERO).await, Err(Error::Timeout));
     assert_eq!(node.heartbeat_async(Duration::ZERO).await, Ok(Some(NmtState::Operational)));
     assert_eq!(node.wait_for_async(NmtState::Stopped, Duration::ZERO).await, Err(Error::Timeout));
     assert_eq!(node.emergency_async(Duration::ZERO).await, Ok(None));
