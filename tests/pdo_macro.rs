@@ -64,7 +64,7 @@ pub mod odd {
             const COB_ID: rt::CobId = rt::CobId::from_node(0x200);
             const INDEX: u16 = 0x1600;
             const ENTRIES: usize = 8;
-            const DUMMIES: &'static [u32] = &[0x0001_0001, 0x0005_0008];
+            const DUMMIES: u32 = 1 << 1 | 1 << 5;
             const COMMUNICATION: Option<u16> = Some(0x1400);
             const TIMING: &'static [rt::SdoWrite] = &[rt::SdoWrite::new_u8(0x1400, 2, 255)];
         }
@@ -78,7 +78,7 @@ pub mod odd {
             const INDEX: u16 = 0x1A00;
             const ENTRIES: usize = 254;
             const MAX_BITS: u32 = 800;
-            const KEPT: &'static [u32] = &[0x2000_0003];
+            const KEPT: &'static [rt::MappedEntry] = &[rt::MappedEntry::new(0x2000, 0, 3)];
         }
 
         /// Nobody may write its identifier, and it has none by default.
@@ -362,7 +362,10 @@ mod ethercat {
         use sensor::remappable::Measurement;
 
         // 14 bytes; the entry of the state; what is mapped by default can be mapped.
-        assert_eq!((Measurement::MAX_BITS, Measurement::KEPT, Measurement::ENTRIES), (112, &[0x6000_0002][..], 254));
+        assert_eq!(
+            (Measurement::MAX_BITS, Measurement::KEPT, Measurement::ENTRIES),
+            (112, &[MappedEntry::new(0x6000, 0, 2)][..], 254)
+        );
         let everything = Everything {
             label: *b"0123456789",
             state: sensor::types::State::Measuring,

@@ -50,7 +50,7 @@ fn limits_are_those_of_the_description() {
         "const INDEX: u16 = 0x1600;",
         "const ENTRIES: usize = 3;",
         "const GRANULARITY: u32 = 8;",
-        "const DUMMIES: &'static [u32] = &[0x0005_0008, 0x0006_0010];",
+        "const DUMMIES: u32 = 0x60;",
         "const COMMUNICATION: Option<u16> = Some(0x1400);",
         "rt::SdoWrite::new_u8(0x1400, 0x02, 255),",
         "const COB_ID: rt::CobId = rt::CobId::from_node(0x200);",

@@ -30,12 +30,12 @@ pub trait Remappable {
     /// The smallest unit of mapping in bits (`Granularity` of CiA 306).
     const GRANULARITY: u32 = 1;
 
-    /// What may stand for a gap: dummy entries (CiA 301 7.4.9.2), as the mapping object holds them. On EtherCAT a gap
-    /// needs none.
-    const DUMMIES: &'static [u32] = &[];
+    /// Which data types may stand for a gap as dummy entries (`DummyUsage` of CiA 306): bit 5 is that of UNSIGNED8,
+    /// 0x0005. On EtherCAT a gap needs none.
+    const DUMMIES: u32 = 0;
 
-    /// Entries that can't be taken out of the mapping (`Fixed` of an entry, ETG.2000), as the mapping object holds them.
-    const KEPT: &'static [u32] = &[];
+    /// Entries that can't be taken out of the mapping (`Fixed` of an entry, ETG.2000).
+    const KEPT: &'static [MappedEntry] = &[];
 
     /// Index of the communication object; `None` where nobody may write the identifier, and on EtherCAT.
     const COMMUNICATION: Option<u16> = None;
@@ -189,7 +189,7 @@ pub mod check {
     pub const fn keeps_fixed<P: Remappable>(mapping: &[MappedEntry]) -> bool {
         let mut at = 0;
         while at < P::KEPT.len() {
-            if !contains(mapping, P::KEPT[at]) {
+            if !contains(mapping, P::KEPT[at].word()) {
                 return false;
             }
             at += 1;
@@ -216,14 +216,30 @@ pub const fn gap<P: Remappable>(bits: u32) -> u32 {
     if !P::CobId::NEEDS_DUMMIES && bits <= 0xFF {
         return bits;
     }
-    let mut at = 0;
-    while at < P::DUMMIES.len() {
-        if P::DUMMIES[at] & 0xFF == bits {
-            return P::DUMMIES[at];
+    let mut code = 1;
+    while code < 32 {
+        if P::DUMMIES >> code & 1 == 1 && bits_of_type(code) == bits && bits > 0 {
+            return code << 16 | bits;
         }
-        at += 1;
+        code += 1;
     }
     0
+}
+
+/// Length in bits of the basic type with this code (CiA 301 7.4.7); 0 where it has none.
+const fn bits_of_type(code: u32) -> u32 {
+    match code {
+        0x01 => 1,
+        0x02 | 0x05 => 8,
+        0x03 | 0x06 => 16,
+        0x10 | 0x16 => 24,
+        0x04 | 0x07 | 0x08 => 32,
+        0x12 | 0x18 => 40,
+        0x0C | 0x0D | 0x13 | 0x19 => 48,
+        0x14 | 0x1A => 56,
+        0x11 | 0x15 | 0x1B => 64,
+        _ => 0,
+    }
 }
 
 /// Entries as the mapping object holds them.

@@ -178,7 +178,7 @@ pub(super) fn mapping_entry(entry: &PdoEntry) -> (&'static str, Vec<String>) {
     (path, arguments)
 }
 
-fn mapping_line(entry: &PdoEntry) -> String {
+pub(super) fn mapping_line(entry: &PdoEntry) -> String {
     let (path, arguments) = mapping_entry(entry);
     format!("{path}(«{}»)", arguments.join("¦ "))
 }

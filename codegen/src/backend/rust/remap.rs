@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use super::model::{addressable, ObjectModel};
 use super::pdo;
 use super::scope::{ObjectBus, Scope};
-use crate::ir::{Device, Direction, Item, Mappable, Pdo, PdoEntry, PdoEntryKind, Type};
+use crate::ir::{Device, Direction, Item, Mappable, Pdo, PdoEntryKind, Type};
 
 /// The most entries that a mapping object has.
 const MAX_ENTRIES: usize = 254;
@@ -57,8 +57,10 @@ fn model(scope: &Scope<'_>, device: &Device, pdo: &Pdo, name: String) -> Option<
             on_ethercat(scope, device, pdo, &mut constants)?
         }
     };
-    let kept: Vec<String> = pdo.entries.iter().filter(|entry| entry.fixed).map(word_of).collect();
-    constants.extend(words("KEPT", &kept));
+    let kept: Vec<String> = pdo.entries.iter().filter(|entry| entry.fixed).map(pdo::mapping_line).collect();
+    if !kept.is_empty() {
+        constants.push(format!("KEPT: &'static [rt::MappedEntry] = &[«{}»]", kept.join("¦ ")));
+    }
     Some(RemappableModel {
         name,
         title: pdo::title(scope, pdo),
@@ -91,11 +93,10 @@ fn on_canopen(device: &Device, pdo: &Pdo, constants: &mut Vec<String>) -> Option
     }
     let receives = pdo.direction == Direction::Receive;
     let dummies = settings.filter(|_| receives).map_or(&[][..], |settings| &settings.dummies);
-    let dummies = dummies.iter().filter_map(|&code| {
-        let bits = Type::from_cia301(code.into())?.bits()?;
-        Some(word(code.into(), 0, bits))
-    });
-    constants.extend(words("DUMMIES", &dummies.collect::<Vec<_>>()));
+    let dummies = dummies.iter().filter_map(|&code| 1_u32.checked_shl(code.into())).fold(0, |all, one| all | one);
+    if dummies != 0 {
+        constants.push(format!("DUMMIES: u32 = 0x{dummies:X}"));
+    }
     if communication.writable.contains(&1) {
         constants.push(format!("COMMUNICATION: Option<u16> = Some(0x{:04X})", communication.index));
     }
@@ -128,14 +129,6 @@ fn on_ethercat(scope: &Scope<'_>, device: &Device, pdo: &Pdo, constants: &mut Ve
 fn configures(device: &Device) -> bool {
     let mailbox = device.ethercat.as_ref().and_then(|ethercat| ethercat.mailbox.as_ref());
     mailbox.and_then(|mailbox| mailbox.coe.as_ref()).is_some_and(|coe| coe.pdo_config)
-}
-
-fn words(name: &str, words: &[String]) -> Option<String> {
-    (!words.is_empty()).then(|| format!("{name}: &'static [u32] = &[«{}»]", words.join("¦ ")))
-}
-
-fn word_of(entry: &PdoEntry) -> String {
-    word(entry.index, entry.sub_index, entry.bits)
 }
 
 /// An entry as the mapping object holds it.
