@@ -3409,14 +3409,7 @@ pub mod remappable {
         const INDEX: u16 = 0x1600;
         const ENTRIES: usize = 1;
         const GRANULARITY: u32 = 8;
-        const DUMMIES: &'static [u32] = &[
-            0x0002_0008,
-            0x0003_0010,
-            0x0004_0020,
-            0x0005_0008,
-            0x0006_0010,
-            0x0007_0020,
-        ];
+        const DUMMIES: u32 = 0xFC;
         const COMMUNICATION: Option<u16> = Some(0x1400);
         const TIMING: &'static [rt::SdoWrite] = &[
             rt::SdoWrite::new_u8(0x1400, 0x02, 255),
@@ -3431,14 +3424,7 @@ pub mod remappable {
         const INDEX: u16 = 0x1601;
         const ENTRIES: usize = 2;
         const GRANULARITY: u32 = 8;
-        const DUMMIES: &'static [u32] = &[
-            0x0002_0008,
-            0x0003_0010,
-            0x0004_0020,
-            0x0005_0008,
-            0x0006_0010,
-            0x0007_0020,
-        ];
+        const DUMMIES: u32 = 0xFC;
         const COMMUNICATION: Option<u16> = Some(0x1401);
         const TIMING: &'static [rt::SdoWrite] = &[rt::SdoWrite::new_u8(0x1401, 0x02, 1)];
         const COB_ID: rt::CobId = rt::CobId::from_node(0x300);
