@@ -2,8 +2,8 @@
 //!
 //!     cargo run --example canopen --features std,canopen
 //!
-//! The node is simulated, frame by frame. With a real one, `simulated_node` becomes a CAN interface, and the rest stays:
-//! `socketcan::CanSocket::open("can0")?`, for instance.
+//! The node is simulated, frame by frame. With a real one, `simulated_node` becomes a CAN interface, and the rest
+//! stays: `socketcan::CanSocket::open("can0")?`, for instance.
 
 use std::error::Error;
 use std::time::Duration;
@@ -16,12 +16,15 @@ use lexibus_drives::demo_drive::{objects, pdo, DemoDrive, ENTRIES};
 
 /// How long anything may take.
 const PATIENCE: Duration = Duration::from_millis(500);
+/// So many steps, or cycles, are waited for.
+const MOST_STEPS: u32 = 100;
 
 type Drive = DemoDrive<Node<CanNode>>;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let id = NodeId::new(5).ok_or("a node-ID is 1 to 127")?;
     let mut drive = DemoDrive::new(Node::new(simulated_node(id)?, id));
+    drive.client().nmt(NmtCommand::ResetNode)?;
     drive.client().wait_for(NmtState::BootUp, PATIENCE)?;
     println!("node {id} has booted");
     let mut text = [0; 32];
@@ -39,7 +42,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
 /// Takes the drive step by step to the state in which it moves.
 fn enable(drive: &mut Drive) -> Result<(), Box<dyn Error>> {
-    loop {
+    for _ in 0..MOST_STEPS {
         let state = drive.statusword().read()?.state().ok_or("the statusword tells no state")?;
         println!("{state:?}");
         match state.toward(State::OperationEnabled) {
@@ -49,6 +52,7 @@ fn enable(drive: &mut Drive) -> Result<(), Box<dyn Error>> {
             Step::Unreachable => return Err("no command leads to operation".into()),
         }
     }
+    Err("the drive doesn't get there".into())
 }
 
 /// Moves with process data: targets go out in RPDO 2, and positions come back in TPDO 2, both on SYNC.
@@ -60,7 +64,7 @@ fn move_to(drive: &mut Drive, id: NodeId, target: i32) -> Result<(), Box<dyn Err
     node.nmt(NmtCommand::Start)?;
     let enabled = Controlword::new().with_command(Command::EnableOperation);
     let new_set_point = enabled.in_profile_position().with_new_set_point(true).controlword();
-    for cycle in 0..100 {
+    for cycle in 0..MOST_STEPS {
         let controlword = if cycle == 0 { new_set_point } else { enabled };
         let output = pdo::RxPdo2 { controlword, target_position: target };
         node.send_pdo(pdo::RxPdo2::COB_ID, &output.pack())?;
@@ -79,7 +83,7 @@ fn move_to(drive: &mut Drive, id: NodeId, target: i32) -> Result<(), Box<dyn Err
 /// A drive that follows its controlword, and goes a bit of its way with each of them.
 fn simulated_node(id: NodeId) -> Result<CanNode, Box<dyn Error>> {
     let mut device = Device::new(ENTRIES).with_node_id(id);
-    device.set(objects::STATUSWORD, Statusword::from_raw(0x40))?;
+    device.set_initial(objects::STATUSWORD, Statusword::from_raw(0x40))?;
     device.on_write(objects::CONTROLWORD, |device, controlword| {
         let state = device.get(objects::STATUSWORD)?.state().ok_or(AbortCode::INTERNAL_INCOMPATIBLE)?;
         let is = |command: Command| controlword.raw() & command.mask() == command.value();

@@ -63,7 +63,7 @@ fn status(state: State) -> Statusword {
 /// A drive whose statusword follows its controlword, and which is where it is told to be.
 fn moving_drive() -> Device {
     let mut device = demo();
-    device.set(objects::STATUSWORD, status(State::SwitchOnDisabled)).unwrap();
+    device.set_initial(objects::STATUSWORD, status(State::SwitchOnDisabled)).unwrap();
     device
         .on_write(objects::CONTROLWORD, |device, controlword| {
             let state = device.get(objects::STATUSWORD)?.state().ok_or(AbortCode::INTERNAL_INCOMPATIBLE)?;
@@ -367,6 +367,18 @@ fn parameters_are_stored() {
 }
 
 #[test]
+fn values_after_power_on() {
+    let mut device = demo();
+    device.set_initial(objects::STATUSWORD, status(State::SwitchedOn)).unwrap();
+    device.set_initial_bytes(objects::APPLICATION_NAME, b"left").unwrap();
+    device.set(objects::STATUSWORD, status(State::Fault)).unwrap();
+    device.set_bytes(objects::APPLICATION_NAME, b"right").unwrap();
+    device.power_cycle();
+    assert_eq!(device.get(objects::STATUSWORD), Ok(status(State::SwitchedOn)));
+    assert_eq!(device.bytes(objects::APPLICATION_NAME), Ok(b"left".as_slice()));
+}
+
+#[test]
 fn one_value_on_three_buses() {
     let mut device = vector();
     VectorStep::new(device.client::<Modbus>()).rpostarg().write(-100_000).unwrap();
@@ -542,15 +554,18 @@ fn without_blocking() {
 mod frames {
     use std::time::Duration;
 
-    use lexibus::clients::canopen::{CanFrame, CanPort, NmtState, Node};
+    use lexibus::clients::canopen::{CanFrame, NmtCommand, NmtState, Node};
     use lexibus::sim::CanNode;
+
+    use lexibus_drives::demo_drive::codes::DriveErrors;
 
     use super::*;
 
     const PATIENCE: Duration = Duration::from_millis(100);
 
-    fn send(node: &mut CanNode, id: u16, data: &[u8]) {
-        assert_eq!(node.send(&CanFrame::new(id, data).unwrap(), PATIENCE), Ok(true));
+    fn receive(node: &mut CanNode, id: u16) -> CanFrame {
+        let frame = lexibus::clients::canopen::CanPort::receive(node, PATIENCE, &mut |frame| frame.id() == id);
+        frame.unwrap().expect("a frame")
     }
 
     #[test]
@@ -564,16 +579,15 @@ mod frames {
         for write in pdo::RxPdo2::configuration(NODE).iter().chain(&pdo::TxPdo2::configuration(NODE)) {
             write.send(drive.client()).unwrap();
         }
-        let node = drive.client().port();
-        send(node, 0, &[1, 5]);
-        assert_eq!(node.state(), NmtState::Operational);
+        let node = drive.client();
+        node.nmt(NmtCommand::Start).unwrap();
         // TPDO 1 is event-driven, and sent when the node starts.
-        let first = node.receive(PATIENCE, &mut |frame| frame.id() == 0x185).unwrap().unwrap();
+        let first = receive(node.port(), 0x185);
         assert_eq!(pdo::TxPdo1::unpack(first.data()).unwrap().statusword.state(), Some(State::OperationEnabled));
         let frame = pdo::RxPdo2 { controlword: Controlword::from_raw(0x1F), target_position: -70_000 };
-        send(node, 0x305, &frame.pack());
-        send(node, 0x80, &[]);
-        let answer = node.receive(PATIENCE, &mut |frame| frame.id() == 0x285).unwrap().unwrap();
+        node.send(&CanFrame::new(0x305, &frame.pack()).unwrap()).unwrap();
+        node.sync().unwrap();
+        let answer = receive(node.port(), 0x285);
         assert_eq!(pdo::TxPdo2::unpack(answer.data()).unwrap().position_actual_value, -70_000);
         assert_eq!(drive.target_position().read(), Ok(-70_000));
     }
@@ -601,6 +615,26 @@ mod frames {
         for (result, code) in codes {
             assert_eq!(result, Err(Error::Abort(code)));
         }
+    }
+
+    #[test]
+    fn alarms_and_heartbeats() {
+        let mut drive = DemoDrive::new(Node::new(CanNode::new(demo()), NODE));
+        drive.client().wait_for(NmtState::BootUp, PATIENCE).unwrap();
+        drive.producer_heartbeat_time().write(50).unwrap();
+        drive.client().nmt(NmtCommand::Start).unwrap();
+        drive.client().wait_for(NmtState::Operational, PATIENCE).unwrap();
+        drive.client().port().device().emit_emergency(0x8611, 0x21, [0; 5]);
+        let emergency = drive.client().emergency(PATIENCE).unwrap().unwrap();
+        assert_eq!(emergency.alarm::<DriveErrors>(), DriveErrors::FollowingError);
+        assert_eq!(drive.error_register().read().map(|own| own.raw()), Ok(0x21));
+        // Silence takes no time but that of the node's clock.
+        drive.client().port().set_connected(false);
+        assert_eq!(drive.client().heartbeat(Duration::from_secs(3600)), Ok(None));
+        assert_eq!(drive.statusword().read().map(|_| ()), Err(Error::Timeout));
+        assert_eq!(now(drive.statusword().read_async()).map(|_| ()), Err(Error::Timeout));
+        drive.client().port().set_connected(true);
+        assert_eq!(now(drive.profile_velocity().read_async()), Ok(1000));
     }
 
     #[test]

@@ -17,8 +17,8 @@ type Address = (RegisterTable, u16);
 #[derive(Clone, Debug, Default)]
 struct Cell {
     word: u16,
-    /// The items that lie in it, by their positions: one, or several of which each is some of its bits, or the same bits
-    /// under different names.
+    /// The items that lie in it, by their positions: one, or several of which each is some of its bits, or the same
+    /// bits under different names.
     items: Vec<usize>,
 }
 
@@ -88,7 +88,7 @@ impl Cells {
         self.0.clear();
         let (unknown, known): (Vec<usize>, Vec<usize>) = (0..slots.len()).partition(|at| {
             let slot = slots.get(*at);
-            slot.stored.is_none() && slot.entry.initial == RawInitial::Unknown
+            slot.stored.is_none() && slot.initial.is_none() && slot.entry.initial == RawInitial::Unknown
         });
         for at in unknown.iter().chain(&known) {
             let Some(register) = slots.get(*at).entry.register else { continue };

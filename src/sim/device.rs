@@ -168,6 +168,40 @@ impl Device {
         Ok(())
     }
 
+    /// Gives an item a value, as [`set`](Self::set) does, which it has after each power-on, too. Few descriptions tell
+    /// the statusword then, for instance.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`set`](Self::set).
+    pub fn set_initial<V: Fixed, A, L: Place>(
+        &mut self,
+        item: Item<V, A, L>,
+        value: V::Native,
+    ) -> Result<(), AbortCode> {
+        let at = self.slot(&item, 1)?;
+        self.set_value::<V>(at, value)?;
+        self.keep(at);
+        Ok(())
+    }
+
+    /// Gives an item these bytes, as [`set_bytes`](Self::set_bytes) does, which it has after each power-on, too.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`set_bytes`](Self::set_bytes).
+    pub fn set_initial_bytes(&mut self, place: impl Place, bytes: &[u8]) -> Result<(), AbortCode> {
+        let at = self.slot(&place, 1)?;
+        self.set_bytes(place, bytes)?;
+        self.keep(at);
+        Ok(())
+    }
+
+    fn keep(&mut self, at: usize) {
+        let slot = self.slots.get_mut(at);
+        slot.initial = Some(slot.value.clone());
+    }
+
     /// Axis `number` of the device, from 1: the same items at the places of that axis.
     pub fn axis(&mut self, number: u8) -> DeviceAxis<'_> {
         DeviceAxis { device: self, number }

@@ -32,7 +32,8 @@
 //! # Ok::<(), AbortCode>(())
 //! ```
 //!
-//! - Values: [`Device::get`] and [`Device::set`] of numbers, [`Device::bytes`] and [`Device::set_bytes`] of everything.
+//! - Values: [`Device::get`] and [`Device::set`] of numbers, [`Device::bytes`] and [`Device::set_bytes`] of everything;
+//!   [`Device::set_initial`] for what is there after power-on.
 //! - Behaviour: [`Device::on_write`], which also refuses what the table can't know, such as a value that an enumeration
 //!   doesn't have; [`Device::fail_next`] for faults.
 //! - Process data: [`Device::receive_pdo`] and [`Device::transmit_pdo`] by the present mapping, which a master changes as

@@ -18,6 +18,8 @@ pub(super) struct Slot {
     pub entry: Entry,
     /// The least significant byte first.
     pub value: Vec<u8>,
+    /// What the test gives it after power-on, in place of what the description says.
+    pub initial: Option<Vec<u8>>,
     /// What was stored, which is there again after power-on.
     pub stored: Option<Vec<u8>>,
 }
@@ -45,7 +47,7 @@ impl Slots {
         if let Some(register) = entry.register {
             self.registers.entry(register).or_insert(at);
         }
-        self.list.push(Slot { entry, value: Vec::new(), stored: None });
+        self.list.push(Slot { entry, value: Vec::new(), initial: None, stored: None });
     }
 
     /// Adds the objects of further axes: those of the first at other places. They are no registers.
@@ -61,26 +63,25 @@ impl Slots {
         }
     }
 
-    /// Gives the items that `which` names the values of power-on: those that were stored, or those of the description.
+    /// Gives the items that `which` names the values of power-on: those that were stored, or those of the test, or
+    /// those of the description.
     pub fn power_on(&mut self, node: NodeId, which: impl Fn(&Entry) -> bool) {
         for at in 0..self.list.len() {
-            let Slot { entry, stored, .. } = &self.list[at];
+            let Slot { entry, initial, stored, .. } = &self.list[at];
             if !which(entry) {
                 continue;
             }
-            let value = match (stored, entry.initial) {
-                (Some(stored), _) => stored.clone(),
-                (None, RawInitial::Unknown) => self.count(entry).unwrap_or_else(|| values::initial(entry, node)),
-                _ => values::initial(entry, node),
-            };
+            let known = stored.as_ref().or(initial.as_ref()).cloned();
+            let value = known.or_else(|| self.count(entry)).unwrap_or_else(|| values::initial(entry, node));
             self.list[at].value = value;
         }
     }
 
-    /// What sub-index 0 holds of an object with further ones whose description doesn't give it: how many of a mapping are
-    /// given by the description, no error of 0x1003, and else the highest sub-index.
+    /// What sub-index 0 holds of an object with further ones whose description doesn't give it: how many of a mapping
+    /// are given by the description, no error of 0x1003, and else the highest sub-index.
     fn count(&self, entry: &Entry) -> Option<Vec<u8>> {
-        let object = entry.object.filter(|object| object.sub_index == 0 && entry.data_type == DataType::Unsigned8)?;
+        let is_unknown = entry.initial == RawInitial::Unknown && entry.data_type == DataType::Unsigned8;
+        let object = entry.object.filter(|object| is_unknown && object.sub_index == 0)?;
         let subs = self.objects.range(Object::new(object.index, 1)..=Object::new(object.index, u8::MAX));
         let is_mapping = matches!(object.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C12..=0x1C2F);
         let is_given = |at: usize| matches!(self.list[at].entry.initial, RawInitial::Bytes(bytes) if bytes != [0; 4]);

@@ -12,7 +12,7 @@ use self::pdo::Pdos;
 use self::sdo::Channel;
 use super::device::Device;
 use crate::abort::AbortCode;
-use crate::clients::canopen::{CanFrame, CanPort, NmtCommand, NmtState};
+use crate::clients::canopen::{AsyncCanPort, CanFrame, CanPort, NmtCommand, NmtState};
 use crate::node_id::NodeId;
 
 /// The commands of network management (CiA 301 7.2.8.3.1), on this identifier.
@@ -165,19 +165,19 @@ impl CanNode {
     fn settle(&mut self) {
         self.beat();
         if let Some(frame) = self.channel.timed_out(self.now) {
-            self.send(frame);
+            self.emit(frame);
         }
         if self.state != NmtState::Stopped {
             self.tell();
         }
         if self.state == NmtState::Operational {
             for frame in self.pdos.changed(&self.device, self.now) {
-                self.send(frame);
+                self.emit(frame);
             }
         }
     }
 
-    fn send(&mut self, frame: CanFrame) {
+    fn emit(&mut self, frame: CanFrame) {
         if self.is_connected {
             if self.outgoing.len() >= MOST_FRAMES {
                 self.outgoing.pop_front();
@@ -196,7 +196,7 @@ impl CanNode {
         let heartbeat = self.heartbeat.filter(|own| own.period == period);
         let mut heartbeat = heartbeat.unwrap_or(Heartbeat { period, due: self.now + period });
         while heartbeat.due <= self.now {
-            self.send(self.state.heartbeat(self.device.node_id()));
+            self.emit(self.state.heartbeat(self.device.node_id()));
             heartbeat.due += period;
         }
         self.heartbeat = Some(heartbeat);
@@ -210,7 +210,7 @@ impl CanNode {
         let emergencies: Vec<_> = self.device.take_emergencies().collect();
         for emergency in emergencies.iter().filter(|_| cob_id & UNUSED == 0) {
             if let Some(frame) = CanFrame::new(cob_id as u16 & 0x7FF, &emergency.to_bytes()) {
-                self.send(frame);
+                self.emit(frame);
             }
         }
     }
@@ -220,7 +220,7 @@ impl CanNode {
         self.heartbeat = None;
         self.channel = Channel::new(self.device.node_id());
         self.enter(NmtState::PreOperational);
-        self.send(NmtState::BootUp.heartbeat(self.device.node_id()));
+        self.emit(NmtState::BootUp.heartbeat(self.device.node_id()));
         self.settle();
     }
 
@@ -259,7 +259,7 @@ impl CanNode {
             return;
         }
         if let Some(answer) = self.channel.handle(&mut self.device, frame, self.now) {
-            self.send(answer);
+            self.emit(answer);
         }
     }
 
@@ -269,7 +269,7 @@ impl CanNode {
         if id == sync {
             self.refused.extend(self.pdos.actuate(&mut self.device));
             for frame in self.pdos.sampled(&self.device, self.now) {
-                self.send(frame);
+                self.emit(frame);
             }
         } else {
             self.refused.extend(self.pdos.receive(&mut self.device, id, data));
@@ -306,6 +306,23 @@ impl CanPort for CanNode {
                 }
             }
         }
+    }
+}
+
+/// The same; its futures are ready at once.
+impl AsyncCanPort for CanNode {
+    type Error = Infallible;
+
+    async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, Infallible> {
+        CanPort::send(self, frame, patience)
+    }
+
+    async fn receive(
+        &mut self,
+        patience: Duration,
+        wanted: &mut dyn FnMut(&CanFrame) -> bool,
+    ) -> Result<Option<CanFrame>, Infallible> {
+        CanPort::receive(self, patience, wanted)
     }
 }
 

@@ -62,6 +62,10 @@ fn send(node: &mut CanNode, id: u16, data: &[u8]) {
     node.handle(&CanFrame::new(id, data).unwrap());
 }
 
+fn receive(node: &mut CanNode, id: u16, patience: Duration) -> Option<CanFrame> {
+    CanPort::receive(node, patience, &mut |frame| frame.id() == id).unwrap()
+}
+
 /// All frames that the node has sent.
 fn frames(node: &mut CanNode) -> Vec<(u16, Vec<u8>)> {
     core::iter::from_fn(|| node.next_frame()).map(|frame| (frame.id(), frame.data().to_vec())).collect()
@@ -107,9 +111,9 @@ fn heartbeat() {
     node.advance(Duration::from_millis(250));
     assert_eq!(frames(&mut node), [(0x705, [5].to_vec()), (0x705, [5].to_vec())]);
     send(&mut node, 0, &[2, 5]);
-    let next = node.receive(Duration::from_millis(60), &mut |frame| frame.id() == 0x705).unwrap();
+    let next = receive(&mut node, 0x705, Duration::from_millis(60));
     assert_eq!((next.map(|frame| frame.data()[0]), node.now()), (Some(4), Duration::from_millis(300)));
-    assert_eq!(node.receive(Duration::from_millis(60), &mut |frame| frame.id() == 0x705), Ok(None));
+    assert_eq!(receive(&mut node, 0x705, Duration::from_millis(60)), None);
     assert_eq!(node.now(), Duration::from_millis(360));
     set(&mut node, 0x1017, 0, &[0, 0]);
     node.advance(Duration::from_secs(9));
@@ -130,7 +134,7 @@ fn pdos_on_change_and_by_timer() {
     set(&mut node, 0x1800, 5, &[50, 0]);
     set(&mut node, 0x2000, 0, &[4, 0]);
     assert_eq!(frames(&mut node), []);
-    let sent = node.receive(Duration::from_secs(1), &mut |frame| frame.id() == 0x185).unwrap();
+    let sent = receive(&mut node, 0x185, Duration::from_secs(1));
     assert_eq!((sent.map(|frame| frame.data()[0]), node.now()), (Some(4), Duration::from_millis(10)));
     node.advance(Duration::from_millis(120));
     assert_eq!(frames(&mut node).len(), 2);
