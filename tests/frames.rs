@@ -7,20 +7,21 @@ use std::future::Future;
 use std::pin::Pin;
 use std::time::Duration;
 
-use lexibus::clients::canopen::{CanFrame, CanPort, Node};
+use lexibus::clients::canopen::{CanFrame, CanPort, NmtState, Node};
 use lexibus::clients::modbus::tokio_modbus::client::{rtu, Context};
-use lexibus::clients::modbus::tokio_modbus::Slave;
-use lexibus::clients::modbus::ModbusClient;
+use lexibus::clients::modbus::tokio_modbus::{ExceptionCode, Slave};
+use lexibus::clients::modbus::{ModbusClient, ModbusError};
+use lexibus::modbus::AsyncRegisterClient;
 use lexibus::{
-    AsyncClient, Error, Flags, Initial, Item, NodeId, OnCanOpen, OnModbus, Range, Register, Ro, Rw, VisibleString,
+    AsyncClient, CobId, Error, Flags, Initial, Item, MappedEntry, NodeId, OnCanOpen, OnModbus, Range, Register, Ro, Rw,
+    Step, VisibleString,
 };
+use lexibus_drives::demo_drive::types::{Command, Controlword, State, StoreParameters};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 
 type Here<V> = Item<V, Rw, OnModbus>;
 type Device = ModbusClient<Context>;
 
-const CONTROL_WORD: Here<u32> = Here::register(Register::high_first(0x8000, 2), "control word", Flags::NONE);
-const MODES_OF_OPERATION: Here<i32> = Here::register(Register::high_first(0x8001, 2), "mode", Flags::NONE);
 const TARGET_POSITION: Here<i32> = Here::register(Register::high_first(0x8009, 2), "target position", Flags::NONE);
 const D3: Here<u16> = Here::register(Register::holding(3), "d3", Flags::NONE);
 const SAVE: Here<u16> = Here::register(Register::holding(0x3802), "save", Flags::NONE);
@@ -45,30 +46,101 @@ fn exchanged<T>(
     })
 }
 
-/// Writes 32 bits to node 1: function 16 is answered by the first six bytes of the request and their check.
-macro_rules! written {
-    ($item:ident = $value:expr, $request:expr, $reply:expr) => {
-        exchanged((1, &$request, &$reply), |device| {
-            Box::pin(async move { $item.at(device).write_async($value).await.expect("written") })
-        });
-    };
+/// The check of a frame (CRC-16 of Modbus, 6.2.2 of the guide to its serial line), the lower byte first.
+fn check(frame: &[u8]) -> [u8; 2] {
+    let shift = |crc: u16| if crc & 1 == 1 { crc >> 1 ^ 0xA001 } else { crc >> 1 };
+    let crc = frame.iter().fold(0xFFFF, |crc, byte| (0..8).fold(crc ^ u16::from(*byte), |crc, _| shift(crc)));
+    crc.to_le_bytes()
 }
+
+/// Lines of the manual with function 16 to node 1: the address, the 32 bits, and the check that belongs behind them.
+const WRITES: [(u32, u16, i32, [u8; 2]); 20] = [
+    (1407, 0x8002, 60, [0x13, 0xA1]),
+    (1410, 0x800A, 100, [0x13, 0xFD]),
+    (1413, 0x800B, 100, [0xD2, 0x31]),
+    (1416, 0x800C, 1000, [0x92, 0x82]),
+    (1419, 0x801B, 0, [0xD2, 0xD6]),
+    (1422, 0x8012, 33, [0xD2, 0xA4]),
+    (1425, 0x8013, 0, [0xD3, 0x70]),
+    (1428, 0x8015, 10, [0xD3, 0x5D]),
+    (1431, 0x8016, 100, [0x12, 0xA4]),
+    (1443, 0x8000, 0x08, [0x93, 0xAF]),
+    (1447, 0x8001, 6, [0xD3, 0xA7]),
+    (1451, 0x8000, 0x03, [0xD2, 0x68]),
+    (1455, 0x8000, 0x43, [0xD3, 0x98]),
+    (1457, 0x8000, 0, [0x92, 0x69]),
+    (1461, 0x8001, 1, [0x92, 0x65]),
+    (1464, 0x8009, 6000, [0x5C, 0x17]),
+    (1466, 0x8000, 0x03, [0xD2, 0x68]),
+    (1471, 0x8000, 0x23, [0xD3, 0xB0]),
+    // The sign goes through both registers.
+    (1492, 0x8001, -50, [0x93, 0xE5]),
+    (1495, 0x8000, 0x20, [0x93, 0xB1]),
+];
 
 #[test]
 fn modbus_writes_of_two_registers() {
-    // L1443 to L1495: the same two registers are answered alike, whatever is written.
-    const CONTROL: [u8; 8] = [0x01, 0x10, 0x80, 0x00, 0x00, 0x02, 0x68, 0x08];
-    const MODE: [u8; 8] = [0x01, 0x10, 0x80, 0x01, 0x00, 0x02, 0x39, 0xC8];
-    written!(CONTROL_WORD = 8, [1, 0x10, 0x80, 0, 0, 2, 4, 0, 0, 0, 0x08, 0x93, 0xAF], CONTROL);
-    written!(CONTROL_WORD = 3, [1, 0x10, 0x80, 0, 0, 2, 4, 0, 0, 0, 0x03, 0xD2, 0x68], CONTROL);
-    written!(CONTROL_WORD = 0x43, [1, 0x10, 0x80, 0, 0, 2, 4, 0, 0, 0, 0x43, 0xD3, 0x98], CONTROL);
-    written!(CONTROL_WORD = 0, [1, 0x10, 0x80, 0, 0, 2, 4, 0, 0, 0, 0, 0x92, 0x69], CONTROL);
-    written!(CONTROL_WORD = 0x23, [1, 0x10, 0x80, 0, 0, 2, 4, 0, 0, 0, 0x23, 0xD3, 0xB0], CONTROL);
-    written!(CONTROL_WORD = 0x20, [1, 0x10, 0x80, 0, 0, 2, 4, 0, 0, 0, 0x20, 0x93, 0xB1], CONTROL);
-    written!(MODES_OF_OPERATION = 6, [1, 0x10, 0x80, 1, 0, 2, 4, 0, 0, 0, 0x06, 0xD3, 0xA7], MODE);
-    written!(MODES_OF_OPERATION = 1, [1, 0x10, 0x80, 1, 0, 2, 4, 0, 0, 0, 0x01, 0x92, 0x65], MODE);
-    // L1492: the sign goes through both registers.
-    written!(MODES_OF_OPERATION = -50, [1, 0x10, 0x80, 1, 0, 2, 4, 0xFF, 0xFF, 0xFF, 0xCE, 0x93, 0xE5], MODE);
+    for (line, address, value, crc) in WRITES {
+        let item = Here::<i32>::register(Register::high_first(address, 2), "register", Flags::NONE);
+        let head = [[1, 0x10].as_slice(), &address.to_be_bytes(), &[0, 2]].concat();
+        let request = [head.as_slice(), &[4], &value.to_be_bytes(), &crc].concat();
+        assert_eq!(check(&request[..11]), crc, "L{line}");
+        let reply = [head.as_slice(), &check(&head)].concat();
+        exchanged((1, &request, &reply), |device| {
+            Box::pin(async move { item.at(device).write_async(value).await.expect("written") })
+        });
+    }
+}
+
+#[test]
+fn modbus_of_registers_with_an_address_each() {
+    // L1210 and L1243 contradict their own tables; these are the bytes of the tables. Each address has 32 bits.
+    fn item(address: u16) -> Here<u32> {
+        Here::register(Register::high_first(address, 2).words_per_address(2), "register", Flags::NONE)
+    }
+    let request = [0x05, 0x03, 0x80, 0x00, 0x00, 0x04, 0x6C, 0x4D];
+    let reply = [[5, 3, 8].as_slice(), &[0x11, 0x22, 0x33, 0x44, 0, 0, 0, 6]].concat();
+    let reply = [reply.as_slice(), &check(&reply)].concat();
+    let values = exchanged((5, &request, &reply), |device| {
+        Box::pin(async move { device.read_block_async((item(0x8000), item(0x8001))).await.expect("read") })
+    });
+    assert_eq!(values, (0x1122_3344, 6));
+    let request =
+        [[0x05, 0x03, 0x80, 0x00, 0x00, 0x02].as_slice(), &check(&[0x05, 0x03, 0x80, 0x00, 0x00, 0x02])].concat();
+    let reply = [0x05, 0x03, 0x04, 0x11, 0x22, 0x33, 0x44, 0x0E, 0x06];
+    let value = exchanged((5, &request, &reply), |device| {
+        Box::pin(async move { item(0x8000).at(device).read_async().await.expect("read") })
+    });
+    assert_eq!(value, 0x1122_3344);
+}
+
+#[test]
+fn modbus_of_the_second_map() {
+    // L1630 to L1675: the fields of requests that are printed without their bytes.
+    let write = [0x05, 0x06, 0x9C, 0x44, 0x00, 0x0A];
+    let write = [write.as_slice(), &check(&write)].concat();
+    exchanged((5, &write, &write), |device| {
+        let item = Here::<u16>::register(Register::holding(40_004), "d3", Flags::NONE);
+        Box::pin(async move { item.at(device).write_async(10).await.expect("written") })
+    });
+    let head = [0x05, 0x10, 0xAC, 0x4A, 0x00, 0x02];
+    let write = [head.as_slice(), &[4, 0, 0, 0x03, 0xE8]].concat();
+    let write = [write.as_slice(), &check(&write)].concat();
+    exchanged((5, &write, &[head.as_slice(), &check(&head)].concat()), |device| {
+        let item = Here::<i32>::register(Register::high_first(44_106, 2), "target position", Flags::NONE);
+        Box::pin(async move { item.at(device).write_async(1000).await.expect("written") })
+    });
+}
+
+#[test]
+fn modbus_exceptions() {
+    // L942, L1085: the function with bit 7 set, and the only code that there is, 02.
+    let reply = [[0x05, 0x86, 0x02].as_slice(), &check(&[0x05, 0x86, 0x02])].concat();
+    let request = [0x05, 0x06, 0x00, 0x03, 0x00, 0x0A, 0xF8, 0x49];
+    let refused =
+        exchanged((5, &request, &reply), |device| Box::pin(async move { D3.at(device).write_async(10).await }));
+    let Err(Error::Client(ModbusError::Exception(code))) = refused else { panic!("{refused:?}") };
+    assert_eq!(code, ExceptionCode::IllegalDataAddress);
 }
 
 #[test]
@@ -162,4 +234,52 @@ fn sdo_segmented() -> Result<(), Error<Infallible>> {
     let mut buffer = [0; 32];
     assert_eq!(NAME.at(&mut own).read_into(&mut buffer)?, "Tiny Node - Mega Domains !");
     Ok(())
+}
+
+#[test]
+fn numbers_of_canopen() {
+    let node = NodeId::new(1).expect("a node-ID");
+    // L2738, L4432: identifiers of an invalid TPDO of node 25, and of an RPDO of node 1.
+    assert_eq!(CobId::from_node(0x8000_0180).resolve(NodeId::new(25).expect("a node-ID")), 0x8000_0199);
+    assert_eq!(CobId::from_node(0x200).resolve(node), 513);
+    // L3086 to L3123: error control.
+    let states =
+        [(NmtState::BootUp, 0), (NmtState::Stopped, 4), (NmtState::Operational, 5), (NmtState::PreOperational, 0x7F)];
+    for (state, number) in states {
+        let frame = state.heartbeat(node);
+        assert_eq!((frame.id(), frame.data()), (1792 + 1, [number].as_slice()));
+    }
+    // L4425 to L4534: mapping entries.
+    for (index, sub_index, bits, word) in [
+        (0x60C1, 1, 32, 0x60C1_0120),
+        (0x6040, 0, 16, 0x6040_0010),
+        (0x6064, 0, 32, 0x6064_0020),
+        (0x6041, 0, 16, 0x6041_0010),
+    ] {
+        assert_eq!(MappedEntry::new(index, sub_index, bits).word(), word);
+    }
+    // L4466: SYNC.
+    assert_eq!(lexibus::clients::canopen::sync().id(), 0x80);
+    // L3351: the key that stores parameters.
+    assert_eq!(StoreParameters::Save.raw().to_le_bytes(), *b"save");
+}
+
+#[test]
+fn control_words_of_cia_402() {
+    // L4284 to L4289, from a fault to operation.
+    let mut sent = vec![Controlword::from_raw(0).with_command(Command::FaultReset).raw(), 0];
+    for state in [State::SwitchOnDisabled, State::ReadyToSwitchOn, State::SwitchedOn] {
+        let Step::Command(command) = state.toward(State::OperationEnabled) else { panic!("{state:?}") };
+        sent.push(Controlword::from_raw(0).with_command(command).raw());
+    }
+    assert_eq!(sent, [0x0080, 0x0000, 0x0006, 0x0007, 0x000F]);
+}
+
+#[test]
+fn profinet_is_big_endian() {
+    // L6175: the status word 0x8640.
+    let mut image = [0; 2];
+    lexibus::profinet::be::put_number(&mut image, 0, 0, 16, 0x8640);
+    assert_eq!(image, [0x86, 0x40]);
+    assert_eq!(lexibus::profinet::be::number(&image, 0, 0, 16), 0x8640);
 }
