@@ -2,6 +2,8 @@
 //!
 //! The drive is simulated: a server of `tokio-modbus` in the same process, with the registers of `examples/inverter.toml`.
 
+use std::time::Duration;
+
 use lexibus::clients::modbus::{sync, ModbusClient};
 use lexibus::modbus::{Plan, RegisterClient};
 use lexibus::RegisterTable::{Coil, DiscreteInput, Holding, Input};
@@ -35,7 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let server = Server::start(&device, Framing::Tcp)?;
 
     // From here on, what a program for a real drive does. The client keeps to what the drive takes: `MODBUS`.
-    let context = sync::tcp::connect(server.address())?;
+    let context = sync::tcp::connect_with_timeout(server.address(), Some(Duration::from_secs(5)))?;
     let client = ModbusClient::new(context).with_limits(inverter::MODBUS);
     let mut drive = Inverter::new(client);
 

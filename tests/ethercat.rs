@@ -2,6 +2,8 @@
 //! of `data/gateway.esi.xml`, which has groups of slots, with process images and start-up lists that were worked out by
 //! hand.
 
+#![cfg(feature = "macros")]
+
 use lexibus::ethercat::{Assignment, AssignmentError, PlanError, SlotPlan, Transition};
 use lexibus::{Client, CoE, Object, Pdo, SdoWrite};
 

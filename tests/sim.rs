@@ -421,6 +421,36 @@ fn blocks_of_registers() {
 }
 
 #[test]
+fn an_axis_is_enabled_step_by_step() {
+    use vector_step::objects::{CONTROLWORD, STATUSWORD};
+    use vector_step::types::{Controlword, State, Statusword};
+    let mut device = vector().with_axes(&vector_step::AXES);
+    device.axis(2).set(STATUSWORD, Statusword::from_raw(0x40)).unwrap();
+    let follows = |device: &mut Device, controlword: Controlword| {
+        let status = match controlword.raw() & 0x0F {
+            0x06 => 0x21,
+            0x07 => 0x23,
+            0x0F => 0x27,
+            _ => 0x40,
+        };
+        device.axis(2).set(STATUSWORD, Statusword::from_raw(status))
+    };
+    device.axis(2).on_write(CONTROLWORD, follows).unwrap();
+    let mut drive = VectorStep::new(device.into_client::<CanOpen>());
+    let mut axis = drive.axis(2);
+    let mut steps = 0;
+    while let Step::Command(command) =
+        axis.statusword().read().unwrap().state().unwrap().toward(State::OperationEnabled)
+    {
+        axis.controlword().write(Controlword::new().with_command(command)).unwrap();
+        steps += 1;
+    }
+    assert_eq!((steps, axis.statusword().read().unwrap().state()), (3, Some(State::OperationEnabled)));
+    // The first axis stands where it stood.
+    assert_ne!(drive.statusword().read().unwrap().raw(), 0x27);
+}
+
+#[test]
 fn each_axis_has_its_objects() {
     let mut drive = VectorStep::new(vector().with_axes(&vector_step::AXES).into_client::<CanOpen>());
     drive.axis(2).target_position().write(200).unwrap();

@@ -1,5 +1,7 @@
 //! Register tables from description to device: the bindings of `data/press.toml`, with a client of each bus.
 
+#![cfg(feature = "macros")]
+
 use std::collections::HashMap;
 use std::convert::Infallible;
 

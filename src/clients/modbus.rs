@@ -1,17 +1,30 @@
 //! Modbus RTU and TCP, with `tokio-modbus`.
 //!
 //! ```no_run
+//! use std::time::Duration;
+//!
+//! use lexibus::clients::modbus::tokio_modbus::Slave;
 //! use lexibus::clients::modbus::{sync, ModbusClient};
 //! use lexibus::{Item, OnModbus, Register, Rw};
 //!
 //! type Speed = Item<u32, Rw, OnModbus>;
 //! const SPEED: Speed = Speed::register(Register::high_first(10, 2), "Speed", lexibus::Flags::NONE);
 //!
-//! let context = sync::tcp::connect("127.0.0.1:502".parse()?)?;
+//! // Without a time limit, a device that is silent is waited for without end.
+//! let patience = Some(Duration::from_secs(1));
+//! let context = sync::tcp::connect_with_timeout("127.0.0.1:502".parse()?, patience)?;
+//! let mut device = ModbusClient::new(context);
+//! SPEED.at(&mut device).write(1500)?;
+//!
+//! // RTU: a serial line of the crate `tokio-serial`, and the number of the device.
+//! let line = tokio_serial::new("/dev/ttyUSB0", 19_200);
+//! let context = sync::rtu::connect_slave_with_timeout(&line, Slave(5), patience)?;
 //! let mut device = ModbusClient::new(context);
 //! SPEED.at(&mut device).write(1500)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! Contexts that don't block have no time limit of their own: `tokio::time::timeout` gives a call one.
 //!
 //! A [`ModbusClient`] of a context of [`sync`] is a [`Client`] and a [`RegisterClient`]; one of a context of [`tcp`] or
 //! [`rtu`] is an [`AsyncClient`] and an [`AsyncRegisterClient`].

@@ -5,7 +5,7 @@ use lexibus::profinet::parameter_access::{
     ParameterError, ParameterValue, Refusal, API, GLOBAL,
 };
 use lexibus::profinet::{PnioStatus, RecordAddress, RecordClient, SubmoduleAddress};
-use lexibus::{AbortCode, Error, LengthError};
+use lexibus::{Error, LengthError};
 
 use super::device::{now, Async, Device, STATE_CONFLICT};
 
@@ -123,7 +123,7 @@ fn responses_that_take_their_time() {
         assert_eq!(parameters.read::<u8>(1, 7, 0), Ok(9));
         assert_eq!(parameters.client().pauses, 3);
         parameters.client().drive.delay = 4;
-        let late = if is_empty { Error::Abort(AbortCode::TIMEOUT) } else { Error::Client(STATE_CONFLICT) };
+        let late = if is_empty { Error::Timeout } else { Error::Client(STATE_CONFLICT) };
         assert_eq!(parameters.read::<u8>(1, 7, 0), Err(late));
         assert_eq!(parameters.client().pauses, 6, "no pause behind the last attempt");
 

@@ -55,9 +55,9 @@ pub const IDENTITY: rt::Identity = rt::Identity {
 pub mod modules {
     /// Axis: module 0x00000030.
     ///
-    /// - [`module_access_point`](super::super::submodules::module_access_point), built in
-    /// - [`standard_telegram_3`](super::super::submodules::standard_telegram_3), can be plugged in
-    /// - [`standard_telegram_1`](super::super::submodules::standard_telegram_1), can be plugged in
+    /// - [`module_access_point`](super::submodules::module_access_point), built in
+    /// - [`standard_telegram_3`](super::submodules::standard_telegram_3), can be plugged in
+    /// - [`standard_telegram_1`](super::submodules::standard_telegram_1), can be plugged in
     pub mod axis {
         use ::lexibus as rt;
         /// The module, as a plan names it.

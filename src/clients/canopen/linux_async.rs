@@ -5,9 +5,10 @@ use std::time::Duration;
 
 use socketcan::tokio::CanSocket;
 use socketcan::CanFrame as SocketFrame;
-use tokio::time::{timeout, timeout_at, Instant};
+use tokio::time::{sleep, timeout, Instant};
 
 use super::frame::CanFrame;
+use super::linux::{is_full, PAUSE};
 use super::port::{AsyncCanPort, BACKLOG};
 
 impl AsyncCanPort for CanSocket {
@@ -15,7 +16,15 @@ impl AsyncCanPort for CanSocket {
 
     async fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, io::Error> {
         let Some(frame) = frame.to_frame::<SocketFrame>() else { return Ok(false) };
-        match timeout(patience, self.write_frame(frame)).await {
+        let sent = async {
+            loop {
+                match self.write_frame(frame).await {
+                    Err(error) if is_full(&error) => sleep(PAUSE).await,
+                    other => break other,
+                }
+            }
+        };
+        match timeout(patience, sent).await {
             Ok(sent) => sent.map(|()| true),
             Err(_) => Ok(false),
         }
@@ -26,16 +35,16 @@ impl AsyncCanPort for CanSocket {
         patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, io::Error> {
-        let end = Instant::now() + patience;
+        let end = Instant::now().checked_add(patience);
         let mut waiting = BACKLOG;
         while waiting > 0 {
-            let is_late = Instant::now() >= end;
-            match timeout_at(end, self.read_frame()).await {
+            let left = end.map_or(patience, |end| end.saturating_duration_since(Instant::now()));
+            match timeout(left, self.read_frame()).await {
                 Ok(frame) => {
                     if let Some(own) = CanFrame::from_frame(&frame?).filter(|own| wanted(own)) {
                         return Ok(Some(own));
                     }
-                    waiting -= usize::from(is_late);
+                    waiting -= usize::from(left.is_zero());
                 }
                 Err(_) => return Ok(None),
             }

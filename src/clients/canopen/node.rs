@@ -22,12 +22,14 @@ pub struct Node<P> {
     port: P,
     id: NodeId,
     timeout: Duration,
+    /// Whether the last SDO transfer was given up, so that its answer may come yet.
+    pub(super) is_unfinished: bool,
 }
 
 impl<P> Node<P> {
     /// The node `id` behind `port`. An answer may take [`TIMEOUT`].
     pub const fn new(port: P, id: NodeId) -> Self {
-        Self { port, id, timeout: TIMEOUT }
+        Self { port, id, timeout: TIMEOUT, is_unfinished: false }
     }
 
     /// The same with another time for each answer, and for the bus to become free.
@@ -70,11 +72,11 @@ fn state_of(frame: &CanFrame, id: NodeId) -> Option<NmtState> {
     NmtState::of(frame).filter(|(node, _)| *node == id).map(|(_, state)| state)
 }
 
-/// The identifier of a PDO of `node`: one of 11 bits, of a PDO that is used.
+/// The identifier of a PDO of `node`, of 11 bits.
 fn identifier<E>(cob_id: CobId, node: NodeId) -> Result<u16, Error<E>> {
     const BITS: u32 = 0x7FF;
-    // Bit 30 of a TPDO says only that no remote request is answered.
-    let id = cob_id.resolve(node) & !(1 << 30);
+    // Bit 31 says that the PDO is off by default, which its configuration changes; bit 30 that no remote request is answered.
+    let id = cob_id.resolve(node) & 0x3FFF_FFFF;
     u16::try_from(id).ok().filter(|_| id <= BITS).ok_or(Error::OutOfRange(OutOfRange))
 }
 
@@ -111,7 +113,8 @@ impl<P: CanPort> Node<P> {
         self.send(&nmt::sync())
     }
 
-    /// The state that the node's next heartbeat tells; `None` where none comes within `patience`.
+    /// The state that the node's next heartbeat tells; `None` where none comes within `patience`. Of heartbeats that a
+    /// [`Buffered`](super::Buffered) interface has kept, it is the oldest: [`clear`](super::Buffered::clear) forgets them.
     ///
     /// # Errors
     ///
@@ -134,7 +137,8 @@ impl<P: CanPort> Node<P> {
         sent(frame.map_err(Error::Client)?.is_some())
     }
 
-    /// The node's next emergency message; `None` where none comes within `patience`.
+    /// The node's next emergency message, the oldest that a [`Buffered`](super::Buffered) interface has kept; `None` where
+    /// none comes within `patience`.
     ///
     /// # Errors
     ///
@@ -149,14 +153,16 @@ impl<P: CanPort> Node<P> {
     ///
     /// # Errors
     ///
-    /// Those of [`send`](Self::send); [`Error::OutOfRange`] where `cob_id` has more than 11 bits or says that the PDO isn't
-    /// used, [`Error::Length`] where there are more than 8 bytes.
+    /// Those of [`send`](Self::send); [`Error::OutOfRange`] where `cob_id` has more than 11 bits, [`Error::Length`] where
+    /// there are more than 8 bytes.
     pub fn send_pdo(&mut self, cob_id: CobId, data: &[u8]) -> Result<(), Error<P::Error>> {
         let frame = pdo(cob_id, self.id, data)?;
         self.send(&frame)
     }
 
-    /// The next PDO that the node sends with this identifier, for `unpack` of a generated struct.
+    /// The next PDO that the node sends with this identifier, for `unpack` of a generated struct. Of those that a
+    /// [`Buffered`](super::Buffered) interface has kept, it is the oldest: where only the newest counts,
+    /// [`clear`](super::Buffered::clear) forgets them before SYNC.
     ///
     /// # Errors
     ///

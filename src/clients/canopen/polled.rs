@@ -28,20 +28,19 @@ impl<C: embedded_can::nb::Can, T: FnMut() -> Duration> CanPort for Polled<C, T> 
     type Error = C::Error;
 
     fn send(&mut self, frame: &CanFrame, patience: Duration) -> Result<bool, C::Error> {
-        let end = (self.clock)() + patience;
-        let mut next: Option<C::Frame> = frame.to_frame();
-        while let Some(frame) = next.take() {
-            // A frame of lower priority that made room comes back, and is sent after this one.
-            next = loop {
-                match self.can.transmit(&frame) {
-                    Ok(displaced) => break displaced,
-                    Err(nb::Error::Other(error)) => return Err(error),
-                    Err(nb::Error::WouldBlock) if (self.clock)() >= end => return Ok(false),
-                    Err(nb::Error::WouldBlock) => core::hint::spin_loop(),
-                }
-            };
+        let end = (self.clock)().saturating_add(patience);
+        let Some(mut next) = frame.to_frame::<C::Frame>() else { return Ok(false) };
+        let mut is_sent = false;
+        loop {
+            match self.can.transmit(&next) {
+                // A frame of lower priority that made room comes back, and is sent after this one.
+                Ok(Some(displaced)) => (is_sent, next) = (true, displaced),
+                Ok(None) => return Ok(true),
+                Err(nb::Error::Other(error)) => return Err(error),
+                Err(nb::Error::WouldBlock) if (self.clock)() >= end => return Ok(is_sent),
+                Err(nb::Error::WouldBlock) => core::hint::spin_loop(),
+            }
         }
-        Ok(true)
     }
 
     fn receive(
@@ -49,7 +48,7 @@ impl<C: embedded_can::nb::Can, T: FnMut() -> Duration> CanPort for Polled<C, T> 
         patience: Duration,
         wanted: &mut dyn FnMut(&CanFrame) -> bool,
     ) -> Result<Option<CanFrame>, C::Error> {
-        let end = (self.clock)() + patience;
+        let end = (self.clock)().saturating_add(patience);
         let mut waiting = BACKLOG;
         while waiting > 0 {
             let is_late = (self.clock)() >= end;

@@ -140,6 +140,39 @@ fn aborts_have_their_codes() {
 }
 
 #[test]
+fn late_answers_are_not_those_of_the_next_transfer() {
+    let mut node = node();
+    SPEED.at(&mut node).write(7).unwrap();
+    node.port().is_silent = true;
+    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
+    node.port().is_silent = false;
+    // The answer comes after all.
+    node.port().answers.extend(CanFrame::new(0x585, &[0x4B, 0x00, 0x20, 0, 9, 9, 0, 0]));
+    assert_eq!(SPEED.at(&mut node).read(), Ok(7));
+    assert_eq!(SPEED.at(&mut node).read(), Ok(7));
+}
+
+#[test]
+fn nobody_says_how_much_is_allocated() {
+    let mut node = node();
+    node.port().is_silent = true;
+    let mut buffer = [0; 8];
+    // Four gigabytes are announced.
+    node.port().answers.extend(CanFrame::new(0x585, &[0x41, 0x02, 0x20, 0, 0xFF, 0xFF, 0xFF, 0xFF]));
+    let too_long = Err(Error::Length(LengthError::new(8, u32::MAX as usize)));
+    assert_eq!(Client::read(&mut node, Object::new(0x2002, 0), &mut buffer), too_long);
+    // No length, and segments without end.
+    let mut node = self::node();
+    node.port().is_silent = true;
+    node.port().answers.extend(CanFrame::new(0x585, &[0x40, 0x02, 0x20, 0, 0, 0, 0, 0]));
+    for toggle in [0x00, 0x10, 0x00, 0x10] {
+        node.port().answers.extend(CanFrame::new(0x585, &[toggle, 1, 2, 3, 4, 5, 6, 7]));
+    }
+    let endless = Client::read(&mut node, Object::new(0x2002, 0), &mut buffer);
+    assert_eq!(endless, Err(Error::Length(LengthError::new(8, 14))));
+}
+
+#[test]
 fn answers_to_nobody_are_passed_over() {
     let mut node = node();
     SPEED.at(&mut node).write(7).unwrap();
@@ -216,7 +249,8 @@ fn pdos_have_the_identifiers_of_the_node() {
     assert_eq!(received.data(), [2, 3]);
     assert_eq!(node.receive_pdo(CobId::from_node(0x180), Duration::ZERO), Err(Error::Timeout));
     assert_eq!(node.send_pdo(CobId::from_node(0x200), &[1, 2]), Ok(()));
-    assert_eq!(node.send_pdo(CobId::from_node(0x8000_0200), &[]), Err(Error::OutOfRange(OutOfRange)));
+    // Off by default, until it is configured.
+    assert_eq!(node.send_pdo(CobId::from_node(0xC000_0200), &[]), Ok(()));
     assert_eq!(node.send_pdo(CobId::fixed(0x2000_0800), &[]), Err(Error::OutOfRange(OutOfRange)));
     assert_eq!(node.send_pdo(CobId::fixed(0x205), &[0; 9]), Err(Error::Length(LengthError::new(8, 9))));
 }

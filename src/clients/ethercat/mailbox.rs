@@ -2,7 +2,7 @@
 
 use core::ops::Deref;
 
-use ethercrab::error::{Error as BusError, MailboxError, TimeoutError};
+use ethercrab::error::{Error as BusError, MailboxError};
 use ethercrab::{Command, EtherCrabWireWrite, MainDevice, RegisterAddress};
 
 use super::protocol::{Answer, Request, SMALLEST};
@@ -79,12 +79,12 @@ impl<'m> Mailbox<'m> {
     ) -> Result<T, Error<BusError>> {
         let (out, back) = self.buffers().await?;
         self.clear(back).await?;
-        self.wait(out, false, TimeoutError::MailboxEcho).await?;
+        self.wait(out, false).await?;
         let message = Message { head: request.head(), data, length: usize::from(out.length) };
         let written = Command::fpwr(self.station, out.address).send_receive_slice(self.maindevice, message);
         written.await.map_err(Error::Client)?;
         for _ in 0..self.patience {
-            self.wait(back, true, TimeoutError::MailboxResponse).await?;
+            self.wait(back, true).await?;
             let received = self.take(back).await?;
             let answer = Answer::parse(&received);
             if let Answer::Emergency(emergency) = answer {
@@ -96,7 +96,7 @@ impl<'m> Mailbox<'m> {
                 Sought::Other => {}
             }
         }
-        Err(late(TimeoutError::MailboxResponse))
+        Err(Error::Timeout)
     }
 
     /// Takes out what is left of an earlier transfer.
@@ -110,7 +110,7 @@ impl<'m> Mailbox<'m> {
                 self.emergency = Some(emergency);
             }
         }
-        Err(late(TimeoutError::MailboxEcho))
+        Err(Error::Timeout)
     }
 
     async fn take(&self, back: Buffer) -> Result<impl Deref<Target = [u8]> + 'm, Error<BusError>> {
@@ -118,13 +118,13 @@ impl<'m> Mailbox<'m> {
         read.await.map_err(Error::Client)
     }
 
-    async fn wait(&self, buffer: Buffer, full: bool, missed: TimeoutError) -> Result<(), Error<BusError>> {
+    async fn wait(&self, buffer: Buffer, full: bool) -> Result<(), Error<BusError>> {
         for _ in 0..self.patience {
             if self.is_full(buffer).await? == full {
                 return Ok(());
             }
         }
-        Err(late(missed))
+        Err(Error::Timeout)
     }
 
     async fn is_full(&self, buffer: Buffer) -> Result<bool, Error<BusError>> {
@@ -156,10 +156,6 @@ fn find(registers: &[u8], first: u16, to_device: bool) -> Option<Buffer> {
         let is_it = is_mailbox && (control & 0x0C == 0x04) == to_device;
         is_it.then_some(Buffer { state: at + STATE, address: u16::from_le_bytes([start_low, start_high]), length })
     })
-}
-
-fn late(what: TimeoutError) -> Error<BusError> {
-    Error::Client(BusError::Timeout(what))
 }
 
 /// A message that fills the mailbox to its last byte, with which the device gets it.

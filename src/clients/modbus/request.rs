@@ -50,6 +50,9 @@ fn response(reply: Reply) -> Result<Response, Error<ModbusError>> {
     match reply {
         Ok(Ok(response)) => Ok(response),
         Ok(Err(code)) => Err(Error::Client(ModbusError::Exception(code))),
+        Err(tokio_modbus::Error::Transport(error)) if error.kind() == std::io::ErrorKind::TimedOut => {
+            Err(Error::Timeout)
+        }
         Err(error) => Err(Error::Client(ModbusError::Bus(error))),
     }
 }

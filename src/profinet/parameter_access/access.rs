@@ -4,7 +4,6 @@ use super::error::ParameterError;
 use super::format::ParameterValue;
 use super::request::{change_request, read_request, Change, ParameterAddress};
 use super::response::Response;
-use crate::abort::AbortCode;
 use crate::error::Error;
 use crate::profinet::record_client::{AsyncRecordClient, RecordAddress, RecordClient, SubmoduleAddress};
 
@@ -32,8 +31,8 @@ const POLLS: u32 = 200;
 ///
 /// # Errors
 ///
-/// Each call fails as the client does. When there is no response after the last time, that is the client's error, or the abort
-/// code [`AbortCode::TIMEOUT`] where the record was empty. [`Error::ParameterAccess`] is what the drive refuses, and what its response
+/// Each call fails as the client does. When there is no response after the last time, that is the client's error, or
+/// [`Error::Timeout`] where the record was empty. [`Error::ParameterAccess`] is what the drive refuses, and what its response
 /// lacks; [`Error::Length`] says that a request or a response has too few bytes, or more than the buffer.
 #[derive(Clone, Debug)]
 pub struct ParameterAccess<C> {
@@ -129,7 +128,7 @@ fn response_length<E>(
     is_busy: impl FnOnce(&E) -> bool,
 ) -> Result<Result<usize, Error<E>>, Error<E>> {
     match outcome {
-        Ok(0) => Ok(Err(Error::Abort(AbortCode::TIMEOUT))),
+        Ok(0) => Ok(Err(Error::Timeout)),
         Ok(length) => Ok(Ok(length)),
         Err(Error::Client(error)) if is_busy(&error) => Ok(Err(Error::Client(error))),
         Err(error) => Err(error),

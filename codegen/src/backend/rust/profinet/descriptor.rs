@@ -179,7 +179,7 @@ fn list_submodules(scope: &Scope<'_>, uses: &[SubmoduleUse], docs: &mut Vec<Stri
     docs.push(String::new());
     for (usage, (_, name)) in named {
         let built_in = if usage.places.fixed.is_empty() { "can be plugged in" } else { "built in" };
-        docs.push(format!("- [`{name}`](super::super::submodules::{name}), {built_in}"));
+        docs.push(format!("- [`{name}`](super::submodules::{name}), {built_in}"));
     }
 }
 
