@@ -1,17 +1,15 @@
-//! What can't be read in a block of Modbus: what nobody can read, what is elsewhere, and texts.
+//! What can't be read in a block of Modbus: what nobody can read, and what is elsewhere.
 
 use lexibus::modbus::RegisterClient;
-use lexibus::{Flags, Item, OnCanOpen, OnModbus, Register, Ro, VisibleString, Wo};
+use lexibus::{Flags, Item, OnCanOpen, OnModbus, Register, Ro, Wo};
 
 type Here<V, A> = Item<V, A, OnModbus>;
 const SPEED: Here<u16, Ro> = Here::register(Register::holding(1), "Speed", Flags::NONE);
 const PASSWORD: Here<u16, Wo> = Here::register(Register::holding(2), "Password", Flags::NONE);
-const NAME: Here<VisibleString, Ro> = Here::register(Register::high_first(3, 4), "Name", Flags::NONE);
 const ELSEWHERE: Item<u16, Ro, OnCanOpen> = Item::object(0x6041, 0, "Statusword");
 
 fn read<C: RegisterClient>(mut client: C) {
     let _ = client.read_block((SPEED, PASSWORD));
-    let _ = client.read_block((SPEED, NAME));
     let _ = client.read_block([ELSEWHERE, ELSEWHERE]);
     let _ = client.read_block(SPEED);
 }
