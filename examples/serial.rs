@@ -26,6 +26,7 @@ mod unix {
     use embedded_io_adapters::std::FromStd;
     use lexibus::clients::serial::{SerialError, SerialLine};
     use lexibus::framing::{Check, Delimited, Framing};
+    use lexibus::message::WriteError;
     use lexibus::{
         AbortCode, Error, Exchange, Flags, Initial, Item, LengthError, OnSerial, Parameter, ParameterMessages,
         Parameters, Range, Rw,
@@ -106,21 +107,27 @@ mod unix {
     }
 
     impl ParameterMessages for Messages {
-        fn read_request(&self, parameter: Parameter, _: usize, to: &mut [u8]) -> Result<usize, LengthError> {
-            request(head(READ, parameter), &[], to)
+        fn read_request(&self, parameter: Parameter, _: usize, to: &mut [u8]) -> Result<usize, WriteError> {
+            Ok(request(head(READ, parameter), &[], to)?)
         }
 
-        fn read_reply<E>(&self, parameter: Parameter, reply: &[u8], to: &mut [u8]) -> Result<usize, Error<E>> {
+        fn read_reply<E>(
+            &self,
+            parameter: Parameter,
+            _: &[u8],
+            reply: &[u8],
+            to: &mut [u8],
+        ) -> Result<usize, Error<E>> {
             let own = value(head(READ, parameter), reply)?;
             to.iter_mut().zip(own.iter().rev()).for_each(|(to, from)| *to = *from);
             Ok(own.len())
         }
 
-        fn write_request(&self, parameter: Parameter, value: &[u8], to: &mut [u8]) -> Result<usize, LengthError> {
-            request(head(CHANGE, parameter), value, to)
+        fn write_request(&self, parameter: Parameter, value: &[u8], to: &mut [u8]) -> Result<usize, WriteError> {
+            Ok(request(head(CHANGE, parameter), value, to)?)
         }
 
-        fn write_reply<E>(&self, parameter: Parameter, reply: &[u8]) -> Result<(), Error<E>> {
+        fn write_reply<E>(&self, parameter: Parameter, _: &[u8], reply: &[u8]) -> Result<(), Error<E>> {
             value(head(CHANGE, parameter), reply).map(drop)
         }
     }

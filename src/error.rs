@@ -16,8 +16,12 @@ pub enum Error<E> {
     Client(E),
     /// The device refused: an abort of an SDO transfer (CiA 301 7.2.4.3.17), or what a bus has instead.
     Abort(AbortCode),
+    /// The device refused with a message that says no more than that, or more than fits here.
+    Refused,
     /// The device answered something that is no answer to what it was asked.
     UnexpectedReply,
+    /// The protocol has no message that does this to the parameter. Nothing was sent.
+    NoMessage,
     /// The device didn't answer in time, or the bus didn't become free.
     Timeout,
     /// The device has no such axis, or that axis doesn't have the object. Nothing was sent.
@@ -69,7 +73,9 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
         match self {
             Self::Client(error) => error.fmt(f),
             Self::Abort(code) => write!(f, "the device refused: {code}"),
+            Self::Refused => f.write_str("the device refused"),
             Self::UnexpectedReply => f.write_str("unexpected reply"),
+            Self::NoMessage => f.write_str("the protocol has no message for that"),
             Self::Timeout => f.write_str("no answer in time"),
             Self::NoSuchAxis { axis, object } => write!(f, "there is no axis {axis} that has object {object}"),
             Self::OutOfRange(error) => error.fmt(f),

@@ -3,6 +3,7 @@
 use crate::bus::{Parameter, Serial};
 use crate::client::{AsyncClient, Client};
 use crate::error::{Error, LengthError};
+use crate::message::{AsyncMessageClient, Failure, Message, MessageClient, Reader, Station, WriteError, Writer};
 
 /// Sends a request to one device and waits for its reply, for protocols of messages.
 ///
@@ -96,23 +97,24 @@ impl<T: AsyncExchange + ?Sized> AsyncExchange for &mut T {
 /// Values are as in a [`Client`]: the least significant byte first. A protocol with another order turns them around.
 ///
 /// ```
+/// use lexibus::message::WriteError;
 /// use lexibus::{Error, LengthError, Parameter, ParameterMessages};
 ///
 /// /// Number and value, with the device's order of bytes; the reply begins with the number, too.
 /// struct Messages;
 ///
 /// impl ParameterMessages for Messages {
-///     fn read_request(&self, parameter: Parameter, _: usize, request: &mut [u8]) -> Result<usize, LengthError> {
+///     fn read_request(&self, parameter: Parameter, _: usize, request: &mut [u8]) -> Result<usize, WriteError> {
 ///         self.write_request(parameter, &[], request)
 ///     }
 ///
-///     fn read_reply<E>(&self, parameter: Parameter, reply: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
+///     fn read_reply<E>(&self, parameter: Parameter, _: &[u8], reply: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
 ///         let own = reply.strip_prefix(&[parameter.0 as u8]).ok_or(Error::UnexpectedReply)?;
 ///         value.iter_mut().zip(own).for_each(|(to, from)| *to = *from);
 ///         Ok(own.len())
 ///     }
 ///
-///     fn write_request(&self, parameter: Parameter, value: &[u8], request: &mut [u8]) -> Result<usize, LengthError> {
+///     fn write_request(&self, parameter: Parameter, value: &[u8], request: &mut [u8]) -> Result<usize, WriteError> {
 ///         let error = LengthError::new(1 + value.len(), request.len());
 ///         let request = request.get_mut(..1 + value.len()).ok_or(error)?;
 ///         request[0] = parameter.0 as u8;
@@ -120,7 +122,7 @@ impl<T: AsyncExchange + ?Sized> AsyncExchange for &mut T {
 ///         Ok(request.len())
 ///     }
 ///
-///     fn write_reply<E>(&self, parameter: Parameter, reply: &[u8]) -> Result<(), Error<E>> {
+///     fn write_reply<E>(&self, parameter: Parameter, _: &[u8], reply: &[u8]) -> Result<(), Error<E>> {
 ///         if reply == [parameter.0 as u8] { Ok(()) } else { Err(Error::UnexpectedReply) }
 ///     }
 /// }
@@ -135,44 +137,53 @@ pub trait ParameterMessages {
     ///
     /// # Errors
     ///
-    /// When the request doesn't fit.
-    fn read_request(&self, parameter: Parameter, length: usize, request: &mut [u8]) -> Result<usize, LengthError>;
+    /// When the request doesn't fit, or no message reads the parameter.
+    fn read_request(&self, parameter: Parameter, length: usize, request: &mut [u8]) -> Result<usize, WriteError>;
 
-    /// Puts the value in the reply to that to the start of `value` and returns its length.
+    /// Puts the value in the reply to that request to the start of `value` and returns its length.
     ///
     /// # Errors
     ///
-    /// [`Error::UnexpectedReply`] where it is a reply to something else, [`Error::Abort`] where the device refuses,
-    /// [`Error::Length`] where the value has another length.
-    fn read_reply<E>(&self, parameter: Parameter, reply: &[u8], value: &mut [u8]) -> Result<usize, Error<E>>;
+    /// [`Error::UnexpectedReply`] where it is a reply to something else, [`Error::Refused`] or [`Error::Abort`] where the device
+    /// refuses, [`Error::Length`] where the value has another length.
+    fn read_reply<E>(
+        &self,
+        parameter: Parameter,
+        request: &[u8],
+        reply: &[u8],
+        value: &mut [u8],
+    ) -> Result<usize, Error<E>>;
 
     /// Puts the data of the request that writes a parameter to the start of `request` and returns their number.
     ///
     /// # Errors
     ///
-    /// When the request doesn't fit.
-    fn write_request(&self, parameter: Parameter, value: &[u8], request: &mut [u8]) -> Result<usize, LengthError>;
+    /// When the request doesn't fit, or no message writes the parameter.
+    fn write_request(&self, parameter: Parameter, value: &[u8], request: &mut [u8]) -> Result<usize, WriteError>;
 
-    /// Whether the reply to that says that it was done.
+    /// Whether the reply to that request says that it was done.
     ///
     /// # Errors
     ///
     /// As of [`read_reply`](Self::read_reply).
-    fn write_reply<E>(&self, parameter: Parameter, reply: &[u8]) -> Result<(), Error<E>>;
+    fn write_reply<E>(&self, parameter: Parameter, request: &[u8], reply: &[u8]) -> Result<(), Error<E>>;
 }
 
-/// The parameters of a device as a [`Client`] of [`Serial`], or an [`AsyncClient`]: with `X`, which exchanges messages, and `M`,
-/// the messages. `N` is the length of the longest of them, in bytes.
+/// A device with a protocol of messages, over `X`, which exchanges their data: its parameters as a [`Client`] of [`Serial`] or
+/// an [`AsyncClient`], where `M` knows the messages that carry them, and its messages as a [`MessageClient`]. `N` is the length
+/// of the longest of them, in bytes.
 #[derive(Clone, Debug)]
 pub struct Parameters<X, M, const N: usize> {
     exchange: X,
     messages: M,
+    request: [u8; N],
+    reply: [u8; N],
 }
 
 impl<X, M, const N: usize> Parameters<X, M, N> {
-    /// The parameters of the device that `exchange` talks to.
+    /// The device that `exchange` talks to.
     pub const fn new(exchange: X, messages: M) -> Self {
-        Self { exchange, messages }
+        Self { exchange, messages, request: [0; N], reply: [0; N] }
     }
 
     /// What exchanges messages.
@@ -191,22 +202,31 @@ fn filled(buffer: &[u8], length: usize) -> Result<&[u8], LengthError> {
     buffer.get(..length).ok_or(LengthError::new(buffer.len(), length))
 }
 
+/// The reply to `request`, or the device's refusal.
+fn answer<'r, E, M: Message>(request: &[u8], reply: &'r [u8]) -> Result<M::Reply<'r>, Failure<E, M::Refusal>> {
+    match (M::read(request, &mut Reader::new(reply)), M::refusal(request, &mut Reader::new(reply))) {
+        (Some(reply), _) => Ok(reply),
+        (None, Some(refusal)) => Err(Failure::Refused(refusal)),
+        (None, None) => Err(Failure::Error(Error::UnexpectedReply)),
+    }
+}
+
 impl<X: Exchange, M: ParameterMessages, const N: usize> Client for Parameters<X, M, N> {
     type Bus = Serial;
     type Error = X::Error;
 
     fn read(&mut self, parameter: Parameter, buffer: &mut [u8]) -> Result<usize, Error<X::Error>> {
-        let (mut request, mut reply) = ([0; N], [0; N]);
-        let length = self.messages.read_request(parameter, buffer.len(), &mut request)?;
-        let length = self.exchange.exchange(filled(&request, length)?, &mut reply)?;
-        self.messages.read_reply(parameter, filled(&reply, length)?, buffer)
+        let length = self.messages.read_request(parameter, buffer.len(), &mut self.request)?;
+        let request = filled(&self.request, length)?;
+        let length = self.exchange.exchange(request, &mut self.reply)?;
+        self.messages.read_reply(parameter, request, filled(&self.reply, length)?, buffer)
     }
 
     fn write(&mut self, parameter: Parameter, data: &[u8]) -> Result<(), Error<X::Error>> {
-        let (mut request, mut reply) = ([0; N], [0; N]);
-        let length = self.messages.write_request(parameter, data, &mut request)?;
-        let length = self.exchange.exchange(filled(&request, length)?, &mut reply)?;
-        self.messages.write_reply(parameter, filled(&reply, length)?)
+        let length = self.messages.write_request(parameter, data, &mut self.request)?;
+        let request = filled(&self.request, length)?;
+        let length = self.exchange.exchange(request, &mut self.reply)?;
+        self.messages.write_reply(parameter, request, filled(&self.reply, length)?)
     }
 }
 
@@ -215,16 +235,38 @@ impl<X: AsyncExchange, M: ParameterMessages, const N: usize> AsyncClient for Par
     type Error = X::Error;
 
     async fn read(&mut self, parameter: Parameter, buffer: &mut [u8]) -> Result<usize, Error<X::Error>> {
-        let (mut request, mut reply) = ([0; N], [0; N]);
-        let length = self.messages.read_request(parameter, buffer.len(), &mut request)?;
-        let length = self.exchange.exchange(filled(&request, length)?, &mut reply).await?;
-        self.messages.read_reply(parameter, filled(&reply, length)?, buffer)
+        let length = self.messages.read_request(parameter, buffer.len(), &mut self.request)?;
+        let request = filled(&self.request, length)?;
+        let length = self.exchange.exchange(request, &mut self.reply).await?;
+        self.messages.read_reply(parameter, request, filled(&self.reply, length)?, buffer)
     }
 
     async fn write(&mut self, parameter: Parameter, data: &[u8]) -> Result<(), Error<X::Error>> {
-        let (mut request, mut reply) = ([0; N], [0; N]);
-        let length = self.messages.write_request(parameter, data, &mut request)?;
-        let length = self.exchange.exchange(filled(&request, length)?, &mut reply).await?;
-        self.messages.write_reply(parameter, filled(&reply, length)?)
+        let length = self.messages.write_request(parameter, data, &mut self.request)?;
+        let request = filled(&self.request, length)?;
+        let length = self.exchange.exchange(request, &mut self.reply).await?;
+        self.messages.write_reply(parameter, request, filled(&self.reply, length)?)
+    }
+}
+
+impl<X: Exchange, S: Station, const N: usize> MessageClient for Parameters<X, S, N> {
+    type Error = X::Error;
+
+    fn call<M: Message>(&mut self, message: &M) -> Result<M::Reply<'_>, Failure<X::Error, M::Refusal>> {
+        let mut request = Writer::new(&mut self.request);
+        message.write(self.messages.station(), &mut request)?;
+        let length = self.exchange.exchange(request.written(), &mut self.reply)?;
+        answer::<_, M>(request.written(), filled(&self.reply, length)?)
+    }
+}
+
+impl<X: AsyncExchange, S: Station, const N: usize> AsyncMessageClient for Parameters<X, S, N> {
+    type Error = X::Error;
+
+    async fn call<M: Message>(&mut self, message: &M) -> Result<M::Reply<'_>, Failure<X::Error, M::Refusal>> {
+        let mut request = Writer::new(&mut self.request);
+        message.write(self.messages.station(), &mut request)?;
+        let length = self.exchange.exchange(request.written(), &mut self.reply).await?;
+        answer::<_, M>(request.written(), filled(&self.reply, length)?)
     }
 }

@@ -90,6 +90,7 @@ pub mod interface;
 mod item;
 mod location;
 mod machine;
+pub mod message;
 pub mod modbus;
 mod node_id;
 pub mod pdo;

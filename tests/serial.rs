@@ -9,6 +9,7 @@ use std::task::{Context, Poll, Wake};
 
 use lexibus::clients::serial::{embedded_io, embedded_io_async, SerialError, SerialLine};
 use lexibus::framing::{Check, Delimited, FrameError, Framing};
+use lexibus::message::WriteError;
 use lexibus::{
     AbortCode, AsyncExchange, Error, Exchange, Flags, Initial, Item, LengthError, OnSerial, Parameter,
     ParameterMessages, Parameters, Range, Rw,
@@ -132,11 +133,11 @@ impl embedded_io_async::Write for AsyncLine {
 struct Messages;
 
 impl ParameterMessages for Messages {
-    fn read_request(&self, parameter: Parameter, _: usize, request: &mut [u8]) -> Result<usize, LengthError> {
+    fn read_request(&self, parameter: Parameter, _: usize, request: &mut [u8]) -> Result<usize, WriteError> {
         self.write_request(parameter, &[], request).inspect(|_| request[0] = b'r')
     }
 
-    fn read_reply<E>(&self, parameter: Parameter, reply: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
+    fn read_reply<E>(&self, parameter: Parameter, _: &[u8], reply: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
         let own = reply_to(b'r', parameter, reply)?;
         if own.len() != value.len() {
             return Err(Error::Length(LengthError::new(value.len(), own.len())));
@@ -145,7 +146,7 @@ impl ParameterMessages for Messages {
         Ok(own.len())
     }
 
-    fn write_request(&self, parameter: Parameter, value: &[u8], request: &mut [u8]) -> Result<usize, LengthError> {
+    fn write_request(&self, parameter: Parameter, value: &[u8], request: &mut [u8]) -> Result<usize, WriteError> {
         let error = LengthError::new(2 + value.len(), request.len());
         let request = request.get_mut(..2 + value.len()).ok_or(error)?;
         request[..2].copy_from_slice(&[b'w', parameter.0 as u8]);
@@ -153,7 +154,7 @@ impl ParameterMessages for Messages {
         Ok(request.len())
     }
 
-    fn write_reply<E>(&self, parameter: Parameter, reply: &[u8]) -> Result<(), Error<E>> {
+    fn write_reply<E>(&self, parameter: Parameter, _: &[u8], reply: &[u8]) -> Result<(), Error<E>> {
         reply_to(b'w', parameter, reply).map(drop)
     }
 }

@@ -1,0 +1,138 @@
+//! Requests and replies of a command protocol, as types.
+//!
+//! Generated bindings have a [`Message`] for every request, with its fields, and a type for what is answered. [`Call`] sends
+//! one through anything that is a [`MessageClient`], such as [`Parameters`](crate::Parameters) over an
+//! [`Exchange`](crate::Exchange). Nothing allocates: lists are slices where they are sent, and are read from the reply's bytes
+//! one by one.
+//!
+//! ```
+//! use lexibus::message::{Completion, Message, Reader, WriteError, Writer};
+//!
+//! // What the compiler emits for a request `node 0x40 speed` that is answered by `node 0x40 status`:
+//! #[derive(Debug, PartialEq)]
+//! struct Jog {
+//!     speed: i16,
+//! }
+//!
+//! #[derive(Debug, PartialEq)]
+//! struct JogReply {
+//!     status: u8,
+//! }
+//!
+//! impl Message for Jog {
+//!     type Reply<'r> = JogReply;
+//!     type Refusal = core::convert::Infallible;
+//!     const NAME: &'static str = "Jog";
+//!     const COMPLETION: Completion = Completion::Immediate;
+//!
+//!     fn write(&self, station: u32, to: &mut Writer<'_>) -> Result<(), WriteError> {
+//!         to.number(8, station.into())?;
+//!         to.bytes(&[0x40])?;
+//!         to.number(16, self.speed as u16 as u64)
+//!     }
+//!
+//!     fn read<'r>(request: &[u8], from: &mut Reader<'r>) -> Option<JogReply> {
+//!         from.echo(request, 0, 2)?;
+//!         let status = from.number(8)? as u8;
+//!         Some(JogReply { status })
+//!     }
+//!
+//!     fn refusal(_: &[u8], _: &mut Reader<'_>) -> Option<Self::Refusal> {
+//!         None
+//!     }
+//! }
+//!
+//! let mut data = [0; 8];
+//! let mut request = Writer::new(&mut data);
+//! Jog { speed: -578 }.write(5, &mut request)?;
+//! assert_eq!(request.written(), [0x05, 0x40, 0xFD, 0xBE]);
+//! assert_eq!(Jog::read(request.written(), &mut Reader::new(&[0x05, 0x40, 0x02])), Some(JogReply { status: 2 }));
+//! # Ok::<(), WriteError>(())
+//! ```
+
+mod call;
+mod list;
+mod reader;
+mod setting;
+mod writer;
+
+pub use call::{AsyncMessageClient, Call, Failure, MessageClient, Station};
+pub use list::{Group, List, ListIter, Settings, SettingsIter, SettingsRule};
+pub use reader::Reader;
+pub use setting::Setting;
+pub use writer::{check, WriteError, Writer};
+
+/// A request, and how what is answered to it is read.
+pub trait Message {
+    /// What the device answers.
+    type Reply<'r>;
+
+    /// What the device answers instead where it refuses; [`Infallible`](core::convert::Infallible) where it has no such answer.
+    type Refusal;
+
+    /// The name of the request, as the device's description has it.
+    const NAME: &'static str;
+
+    /// When the order is carried out.
+    const COMPLETION: Completion;
+
+    /// Writes the data of the request to the device with this number. A protocol without numbers of devices ignores it.
+    ///
+    /// # Errors
+    ///
+    /// Where a field is outside its limits, or the data don't fit.
+    fn write(&self, station: u32, to: &mut Writer<'_>) -> Result<(), WriteError>;
+
+    /// The reply to a request; `None` where the data are something else. The device's echo of the request is held against what
+    /// was sent.
+    fn read<'r>(request: &[u8], from: &mut Reader<'r>) -> Option<Self::Reply<'r>>;
+
+    /// The refusal of a request; `None` where the data are something else.
+    fn refusal(request: &[u8], from: &mut Reader<'_>) -> Option<Self::Refusal>;
+}
+
+/// The device's side of messages, for simulators and tests: a request that is read, in the shape in which it is sent.
+pub trait Request<'r>: Message + Sized {
+    /// The number of the device that is meant, and the request; `None` where the data are another one. A protocol without
+    /// numbers of devices has 0.
+    fn parse(from: &mut Reader<'r>) -> Option<(u32, Self)>;
+}
+
+/// The device's side of messages, for simulators and tests: a reply that is written, in the shape in which it is read.
+pub trait Reply {
+    /// Writes the data of the reply to this request.
+    ///
+    /// # Errors
+    ///
+    /// Where the data don't fit, or the request is too short to be echoed.
+    fn write(&self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError>;
+}
+
+/// When an order is carried out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Completion {
+    /// Before the reply.
+    Immediate,
+    /// When the reply comes, which may take long.
+    Reply,
+    /// When a field of replies, or an item, says so. Replies that have the field have a method `is_complete`.
+    Polled,
+    /// After so many milliseconds.
+    Delayed(u32),
+}
+
+/// A request that decides what a later one means. Generated devices have the later ones only once it was sent.
+///
+/// [`Call::select`] sends it and gives the device that has them.
+pub trait Selector: Message {
+    /// The device, over a client `C`.
+    type Device<C>;
+
+    /// The device over `client`, which has been sent this request.
+    fn device<C>(client: C) -> Self::Device<C>;
+}
+
+/// The state of a device that may have been sent any [`Selector`], or none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Unselected;

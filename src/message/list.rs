@@ -1,0 +1,309 @@
+//! Fields that occur several times.
+
+use core::iter::FusedIterator;
+
+use super::{Reader, Setting, WriteError, Writer};
+use crate::bus::Parameter;
+
+/// Fields that occur several times: one occurrence.
+pub trait Group: Copy {
+    /// How many bytes it takes.
+    const LENGTH: usize;
+
+    /// Writes it.
+    ///
+    /// # Errors
+    ///
+    /// Where a field is outside its limits, or there is no room.
+    fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError>;
+
+    /// Reads it; `None` where the data are something else.
+    fn read(from: &mut Reader<'_>) -> Option<Self>;
+}
+
+/// Occurrences of a [`Group`]: a slice where a program sends them, and bytes where it received them.
+#[derive(Clone, Copy, Debug)]
+pub struct List<'a, G> {
+    source: Source<'a, G>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Source<'a, G> {
+    Sent(&'a [G]),
+    Received(&'a [u8]),
+}
+
+impl<'a, G: Group> List<'a, G> {
+    /// The occurrences in `bytes`; `None` where these aren't whole, or contain something else.
+    #[must_use]
+    pub fn received(bytes: &'a [u8]) -> Option<Self> {
+        let mut whole = bytes.chunks(G::LENGTH.max(1));
+        let is_list = whole.all(|own| G::read(&mut Reader::new(own)).is_some());
+        is_list.then_some(Self { source: Source::Received(bytes) })
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self.source {
+            Source::Sent(own) => own.len(),
+            Source::Received(bytes) => bytes.len() / G::LENGTH.max(1),
+        }
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Each of them.
+    #[must_use]
+    pub fn iter(&self) -> ListIter<'a, G> {
+        ListIter { source: self.source }
+    }
+
+    /// Writes all of them.
+    ///
+    /// # Errors
+    ///
+    /// Where a field is outside its limits, or there is no room.
+    pub fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError> {
+        self.iter().try_for_each(|own| own.write(to))
+    }
+}
+
+impl<'a, G> From<&'a [G]> for List<'a, G> {
+    fn from(own: &'a [G]) -> Self {
+        Self { source: Source::Sent(own) }
+    }
+}
+
+impl<'a, G, const N: usize> From<&'a [G; N]> for List<'a, G> {
+    fn from(own: &'a [G; N]) -> Self {
+        Self { source: Source::Sent(own) }
+    }
+}
+
+impl<'a, G: Group> IntoIterator for List<'a, G> {
+    type Item = G;
+    type IntoIter = ListIter<'a, G>;
+
+    fn into_iter(self) -> ListIter<'a, G> {
+        self.iter()
+    }
+}
+
+impl<G: Group + PartialEq> PartialEq for List<'_, G> {
+    fn eq(&self, other: &Self) -> bool {
+        self.iter().eq(other.iter())
+    }
+}
+
+/// The occurrences of a [`List`].
+#[derive(Clone, Debug)]
+pub struct ListIter<'a, G> {
+    source: Source<'a, G>,
+}
+
+impl<G: Group> Iterator for ListIter<'_, G> {
+    type Item = G;
+
+    fn next(&mut self) -> Option<G> {
+        match &mut self.source {
+            Source::Sent(own) => {
+                let (first, rest) = own.split_first()?;
+                *own = rest;
+                Some(*first)
+            }
+            Source::Received(bytes) => {
+                let mut reader = Reader::new(bytes);
+                let next = G::read(&mut reader)?;
+                *bytes = reader.but(0)?;
+                Some(next)
+            }
+        }
+    }
+}
+
+impl<G: Group> FusedIterator for ListIter<'_, G> {}
+
+/// Parameters with their values, each as long as the parameter's type: a slice where a program sends them, and bytes where it
+/// received them.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings<'a> {
+    source: SettingsSource<'a>,
+    rule: SettingsRule,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum SettingsSource<'a> {
+    Sent(&'a [Setting]),
+    Received(&'a [u8]),
+}
+
+/// How settings stand in a message.
+#[derive(Clone, Copy, Debug)]
+pub struct SettingsRule {
+    /// Length of a parameter's number in bits.
+    pub code_bits: u32,
+    /// Order of the bytes of values: see [`Reader::value`].
+    pub order: &'static [u8],
+    /// The length of a parameter's value in bytes; `None` where there is no such parameter.
+    pub length: fn(Parameter) -> Option<usize>,
+}
+
+impl SettingsRule {
+    /// Writes a parameter and its value.
+    ///
+    /// # Errors
+    ///
+    /// Where there is no room for them.
+    pub fn write(&self, setting: &Setting, to: &mut Writer<'_>) -> Result<(), WriteError> {
+        to.number(self.code_bits, setting.parameter.0.into())?;
+        to.value(self.order, setting.value())
+    }
+
+    /// Reads a parameter and its value; `None` where the data are something else.
+    #[must_use]
+    pub fn read(&self, from: &mut Reader<'_>) -> Option<Setting> {
+        let parameter = Parameter(from.number(self.code_bits)?.try_into().ok()?);
+        let length = (self.length)(parameter)?;
+        Some(Setting::new(parameter, from.value(self.order, length)?, length))
+    }
+}
+
+impl<'a> Settings<'a> {
+    /// Those that are sent.
+    #[must_use]
+    pub const fn sent(settings: &'a [Setting], rule: SettingsRule) -> Self {
+        Self { source: SettingsSource::Sent(settings), rule }
+    }
+
+    /// Those in `bytes`; `None` where these aren't whole, or name another parameter.
+    #[must_use]
+    pub fn received(bytes: &'a [u8], rule: SettingsRule) -> Option<Self> {
+        let own = Self { source: SettingsSource::Received(bytes), rule };
+        let mut all = own.iter();
+        all.by_ref().for_each(drop);
+        matches!(all.source, SettingsSource::Received([])).then_some(own)
+    }
+
+    /// Each of them.
+    #[must_use]
+    pub const fn iter(&self) -> SettingsIter<'a> {
+        SettingsIter { source: self.source, rule: self.rule }
+    }
+
+    /// Writes all of them.
+    ///
+    /// # Errors
+    ///
+    /// Where there is no room.
+    pub fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError> {
+        self.iter().try_for_each(|own| self.rule.write(&own, to))
+    }
+}
+
+impl<'a> IntoIterator for Settings<'a> {
+    type Item = Setting;
+    type IntoIter = SettingsIter<'a>;
+
+    fn into_iter(self) -> SettingsIter<'a> {
+        self.iter()
+    }
+}
+
+impl PartialEq for Settings<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.iter().eq(other.iter())
+    }
+}
+
+/// Each of [`Settings`].
+#[derive(Clone, Debug)]
+pub struct SettingsIter<'a> {
+    source: SettingsSource<'a>,
+    rule: SettingsRule,
+}
+
+impl Iterator for SettingsIter<'_> {
+    type Item = Setting;
+
+    fn next(&mut self) -> Option<Setting> {
+        match &mut self.source {
+            SettingsSource::Sent(own) => {
+                let (first, rest) = own.split_first()?;
+                *own = rest;
+                Some(*first)
+            }
+            SettingsSource::Received(bytes) => {
+                let mut reader = Reader::new(bytes);
+                let next = self.rule.read(&mut reader)?;
+                *bytes = reader.but(0)?;
+                Some(next)
+            }
+        }
+    }
+}
+
+impl FusedIterator for SettingsIter<'_> {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    struct Sample(i16);
+
+    impl Group for Sample {
+        const LENGTH: usize = 2;
+
+        fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError> {
+            to.number(16, self.0 as u16 as u64)
+        }
+
+        fn read(from: &mut Reader<'_>) -> Option<Self> {
+            Some(Sample(from.number(16)? as i16))
+        }
+    }
+
+    const RULE: SettingsRule = SettingsRule {
+        code_bits: 16,
+        order: &[2, 3, 0, 1],
+        length: |parameter| match parameter.0 {
+            0x105 => Some(2),
+            0x10C => Some(4),
+            _ => None,
+        },
+    };
+
+    #[test]
+    fn lists_are_the_same_sent_and_received() {
+        let (sent, mut data) = ([Sample(-578), Sample(7)], [0; 4]);
+        let mut writer = Writer::new(&mut data);
+        List::from(&sent).write(&mut writer).unwrap();
+        assert_eq!(writer.written(), [0xFD, 0xBE, 0, 7]);
+        let received = List::received(&data).unwrap();
+        assert_eq!((received, received.len()), (List::from(&sent), 2));
+        assert_eq!(List::<Sample>::received(&data[..3]), None);
+    }
+
+    #[test]
+    fn settings_are_as_long_as_their_parameters() {
+        let settings = [
+            Setting::of(Parameter(0x105), &[150, 0]).unwrap(),
+            Setting::of(Parameter(0x10C), &[0x34, 0xAB, 2, 1]).unwrap(),
+        ];
+        let mut data = [0; 16];
+        let mut writer = Writer::new(&mut data);
+        Settings::sent(&settings, RULE).write(&mut writer).unwrap();
+        let expected = [0x01, 0x05, 0x00, 150, 0x01, 0x0C, 0xAB, 0x34, 0x01, 0x02];
+        assert_eq!(writer.written(), expected);
+        let received = Settings::received(&expected, RULE).unwrap();
+        assert_eq!(received.iter().collect::<Vec<_>>(), settings);
+        assert_eq!(Settings::received(&expected[..9], RULE), None);
+        assert_eq!(Settings::received(&[1, 6, 0, 0], RULE), None);
+    }
+}

@@ -1,0 +1,141 @@
+//! Reads the data of a message.
+
+/// Reads fields one after the other. Numbers are big-endian where no order of bytes is given, and parts of a byte follow each
+/// other from the most significant bit on. Each method has `None` where the data are shorter, or other than they should be.
+#[derive(Clone, Copy, Debug)]
+pub struct Reader<'r> {
+    data: &'r [u8],
+    /// How many bits are read.
+    bits: usize,
+}
+
+/// The significance of the byte at `at` of a value of `length` bytes: 0 is the least significant one.
+///
+/// `order` is that of the longest values, the most significant byte being 0. A shorter one has its low bytes in this order, and
+/// a longer one, or one for which there is no order, is big-endian.
+pub(super) fn significance(order: &[u8], length: usize, at: usize) -> usize {
+    let big_endian = length.saturating_sub(1).saturating_sub(at);
+    let Some(missing) = order.len().checked_sub(length) else { return big_endian };
+    let mut own = order.iter().map(|&position| usize::from(position)).filter(|position| *position >= missing);
+    own.nth(at).map_or(big_endian, |position| order.len() - 1 - position)
+}
+
+impl<'r> Reader<'r> {
+    /// Reads from the start of `data`.
+    #[must_use]
+    pub const fn new(data: &'r [u8]) -> Self {
+        Self { data, bits: 0 }
+    }
+
+    /// How many bytes are left; one of which a part was read doesn't count.
+    #[must_use]
+    pub fn left(&self) -> usize {
+        self.data.len().saturating_sub(self.bits.div_ceil(8))
+    }
+
+    /// Reads so many bytes.
+    pub fn bytes(&mut self, count: usize) -> Option<&'r [u8]> {
+        let start = self.bits.div_ceil(8);
+        let bytes = self.data.get(start..start.checked_add(count)?)?;
+        self.bits = (start + count) * 8;
+        Some(bytes)
+    }
+
+    /// Reads bytes whose meaning doesn't matter.
+    pub fn skip(&mut self, count: usize) -> Option<()> {
+        self.bytes(count).map(|_| ())
+    }
+
+    /// Reads bytes that have to be these.
+    pub fn constant(&mut self, expected: &[u8]) -> Option<()> {
+        (self.bytes(expected.len())? == expected).then_some(())
+    }
+
+    /// Reads bytes that have to be those of the request from `first` on.
+    pub fn echo(&mut self, request: &[u8], first: usize, count: usize) -> Option<()> {
+        self.constant(request.get(first..first.checked_add(count)?)?)
+    }
+
+    /// Reads a number of `width` bits, 64 at most, the most significant first.
+    pub fn number(&mut self, width: u32) -> Option<u64> {
+        let (mut left, mut number) = (width.min(64), 0_u64);
+        while left > 0 {
+            let byte = *self.data.get(self.bits / 8)?;
+            let used = (self.bits % 8) as u32;
+            let count = left.min(8 - used);
+            let part = byte >> (8 - used - count) & (0xFF >> (8 - count));
+            number = number << count | u64::from(part);
+            self.bits += count as usize;
+            left -= count;
+        }
+        Some(number)
+    }
+
+    /// Reads a number in this order of bytes, of which the most significant one has number 0.
+    pub fn ordered(&mut self, order: &[u8]) -> Option<u64> {
+        let bytes = self.bytes(order.len())?;
+        let last = order.len().saturating_sub(1);
+        let number = bytes.iter().zip(order).fold(0, |number, (byte, &position)| {
+            let shift = 8 * last.saturating_sub(position.into()) as u32;
+            number | u64::from(*byte).checked_shl(shift).unwrap_or(0)
+        });
+        Some(number)
+    }
+
+    /// Reads a value of `length` bytes, 8 at most, in an order of bytes; its least significant byte comes first then.
+    ///
+    /// `order` is that of the longest values, the most significant byte being 0. A shorter one has its low bytes in this order,
+    /// and a longer one, or one for which there is no order, is big-endian.
+    pub fn value(&mut self, order: &[u8], length: usize) -> Option<[u8; 8]> {
+        let mut value = [0; 8];
+        let bytes = self.bytes(length)?;
+        for (at, byte) in bytes.iter().enumerate() {
+            *value.get_mut(significance(order, length, at))? = *byte;
+        }
+        Some(value)
+    }
+
+    /// All that is left but for the last `tail` bytes.
+    pub fn but(&mut self, tail: usize) -> Option<&'r [u8]> {
+        self.bytes(self.left().checked_sub(tail)?)
+    }
+
+    /// Whether all is read.
+    pub fn end(&self) -> Option<()> {
+        (self.bits == self.data.len() * 8).then_some(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_follow_each_other() {
+        let data = [0x57, 0xAB, 0x34, 0x01, 0x02, 0xFD, 0xBE, 2, 9];
+        let mut reader = Reader::new(&data);
+        assert_eq!((reader.number(4), reader.number(3), reader.number(1)), (Some(5), Some(3), Some(1)));
+        assert_eq!(reader.ordered(&[2, 3, 0, 1]), Some(0x0102_AB34));
+        assert_eq!(reader.value(&[2, 3, 0, 1], 2), Some([0xBE, 0xFD, 0, 0, 0, 0, 0, 0]));
+        assert_eq!((reader.echo(&[1, 2], 1, 1), reader.end()), (Some(()), None));
+        assert_eq!((reader.but(2), reader.but(0), reader.end()), (None, Some(&[9][..]), Some(())));
+        assert_eq!((reader.number(1), reader.bytes(1)), (None, None));
+    }
+
+    #[test]
+    fn orders_of_values() {
+        let of = |order: &[u8], length| -> [usize; 4] { core::array::from_fn(|at| significance(order, length, at)) };
+        assert_eq!(of(&[2, 3, 0, 1], 4), [1, 0, 3, 2]);
+        assert_eq!(of(&[2, 3, 0, 1], 2)[..2], [1, 0]);
+        assert_eq!(of(&[3, 2, 1, 0], 2)[..2], [0, 1]);
+        assert_eq!(of(&[], 4), [3, 2, 1, 0]);
+        assert_eq!(of(&[1, 0], 4), [3, 2, 1, 0]);
+    }
+
+    #[test]
+    fn numbers_across_bytes() {
+        let mut reader = Reader::new(&[0b1010_1100, 0b0111_0000]);
+        assert_eq!((reader.number(3), reader.number(9), reader.left()), (Some(0b101), Some(0b0_1100_0111), 0));
+        assert_eq!((reader.end(), reader.number(4), reader.end()), (None, Some(0), Some(())));
+    }
+}

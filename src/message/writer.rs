@@ -1,0 +1,226 @@
+//! Writes the data of a message.
+
+use core::error;
+use core::fmt;
+
+use crate::error::{Error, LengthError, OutOfRange};
+use crate::range::Range;
+use crate::value::Fixed;
+
+/// Writes fields one after the other. Numbers are big-endian where no order of bytes is given, and parts of a byte follow each
+/// other from the most significant bit on.
+#[derive(Debug)]
+pub struct Writer<'b> {
+    data: &'b mut [u8],
+    /// How many bits are written.
+    bits: usize,
+}
+
+/// Why a message can't be written. Nothing was sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum WriteError {
+    /// A field is outside its limits.
+    OutOfRange(OutOfRange),
+    /// The data are longer than there is room for, or than the protocol allows.
+    Length(LengthError),
+    /// The protocol has no message that does this to the parameter.
+    NoMessage,
+}
+
+impl From<OutOfRange> for WriteError {
+    fn from(error: OutOfRange) -> Self {
+        Self::OutOfRange(error)
+    }
+}
+
+impl From<LengthError> for WriteError {
+    fn from(error: LengthError) -> Self {
+        Self::Length(error)
+    }
+}
+
+impl<E> From<WriteError> for Error<E> {
+    fn from(error: WriteError) -> Self {
+        match error {
+            WriteError::OutOfRange(error) => Self::OutOfRange(error),
+            WriteError::Length(error) => Self::Length(error),
+            WriteError::NoMessage => Self::NoMessage,
+        }
+    }
+}
+
+impl fmt::Display for WriteError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::OutOfRange(error) => error.fmt(f),
+            Self::Length(error) => error.fmt(f),
+            Self::NoMessage => f.write_str("the protocol has no message for that"),
+        }
+    }
+}
+
+impl error::Error for WriteError {}
+
+/// Whether a field's value is within its limits.
+///
+/// # Errors
+///
+/// [`OutOfRange`] where it isn't.
+#[inline]
+pub fn check<V: Fixed>(value: V::Native, range: &Range<V::Native>) -> Result<(), WriteError> {
+    match V::in_range(value, range) {
+        true => Ok(()),
+        false => Err(OutOfRange.into()),
+    }
+}
+
+impl<'b> Writer<'b> {
+    /// Writes to the start of `data`.
+    pub fn new(data: &'b mut [u8]) -> Self {
+        Self { data, bits: 0 }
+    }
+
+    /// What is written.
+    #[must_use]
+    pub fn written(&self) -> &[u8] {
+        self.data.get(..self.len()).unwrap_or_default()
+    }
+
+    /// How many bytes are written.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.bits.div_ceil(8)
+    }
+
+    /// Whether nothing is written.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.bits == 0
+    }
+
+    /// The room for so many bytes more.
+    fn room(&mut self, count: usize) -> Result<&mut [u8], WriteError> {
+        let (start, length) = (self.len(), self.data.len());
+        let room = self.data.get_mut(start..start.saturating_add(count));
+        let room = room.ok_or(LengthError::new(length, start.saturating_add(count)))?;
+        self.bits = (start + count) * 8;
+        Ok(room)
+    }
+
+    /// Writes bytes.
+    ///
+    /// # Errors
+    ///
+    /// Where there is no room for them.
+    pub fn bytes(&mut self, bytes: &[u8]) -> Result<(), WriteError> {
+        self.room(bytes.len())?.copy_from_slice(bytes);
+        Ok(())
+    }
+
+    /// Writes bytes without meaning: 0.
+    ///
+    /// # Errors
+    ///
+    /// Where there is no room for them.
+    pub fn padding(&mut self, count: usize) -> Result<(), WriteError> {
+        self.room(count)?.fill(0);
+        Ok(())
+    }
+
+    /// Writes the low `width` bits of a number, 64 at most, the most significant first.
+    ///
+    /// # Errors
+    ///
+    /// Where there is no room for them.
+    pub fn number(&mut self, width: u32, number: u64) -> Result<(), WriteError> {
+        let mut left = width.min(64);
+        while left > 0 {
+            let used = (self.bits % 8) as u32;
+            let error = LengthError::new(self.data.len(), self.bits / 8 + 1);
+            let byte = self.data.get_mut(self.bits / 8).ok_or(error)?;
+            let count = left.min(8 - used);
+            let part = (number >> (left - count)) as u8 & (0xFF >> (8 - count));
+            let before = if used == 0 { 0 } else { *byte };
+            *byte = before | part << (8 - used - count);
+            self.bits += count as usize;
+            left -= count;
+        }
+        Ok(())
+    }
+
+    /// Writes a number in this order of bytes, of which the most significant one has number 0.
+    ///
+    /// # Errors
+    ///
+    /// Where there is no room for it.
+    pub fn ordered(&mut self, order: &[u8], number: u64) -> Result<(), WriteError> {
+        let last = order.len().saturating_sub(1);
+        let room = self.room(order.len())?;
+        for (to, &position) in room.iter_mut().zip(order) {
+            *to = number.checked_shr(8 * (last.saturating_sub(position.into()) as u32)).unwrap_or(0) as u8;
+        }
+        Ok(())
+    }
+
+    /// Writes a value, whose least significant byte comes first, in this order of bytes: see
+    /// [`Reader::value`](super::Reader::value).
+    ///
+    /// # Errors
+    ///
+    /// Where there is no room for it.
+    pub fn value(&mut self, order: &[u8], value: &[u8]) -> Result<(), WriteError> {
+        let room = self.room(value.len())?;
+        for (at, to) in room.iter_mut().enumerate() {
+            let significance = super::reader::significance(order, value.len(), at);
+            *to = value.get(significance).copied().unwrap_or(0);
+        }
+        Ok(())
+    }
+
+    /// Writes `count` bytes of the request, from `first` on.
+    ///
+    /// # Errors
+    ///
+    /// Where there is no room for them, or the request is shorter.
+    pub fn echo(&mut self, request: &[u8], first: usize, count: usize) -> Result<(), WriteError> {
+        let end = first.saturating_add(count);
+        self.bytes(request.get(first..end).ok_or(LengthError::new(end, request.len()))?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fields_follow_each_other() {
+        let mut data = [0xFF; 9];
+        let mut writer = Writer::new(&mut data);
+        writer.number(4, 0xA5).unwrap();
+        writer.number(3, 0b011).unwrap();
+        writer.number(1, 1).unwrap();
+        writer.ordered(&[2, 3, 0, 1], 0x0102_AB34).unwrap();
+        writer.value(&[2, 3, 0, 1], &[0xBE, 0xFD]).unwrap();
+        writer.echo(&[1, 2, 3], 1, 1).unwrap();
+        assert_eq!(writer.written(), [0x57, 0xAB, 0x34, 0x01, 0x02, 0xFD, 0xBE, 2]);
+        assert_eq!(writer.number(12, 1), Err(LengthError::new(9, 10).into()));
+    }
+
+    #[test]
+    fn nothing_is_written_beyond_the_room() {
+        let mut data = [0; 2];
+        let mut writer = Writer::new(&mut data);
+        assert_eq!(writer.bytes(&[1, 2, 3]), Err(LengthError::new(2, 3).into()));
+        assert!(writer.is_empty());
+        assert_eq!(writer.echo(&[1, 2], 1, 2), Err(LengthError::new(3, 2).into()));
+        assert_eq!(writer.padding(2), Ok(()));
+        assert_eq!(writer.written(), [0, 0]);
+    }
+
+    #[test]
+    fn limits() {
+        assert_eq!(check::<i16>(5, &Range::To(4)), Err(OutOfRange.into()));
+        assert_eq!(check::<i16>(4, &Range::To(4)), Ok(()));
+    }
+}
