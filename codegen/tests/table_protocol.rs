@@ -53,11 +53,15 @@ fn messages_have_typed_fields() {
     let definition = &device.types[id.0 as usize];
     assert!(matches!(&definition.shape, Shape::BitField { base: Type::Unsigned(4), fields } if fields.len() == 2));
     assert_eq!(own.reply[4], MessageField::Echo { field: "target".into(), bytes: Some((1, 3)) });
-    let polled = Completion::Polled { item: "status.done".into(), mask: None, value: Some(Value::Int(1)) };
+    let polled =
+        Completion::Polled { item: "status.done".into(), mask: None, value: Some(Value::Int(1)), in_reply: true };
     assert_eq!((&own.completion, own.error.as_deref()), (&polled, Some("Refused")));
     assert_eq!((own.accepted_in[0].as_str(), own.accepted_when[0].item.as_str()), ("stopped", "gain"));
-    assert_eq!(message("PollSpeed").after.as_deref(), Some("SelectSpeed"));
-    assert_eq!(message("Store").completion, Completion::Reply);
+    assert_eq!(own.reply[1], MessageField::FixedBits { bits: 4, value: 0 });
+    assert_eq!((message("PollSpeed").after.as_deref(), message("PollSpeed").by_default), (Some("SelectSpeed"), false));
+    assert!(message("PollPosition").by_default);
+    assert_eq!((&message("Store").completion, message("Store").reply_time), (&Completion::Reply, Some(100)));
+    assert_eq!(message("Refused").reply[4], MessageField::Copy { first: 3, last: 5 });
     assert_eq!(message("GetState").side_effects.len(), 1);
 }
 
@@ -74,6 +78,8 @@ fn parameters_are_carried_by_messages() {
     let gain = &device.groups[0].items[0];
     assert_eq!(gain.bindings[0], Binding::Parameter { space: "parameter".into(), code: 0x105 });
     let request = &device.messages.iter().find(|own| own.name == "WriteParameters").expect("a message").request;
+    let read = &device.messages.iter().find(|own| own.name == "ReadParameter").expect("a message").request;
+    assert_eq!(read[3], MessageField::ItemPadding { space: "parameter".into() });
     let MessageField::Repeat { count: None, fields, .. } = &request[2] else { panic!("{request:?}") };
     let space = || "parameter".into();
     assert_eq!(
@@ -91,7 +97,8 @@ fn parameters_are_carried_by_messages() {
 fn mistakes_in_messages() {
     let lines = "[[messages]]\nrequest = []\n\
                  [[messages]]\nname = \"A\"\nrequest = [{ field = \"x\", type = \"i32\", order = \"BA\" }, { bytes = [1], pad = 1 }]\n\
-                 reply = [{ echo = \"y\" }, { repeat = { count = \"n\", fields = [] } }, { code = \"q\" }]\n\
+                 reply = [{ echo = \"y\" }, { repeat = { count = \"n\", fields = [] } }, { code = \"q\" }, \
+                 { fixed = 16, type = \"u4\" }, { fixed = 1 }, { copy = \"5..3\" }, { zeros_for = \"p2\" }]\n\
                  completion = { poll = \"Sped\" }\naccepted_in = [\"stopped\"]\nerror = \"B\"\n\
                  [[messages]]\nname = \"A\"\ncompletion = \"soon\"\nreplaced_by = \"C\"\n\
                  [framing]\ncheck = \"crc17\"\ncheck_from = \"node\"\n";

@@ -16,8 +16,14 @@ pub struct Message {
     pub reply: Vec<MessageField>,
     /// When the order is carried out.
     pub completion: Completion,
+    /// About how many milliseconds the reply takes where it comes late, and where the source says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reply_time: Option<u32>,
     /// The message after which a device answers so: the meaning of the reply to one request depends on an earlier one.
     pub after: Option<CompactString>,
+    /// Whether the device answers so after power-on too, before any message of those that others name in `after`.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub by_default: bool,
     /// The message that comes instead of the reply where the device refuses.
     pub error: Option<CompactString>,
     /// What else it does.
@@ -55,6 +61,10 @@ pub enum Completion {
         mask: Option<u64>,
         /// The value that tells that the order is carried out; `None` = any but 0.
         value: Option<Value>,
+        /// Whether the reply to the order tells it already: as long as the order isn't carried out, the reply has another value
+        /// for certain. Else what it has may still be about the order before.
+        #[serde(default)]
+        in_reply: bool,
     },
     /// After so many milliseconds.
     Delayed(u32),
@@ -66,6 +76,13 @@ pub enum Completion {
 pub enum MessageField {
     /// Fixed bytes.
     Constant(Vec<u8>),
+    /// Fixed bits where there is no whole byte of them.
+    FixedBits {
+        /// How many.
+        bits: u8,
+        /// Their value.
+        value: u64,
+    },
     /// A typed value.
     Value(Box<MessageValue>),
     /// A copy of a field of the request, or of a part of it.
@@ -75,7 +92,15 @@ pub enum MessageField {
         /// First and last byte of the part, the first byte on the wire numbered 0; `None` = all.
         bytes: Option<(u8, u8)>,
     },
-    /// The code of an item, in the named space.
+    /// Bytes of the request, whatever they mean there: first and last, the first byte of the data numbered 0. Where a request
+    /// is shorter, nothing is known of those that it lacks.
+    Copy {
+        /// First byte.
+        first: u16,
+        /// Last byte.
+        last: u16,
+    },
+    /// The code of an item, in the named space. In a reply it is the first code of the request.
     ItemCode {
         /// The space.
         space: CompactString,
@@ -84,6 +109,11 @@ pub enum MessageField {
     },
     /// The value of the item whose code stands in front, in the named space.
     ItemValue {
+        /// The space.
+        space: CompactString,
+    },
+    /// Zeros, as many as the value of the item has whose code stands in front, in the named space.
+    ItemPadding {
         /// The space.
         space: CompactString,
     },

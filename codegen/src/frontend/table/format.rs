@@ -1045,6 +1045,10 @@ tables! {
         pub doc: Option<String>,
         /// Page or line of the manual.
         pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// A request and its reply.
@@ -1061,8 +1065,12 @@ tables! {
         pub accepted_in: Vec<At<String>>,
         /// Items that have to have one of these values.
         pub when: Option<Conditions>,
+        /// About how many milliseconds a reply takes that comes late.
+        pub reply_time: Option<u32>,
         /// The reply has this form after that message.
         pub after: Option<At<String>>,
+        /// The reply has this form after power-on, too.
+        pub default: bool,
         /// The message that comes where the device refuses.
         pub error: Option<At<String>>,
         /// What else it does.
@@ -1095,6 +1103,8 @@ tables! {
         pub mask: Option<u64>,
         /// The value that tells it; any but 0 where there is none.
         pub value: Option<Literal>,
+        /// The reply tells it already: as long as the order isn't carried out, it has another value for certain.
+        pub in_reply: bool,
         /// After so many milliseconds.
         pub delay: Option<u32>,
     }
@@ -1103,6 +1113,8 @@ tables! {
     pub struct FieldTable {
         /// Fixed bytes.
         pub bytes: Option<Vec<u8>>,
+        /// The only value of bits, as many as the `type` has, that fill no whole bytes.
+        pub fixed: Option<At<Literal>>,
         /// Name of a value.
         pub field: Option<At<String>>,
         /// Its type.
@@ -1134,10 +1146,14 @@ tables! {
         pub echo: Option<At<String>>,
         /// The bytes of the field that come back (`"1..3"`), the first on the wire being 0.
         pub part: Option<At<NumberOrText>>,
+        /// Bytes of the request (`"3..5"`), whatever they mean there, the first of its data being 0.
+        pub copy: Option<At<NumberOrText>>,
         /// The code of an item in this space, of this `type`.
         pub code: Option<At<String>>,
         /// The value of the item whose code stands in front, in this space.
         pub value_of: Option<At<String>>,
+        /// As many zeros as the value has of the item whose code stands in front, in this space.
+        pub zeros_for: Option<At<String>>,
         /// So many bytes without meaning.
         pub pad: Option<u8>,
         /// Fields that occur several times.

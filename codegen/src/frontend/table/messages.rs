@@ -1,7 +1,9 @@
 //! Messages of a command protocol, and how they are framed.
 
-use super::at::{At, FlagOr, TextOr};
-use super::format::{field_row, CompletionTable, FieldTable, FramingTable, MessageTable, Row, SpaceTable};
+use super::at::{At, FlagOr, Literal, TextOr};
+use super::format::{
+    field_row, CompletionTable, FieldTable, FramingTable, MessageTable, NumberOrText, Row, SpaceTable,
+};
 use super::references::{References, ITEM_OR_FIELD};
 use super::rows::{Named, Rows};
 use super::tree::{cited, Reader};
@@ -9,7 +11,7 @@ use super::{place, types, value};
 use crate::diagnostics::codes;
 use crate::ir::{
     Access, Availability, Binding, CompactString, Completion, Device, Framing, Item, Message, MessageField,
-    MessageValue, ParameterSpace, Type,
+    MessageValue, ParameterSpace, Type, Value,
 };
 use crate::text::brief;
 
@@ -27,6 +29,8 @@ fn text(at: &At<String>) -> CompactString {
 /// How frames are delimited and checked.
 pub(super) fn framing(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, device: &mut Device) {
     let own = &table.value;
+    let (origin, cite) = (reader.origin(table), own.cite.as_ref().map(cited));
+    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
     device.framing = Some(Box::new(Framing {
         start: own.start,
         end: own.end,
@@ -38,7 +42,7 @@ pub(super) fn framing(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, dev
         check_escaped: own.check_escaped.unwrap_or(own.escape.is_some()),
         check_seed: own.seed,
         max_data: own.max_data,
-        documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
+        documentation: reader.documentation(own.doc.as_deref(), cite),
     }));
     if let Some(field) = &own.check_from {
         let first = |message: &Message| field_names(&message.request).any(|name| *name == field.value);
@@ -99,7 +103,9 @@ pub(super) fn message(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<M
         request,
         reply,
         completion,
+        reply_time: own.reply_time,
         after: own.after.as_ref().map(text),
+        by_default: own.default,
         error: own.error.as_ref().map(text),
         side_effects: effects.map(|effect| effect.as_str().into()).collect(),
         accepted_when: own.when.as_ref().map(|when| rows.definitions.conditions(reader, when)).unwrap_or_default(),
@@ -152,14 +158,17 @@ fn completion(
                     rows.references.push((name, ITEM_OR_FIELD));
                 }
                 let value = table.value.as_ref().and_then(|own| value::convert(own, Type::Opaque(None), false));
-                Some(Completion::Polled { item: text(item), mask: table.mask, value })
+                Some(Completion::Polled { item: text(item), mask: table.mask, value, in_reply: table.in_reply })
             }
-            (None, Some(delay)) if table.mask.is_none() && table.value.is_none() => Some(Completion::Delayed(delay)),
+            (None, Some(delay)) if table.mask.is_none() && table.value.is_none() && !table.in_reply => {
+                Some(Completion::Delayed(delay))
+            }
             _ => None,
         },
     };
     if found.is_none() {
-        let message = "`completion` is `\"immediate\"`, `\"reply\"`, `{ poll = \"item\" }` (and `mask`, `value`) or \
+        let message =
+            "`completion` is `\"immediate\"`, `\"reply\"`, `{ poll = \"item\" }` (and `mask`, `value`, `in_reply`) or \
                        `{ delay = 100 }`";
         reader.report(&codes::TABLE_VALUE, reader.span(given), message);
     }
@@ -200,16 +209,21 @@ impl Fields<'_, '_, '_> {
         let kinds = [
             own.field.is_some(),
             own.bytes.is_some(),
+            own.fixed.is_some(),
             own.echo.is_some(),
+            own.copy.is_some(),
             own.code.is_some(),
             own.value_of.is_some(),
+            own.zeros_for.is_some(),
             own.pad.is_some(),
             own.repeat.is_some(),
             own.rest,
         ];
         let is_one = kinds.iter().filter(|is_given| **is_given).count() == 1;
         if !is_one || (own.repeat.is_some() && depth >= MAX_DEPTH) {
-            let message = "a field is one of `field`, `bytes`, `echo`, `code`, `value_of`, `pad`, `repeat`, `rest`";
+            let message =
+                "a field is one of `field`, `bytes`, `fixed`, `echo`, `copy`, `code`, `value_of`, `zeros_for`, `pad`, \
+                           `repeat`, `rest`";
             self.reader.report(&codes::TABLE_VALUE, self.reader.span(field), message);
             return None;
         }
@@ -219,6 +233,12 @@ impl Fields<'_, '_, '_> {
         if let Some(echo) = &own.echo {
             return Some(self.echo(echo, field));
         }
+        if let Some(fixed) = &own.fixed {
+            return self.fixed(fixed, field);
+        }
+        if let Some(copy) = &own.copy {
+            return self.bytes(copy).map(|(first, last)| MessageField::Copy { first, last });
+        }
         if let Some(space) = &own.code {
             self.space(space);
             return Some(MessageField::ItemCode { space: text(space), bits: self.code_bits(field) });
@@ -226,6 +246,10 @@ impl Fields<'_, '_, '_> {
         if let Some(space) = &own.value_of {
             self.space(space);
             return Some(MessageField::ItemValue { space: text(space) });
+        }
+        if let Some(space) = &own.zeros_for {
+            self.space(space);
+            return Some(MessageField::ItemPadding { space: text(space) });
         }
         if let Some(repeat) = &own.repeat {
             if let Some(count) = repeat.count.as_ref().filter(|count| !before.iter().any(|own| *own == count.value)) {
@@ -244,17 +268,34 @@ impl Fields<'_, '_, '_> {
             let known = self.request.iter().map(CompactString::as_str);
             self.reader.unresolved("field of the request", &echo.value, self.reader.span(echo), known);
         }
-        let bytes = field.value.part.as_ref().and_then(|part| {
-            let range = place::range(&super::tree::number_or_text(&part.value));
-            let found = range.and_then(|(first, last)| Some((u8::try_from(first).ok()?, u8::try_from(last).ok()?)));
-            let found = found.filter(|(first, last)| first <= last);
-            if found.is_none() {
-                let message = "bytes of the field, the first on the wire being 0: write `\"1..3\"`";
-                self.reader.report(&codes::TABLE_PLACE, self.reader.span(part), message);
-            }
-            found
-        });
+        let bytes = field.value.part.as_ref().and_then(|part| self.bytes(part));
         MessageField::Echo { field: text(echo), bytes }
+    }
+
+    /// First and last of some bytes.
+    fn bytes<T: TryFrom<i128> + PartialOrd>(&mut self, given: &At<NumberOrText>) -> Option<(T, T)> {
+        let range = place::range(&super::tree::number_or_text(&given.value));
+        let found = range.and_then(|(first, last)| Some((T::try_from(first).ok()?, T::try_from(last).ok()?)));
+        let found = found.filter(|(first, last)| first <= last);
+        if found.is_none() {
+            let message = "a range of bytes, the first on the wire being 0: write `\"1..3\"`";
+            self.reader.report(&codes::TABLE_PLACE, self.reader.span(given), message);
+        }
+        found
+    }
+
+    /// Fixed bits: an integer of less than 64 bits, and a value that it can have.
+    fn fixed(&mut self, fixed: &At<Literal>, field: &At<FieldTable>) -> Option<MessageField> {
+        let ty = field.value.ty.as_ref().and_then(|ty| types::named(&ty.value)).map(|named| named.ty);
+        let Some(ty @ Type::Unsigned(bits @ 1..=63)) = ty else {
+            let message = "fixed bits have a `type` such as `u4`; whole bytes are `bytes = [0x00]`";
+            self.reader.report(&codes::TABLE_VALUE, self.reader.span(field), message);
+            return None;
+        };
+        match value::value(self.reader, fixed, ty) {
+            Value::Int(value) => Some(MessageField::FixedBits { bits, value: u64::try_from(value).unwrap_or(0) }),
+            _ => None,
+        }
     }
 
     fn space(&mut self, name: &At<String>) {
