@@ -3,7 +3,7 @@
 use crate::bus::{Parameter, Serial};
 use crate::client::{AsyncClient, Client};
 use crate::error::{Error, LengthError};
-use crate::message::{AsyncMessageClient, Failure, Message, MessageClient, Reader, Station, WriteError, Writer};
+use crate::message::{answer, AsyncMessageClient, Failure, Message, MessageClient, Station, WriteError, Writer};
 
 /// Sends a request to one device and waits for its reply, for protocols of messages.
 ///
@@ -200,15 +200,6 @@ impl<X, M, const N: usize> Parameters<X, M, N> {
 /// The part of `buffer` that was filled.
 fn filled(buffer: &[u8], length: usize) -> Result<&[u8], LengthError> {
     buffer.get(..length).ok_or(LengthError::new(buffer.len(), length))
-}
-
-/// The reply to `request`, or the device's refusal.
-fn answer<'r, E, M: Message>(request: &[u8], reply: &'r [u8]) -> Result<M::Reply<'r>, Failure<E, M::Refusal>> {
-    match (M::read(request, &mut Reader::new(reply)), M::refusal(request, &mut Reader::new(reply))) {
-        (Some(reply), _) => Ok(reply),
-        (None, Some(refusal)) => Err(Failure::Refused(refusal)),
-        (None, None) => Err(Failure::Error(Error::UnexpectedReply)),
-    }
 }
 
 impl<X: Exchange, M: ParameterMessages, const N: usize> Client for Parameters<X, M, N> {

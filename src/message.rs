@@ -6,17 +6,12 @@
 //! one by one.
 //!
 //! ```
-//! use lexibus::message::{Completion, Message, Reader, WriteError, Writer};
+//! use lexibus::message::{Completion, Message, Reader, Reply, WriteError, Writer};
 //!
 //! // What the compiler emits for a request `node 0x40 speed` that is answered by `node 0x40 status`:
 //! #[derive(Debug, PartialEq)]
 //! struct Jog {
 //!     speed: i16,
-//! }
-//!
-//! #[derive(Debug, PartialEq)]
-//! struct JogReply {
-//!     status: u8,
 //! }
 //!
 //! impl Message for Jog {
@@ -30,15 +25,24 @@
 //!         to.bytes(&[0x40])?;
 //!         to.number(16, self.speed as u16 as u64)
 //!     }
+//! }
 //!
-//!     fn read<'r>(request: &[u8], from: &mut Reader<'r>) -> Option<JogReply> {
+//! #[derive(Debug, PartialEq)]
+//! struct JogReply {
+//!     status: u8,
+//! }
+//!
+//! impl Reply<'_> for JogReply {
+//!     fn read(request: &[u8], from: &mut Reader<'_>) -> Option<Self> {
 //!         from.echo(request, 0, 2)?;
 //!         let status = from.number(8)? as u8;
+//!         from.end()?;
 //!         Some(JogReply { status })
 //!     }
 //!
-//!     fn refusal(_: &[u8], _: &mut Reader<'_>) -> Option<Self::Refusal> {
-//!         None
+//!     fn write(&self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError> {
+//!         to.echo(request, 0, 2)?;
+//!         to.number(8, self.status.into())
 //!     }
 //! }
 //!
@@ -46,29 +50,37 @@
 //! let mut request = Writer::new(&mut data);
 //! Jog { speed: -578 }.write(5, &mut request)?;
 //! assert_eq!(request.written(), [0x05, 0x40, 0xFD, 0xBE]);
-//! assert_eq!(Jog::read(request.written(), &mut Reader::new(&[0x05, 0x40, 0x02])), Some(JogReply { status: 2 }));
+//! let reply = JogReply::read(request.written(), &mut Reader::new(&[0x05, 0x40, 0x02]));
+//! assert_eq!(reply, Some(JogReply { status: 2 }));
 //! # Ok::<(), WriteError>(())
 //! ```
 
 mod call;
 mod list;
 mod reader;
+mod scale;
 mod setting;
 mod writer;
 
+use core::convert::Infallible;
+
+use crate::error::Error;
+
+pub(crate) use call::answer;
 pub use call::{AsyncMessageClient, Call, Failure, MessageClient, Station};
 pub use list::{Group, List, ListIter, Settings, SettingsIter, SettingsRule};
 pub use reader::Reader;
+pub use scale::Scale;
 pub use setting::Setting;
 pub use writer::{check, WriteError, Writer};
 
-/// A request, and how what is answered to it is read.
+/// A request.
 pub trait Message {
-    /// What the device answers.
-    type Reply<'r>;
+    /// What the device answers. The bytes as they come, where its description doesn't say.
+    type Reply<'r>: Reply<'r>;
 
-    /// What the device answers instead where it refuses; [`Infallible`](core::convert::Infallible) where it has no such answer.
-    type Refusal;
+    /// What the device answers instead where it refuses; [`Infallible`] where it has no such answer.
+    type Refusal: for<'r> Reply<'r>;
 
     /// The name of the request, as the device's description has it.
     const NAME: &'static str;
@@ -82,30 +94,58 @@ pub trait Message {
     ///
     /// Where a field is outside its limits, or the data don't fit.
     fn write(&self, station: u32, to: &mut Writer<'_>) -> Result<(), WriteError>;
-
-    /// The reply to a request; `None` where the data are something else. The device's echo of the request is held against what
-    /// was sent.
-    fn read<'r>(request: &[u8], from: &mut Reader<'r>) -> Option<Self::Reply<'r>>;
-
-    /// The refusal of a request; `None` where the data are something else.
-    fn refusal(request: &[u8], from: &mut Reader<'_>) -> Option<Self::Refusal>;
 }
 
-/// The device's side of messages, for simulators and tests: a request that is read, in the shape in which it is sent.
+/// What is answered to a [`Message`]. A program reads it; a simulated device writes it.
+pub trait Reply<'r>: Sized {
+    /// The reply to a request, with all of its data; `None` where the data are something else. What comes back of the request is
+    /// held against what was sent.
+    fn read(request: &[u8], from: &mut Reader<'r>) -> Option<Self>;
+
+    /// Writes the data of the reply to a request.
+    ///
+    /// # Errors
+    ///
+    /// Where a field is outside its limits, the data don't fit, or the request is shorter than what comes back of it.
+    fn write(&self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError>;
+}
+
+/// Never: what a device answers that can't refuse.
+impl Reply<'_> for Infallible {
+    fn read(_: &[u8], _: &mut Reader<'_>) -> Option<Self> {
+        None
+    }
+
+    fn write(&self, _: &[u8], _: &mut Writer<'_>) -> Result<(), WriteError> {
+        match *self {}
+    }
+}
+
+/// Any bytes.
+impl<'r> Reply<'r> for &'r [u8] {
+    fn read(_: &[u8], from: &mut Reader<'r>) -> Option<Self> {
+        from.but(0)
+    }
+
+    fn write(&self, _: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError> {
+        to.bytes(self)
+    }
+}
+
+/// The device's side of a [`Message`], for simulators and tests: a request that is read.
 pub trait Request<'r>: Message + Sized {
     /// The number of the device that is meant, and the request; `None` where the data are another one. A protocol without
     /// numbers of devices has 0.
     fn parse(from: &mut Reader<'r>) -> Option<(u32, Self)>;
 }
 
-/// The device's side of messages, for simulators and tests: a reply that is written, in the shape in which it is read.
-pub trait Reply {
-    /// Writes the data of the reply to this request.
-    ///
-    /// # Errors
-    ///
-    /// Where the data don't fit, or the request is too short to be echoed.
-    fn write(&self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError>;
+/// The reply to a request, which is `M`.
+///
+/// # Errors
+///
+/// [`Error::Refused`] where the device refuses, [`Error::UnexpectedReply`] where the data are something else.
+pub fn read<'r, M: Message, E>(request: &[u8], reply: &'r [u8]) -> Result<M::Reply<'r>, Error<E>> {
+    answer::<E, M>(request, reply).map_err(Failure::into_error)
 }
 
 /// When an order is carried out.

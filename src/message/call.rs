@@ -3,7 +3,7 @@
 use core::error;
 use core::fmt;
 
-use super::{Message, Selector};
+use super::{Message, Reader, Reply, Selector};
 use crate::error::Error;
 
 /// The number of the device that messages are for.
@@ -95,6 +95,20 @@ impl<E: error::Error, R: fmt::Debug> error::Error for Failure<E, R> {
             Self::Refused(_) => None,
             Self::Error(error) => error.source(),
         }
+    }
+}
+
+/// The reply to `request`, or the device's refusal.
+pub(crate) fn answer<'r, E, M: Message>(
+    request: &[u8],
+    reply: &'r [u8],
+) -> Result<M::Reply<'r>, Failure<E, M::Refusal>> {
+    if let Some(reply) = M::Reply::read(request, &mut Reader::new(reply)) {
+        return Ok(reply);
+    }
+    match M::Refusal::read(request, &mut Reader::new(reply)) {
+        Some(refusal) => Err(Failure::Refused(refusal)),
+        None => Err(Failure::Error(Error::UnexpectedReply)),
     }
 }
 

@@ -4,6 +4,7 @@ use core::iter::FusedIterator;
 
 use super::{Reader, Setting, WriteError, Writer};
 use crate::bus::Parameter;
+use crate::error::{Error, LengthError, OutOfRange};
 
 /// Fields that occur several times: one occurrence.
 pub trait Group: Copy {
@@ -149,28 +150,97 @@ pub struct SettingsRule {
     pub code_bits: u32,
     /// Order of the bytes of values: see [`Reader::value`].
     pub order: &'static [u8],
-    /// The length of a parameter's value in bytes; `None` where there is no such parameter.
-    pub length: fn(Parameter) -> Option<usize>,
+    /// The parameters, in ascending order: first and last number, and how many bytes the value of each has.
+    pub lengths: &'static [(u32, u32, u8)],
 }
 
 impl SettingsRule {
+    /// The length of a parameter's value in bytes; `None` where there is no such parameter.
+    #[must_use]
+    pub fn length(&self, parameter: Parameter) -> Option<usize> {
+        let behind = self.lengths.partition_point(|(first, ..)| *first <= parameter.0);
+        let (_, last, length) = self.lengths.get(behind.checked_sub(1)?)?;
+        (parameter.0 <= *last).then_some((*length).into())
+    }
+
+    /// Writes a parameter's number.
+    ///
+    /// # Errors
+    ///
+    /// Where it has more bits, or there is no room for it.
+    pub fn write_code(&self, parameter: Parameter, to: &mut Writer<'_>) -> Result<(), WriteError> {
+        match self.code_bits < 32 && parameter.0 >> self.code_bits != 0 {
+            true => Err(OutOfRange.into()),
+            false => to.number(self.code_bits, parameter.0.into()),
+        }
+    }
+
+    /// Reads a parameter's number; `None` where the data are something else.
+    pub fn read_code(&self, from: &mut Reader<'_>) -> Option<Parameter> {
+        from.number(self.code_bits)?.try_into().ok().map(Parameter)
+    }
+
     /// Writes a parameter and its value.
     ///
     /// # Errors
     ///
-    /// Where there is no room for them.
+    /// Where the number has more bits, or there is no room.
     pub fn write(&self, setting: &Setting, to: &mut Writer<'_>) -> Result<(), WriteError> {
-        to.number(self.code_bits, setting.parameter.0.into())?;
+        self.write_code(setting.parameter, to)?;
         to.value(self.order, setting.value())
     }
 
-    /// Reads a parameter and its value; `None` where the data are something else.
-    #[must_use]
+    /// Reads a parameter and its value; `None` where the data are something else, or there is no such parameter.
     pub fn read(&self, from: &mut Reader<'_>) -> Option<Setting> {
-        let parameter = Parameter(from.number(self.code_bits)?.try_into().ok()?);
-        let length = (self.length)(parameter)?;
+        let parameter = self.read_code(from)?;
+        let length = self.length(parameter)?;
         Some(Setting::new(parameter, from.value(self.order, length)?, length))
     }
+
+    /// Reads a parameter and its value, which is all up to the last `tail` bytes.
+    pub fn read_to(&self, from: &mut Reader<'_>, tail: usize) -> Option<Setting> {
+        let parameter = self.read_code(from)?;
+        let length = from.left().checked_sub(tail)?;
+        Some(Setting::new(parameter, from.value(self.order, length)?, length))
+    }
+
+    /// Writes a parameter's number, and zeros in place of its value.
+    ///
+    /// # Errors
+    ///
+    /// [`WriteError::NoMessage`] where there is no such parameter; where there is no room.
+    pub fn write_blank(&self, parameter: Parameter, to: &mut Writer<'_>) -> Result<(), WriteError> {
+        let length = self.length(parameter).ok_or(WriteError::NoMessage)?;
+        self.write_code(parameter, to)?;
+        to.padding(length)
+    }
+
+    /// Reads a parameter's number, and what stands in place of its value.
+    pub fn read_blank(&self, from: &mut Reader<'_>) -> Option<Parameter> {
+        let parameter = self.read_code(from)?;
+        from.skip(self.length(parameter)?)?;
+        Some(parameter)
+    }
+
+    /// Copies a value that a message carries alone.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] where it has another length than `value`.
+    pub fn copy<E>(&self, bytes: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
+        let own =
+            Reader::new(bytes).value(self.order, bytes.len()).ok_or(LengthError::new(value.len(), bytes.len()))?;
+        copy(own.get(..bytes.len()).unwrap_or_default(), value)
+    }
+}
+
+/// Copies a value of the same length.
+pub(super) fn copy<E>(own: &[u8], value: &mut [u8]) -> Result<usize, Error<E>> {
+    if own.len() != value.len() {
+        return Err(LengthError::new(value.len(), own.len()).into());
+    }
+    value.copy_from_slice(own);
+    Ok(own.len())
 }
 
 impl<'a> Settings<'a> {
@@ -269,15 +339,8 @@ mod tests {
         }
     }
 
-    const RULE: SettingsRule = SettingsRule {
-        code_bits: 16,
-        order: &[2, 3, 0, 1],
-        length: |parameter| match parameter.0 {
-            0x105 => Some(2),
-            0x10C => Some(4),
-            _ => None,
-        },
-    };
+    const RULE: SettingsRule =
+        SettingsRule { code_bits: 16, order: &[2, 3, 0, 1], lengths: &[(0x105, 0x105, 2), (0x10C, 0x10D, 4)] };
 
     #[test]
     fn lists_are_the_same_sent_and_received() {
@@ -305,5 +368,7 @@ mod tests {
         assert_eq!(received.iter().collect::<Vec<_>>(), settings);
         assert_eq!(Settings::received(&expected[..9], RULE), None);
         assert_eq!(Settings::received(&[1, 6, 0, 0], RULE), None);
+        let lengths = [0x104, 0x105, 0x106, 0x10D, 0x10E].map(|number| RULE.length(Parameter(number)));
+        assert_eq!(lengths, [None, Some(2), None, Some(4), None]);
     }
 }

@@ -56,6 +56,17 @@ impl<'r> Reader<'r> {
         self.constant(request.get(first..first.checked_add(count)?)?)
     }
 
+    /// Reads bytes that have to be those of the request from `first` on, as far as it has them.
+    pub fn copy(&mut self, request: &[u8], first: usize, count: usize) -> Option<()> {
+        let expected = request.get(first..).unwrap_or_default();
+        self.bytes(count)?.iter().zip(expected).all(|(own, expected)| own == expected).then_some(())
+    }
+
+    /// Reads bits that have to be these.
+    pub fn fixed(&mut self, width: u32, expected: u64) -> Option<()> {
+        (self.number(width)? == expected).then_some(())
+    }
+
     /// Reads a number of `width` bits, 64 at most, the most significant first.
     pub fn number(&mut self, width: u32) -> Option<u64> {
         let (mut left, mut number) = (width.min(64), 0_u64);
@@ -130,6 +141,13 @@ mod tests {
         assert_eq!(of(&[3, 2, 1, 0], 2)[..2], [0, 1]);
         assert_eq!(of(&[], 4), [3, 2, 1, 0]);
         assert_eq!(of(&[1, 0], 4), [3, 2, 1, 0]);
+    }
+
+    #[test]
+    fn copies_of_the_request() {
+        let mut reader = Reader::new(&[3, 9, 0x2F]);
+        assert_eq!((reader.copy(&[1, 2, 3], 2, 2), reader.fixed(4, 2), reader.fixed(4, 3)), (Some(()), Some(()), None));
+        assert_eq!(Reader::new(&[4]).copy(&[1, 2, 3], 2, 1), None);
     }
 
     #[test]

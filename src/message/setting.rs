@@ -2,7 +2,7 @@
 
 use crate::access::Writable;
 use crate::bus::{Parameter, Serial};
-use crate::error::OutOfRange;
+use crate::error::{Error, OutOfRange};
 use crate::item::Item;
 use crate::location::On;
 use crate::value::Fixed;
@@ -40,12 +40,6 @@ impl Setting {
         Self { parameter, value: own, length: length as u8 }
     }
 
-    /// A value of zeros, for messages that keep its place in a request that reads.
-    #[must_use]
-    pub fn blank(parameter: Parameter, length: usize) -> Self {
-        Self::new(parameter, [0; 8], length)
-    }
-
     /// The value of these bytes; `None` for more than 8.
     #[must_use]
     pub fn of(parameter: Parameter, bytes: &[u8]) -> Option<Self> {
@@ -78,6 +72,18 @@ impl<V: Fixed, A: Writable, L: On<Serial>> Item<V, A, L> {
 }
 
 impl Setting {
+    /// Copies the value of a parameter, for a client.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::UnexpectedReply`] where it is another parameter's, [`Error::Length`] where it has another length than `value`.
+    pub fn copy<E>(&self, parameter: Parameter, value: &mut [u8]) -> Result<usize, Error<E>> {
+        match self.parameter == parameter {
+            true => super::list::copy(self.value(), value),
+            false => Err(Error::UnexpectedReply),
+        }
+    }
+
     /// The value as that of `item`; `None` where it is another parameter's, or has another length.
     #[must_use]
     pub fn value_of<V: Fixed, A, L: On<Serial>>(&self, item: &Item<V, A, L>) -> Option<V::Native> {

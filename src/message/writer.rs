@@ -187,6 +187,17 @@ impl<'b> Writer<'b> {
         let end = first.saturating_add(count);
         self.bytes(request.get(first..end).ok_or(LengthError::new(end, request.len()))?)
     }
+
+    /// Writes `count` bytes of the request, from `first` on, and 0 for those that it lacks.
+    ///
+    /// # Errors
+    ///
+    /// Where there is no room for them.
+    pub fn copy(&mut self, request: &[u8], first: usize, count: usize) -> Result<(), WriteError> {
+        let own = request.get(first..).unwrap_or_default();
+        self.room(count)?.iter_mut().zip(own.iter().chain(core::iter::repeat(&0))).for_each(|(to, from)| *to = *from);
+        Ok(())
+    }
 }
 
 #[cfg(test)]
@@ -195,7 +206,7 @@ mod tests {
 
     #[test]
     fn fields_follow_each_other() {
-        let mut data = [0xFF; 9];
+        let mut data = [0xFF; 11];
         let mut writer = Writer::new(&mut data);
         writer.number(4, 0xA5).unwrap();
         writer.number(3, 0b011).unwrap();
@@ -203,8 +214,9 @@ mod tests {
         writer.ordered(&[2, 3, 0, 1], 0x0102_AB34).unwrap();
         writer.value(&[2, 3, 0, 1], &[0xBE, 0xFD]).unwrap();
         writer.echo(&[1, 2, 3], 1, 1).unwrap();
-        assert_eq!(writer.written(), [0x57, 0xAB, 0x34, 0x01, 0x02, 0xFD, 0xBE, 2]);
-        assert_eq!(writer.number(12, 1), Err(LengthError::new(9, 10).into()));
+        writer.copy(&[1, 2, 3], 2, 2).unwrap();
+        assert_eq!(writer.written(), [0x57, 0xAB, 0x34, 0x01, 0x02, 0xFD, 0xBE, 2, 3, 0]);
+        assert_eq!(writer.number(12, 1), Err(LengthError::new(11, 12).into()));
     }
 
     #[test]

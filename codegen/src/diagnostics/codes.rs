@@ -831,6 +831,11 @@ codes! {
         "two items share registers, or bits of one"
         "One of the two has the wrong number, or a type that is too long. Where the device shows a part of a value in registers \
          of its own, say so: `part`, or `same_as` and this code in `allow`."
+    MSG010 MESSAGE_UNSHAPED "message-unshaped" Lint Warn
+        "no code is generated for a message"
+        "Its fields can't be written and read one after the other: a part of a byte is left over, two parts are as long as the data \
+        are, or something comes back from a place of the request that depends on what is in front of it. The documentation of \
+        the format says what messages are made of."
     MOD001 MODULE_INDEX_CLASH "module-index-clash" Lint Warn
         "a module's fixed object exists in the device already"
         "The fixed objects of a module get an index of their own; the device describes this one itself, so that one \

@@ -44,6 +44,23 @@ pub struct Message {
     pub origin: Origin,
 }
 
+impl Message {
+    /// The values of request and reply, those of repeated fields too.
+    pub fn values(&self) -> impl Iterator<Item = &MessageValue> {
+        values(&self.request).chain(values(&self.reply))
+    }
+}
+
+fn values(fields: &[MessageField]) -> Box<dyn Iterator<Item = &MessageValue> + '_> {
+    Box::new(fields.iter().flat_map(|field| -> Box<dyn Iterator<Item = &MessageValue>> {
+        match field {
+            MessageField::Value(value) => Box::new(std::iter::once(value.as_ref())),
+            MessageField::Repeat { fields, .. } => values(fields),
+            _ => Box::new(std::iter::empty()),
+        }
+    }))
+}
+
 /// When an order is carried out.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -183,6 +200,9 @@ pub struct Framing {
     pub check_seed: u32,
     /// Greatest number of data bytes, without start, end, escapes and check.
     pub max_data: Option<u16>,
+    /// The field of requests that holds the number of the device for which they are; `None` = devices have no numbers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub address: Option<CompactString>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
 }

@@ -18,6 +18,7 @@ mod limits_named;
 mod mapped_objects_exist;
 mod mapping_steps_checked;
 mod mentioned_objects_exist;
+pub(crate) mod messages_shaped;
 mod modules_fit;
 mod names_in_texts_exist;
 mod names_tell_apart;
@@ -78,6 +79,7 @@ fn device(device: &mut Device, modules: &[Module], format: Option<Format>, diagn
     values_named_once::codes(device.code_tables.iter(), diagnostics);
     facts(device, is_table, diagnostics);
     if is_table {
+        messages_shaped::run(device, diagnostics);
         mentioned_objects_exist::run(device, diagnostics);
         names_in_texts_exist::run(device, diagnostics);
     }

@@ -8,6 +8,7 @@ use super::code_table::{self, CodeTableModel};
 use super::docs;
 use super::ethercat::{self, EtherCatModel, ModulePaths};
 use super::literal;
+use super::messages::ProtocolModel;
 use super::named::Types;
 use super::options::{Presence, RustOptions};
 use super::pdo::{self, PdoModel};
@@ -52,6 +53,8 @@ pub(super) struct Model<'a> {
     pub types: Types,
     pub code_tables: Vec<CodeTableModel>,
     pub axes: Option<AxesModel>,
+    /// Requests and replies.
+    pub protocol: Option<ProtocolModel>,
     pub node_id: Option<u8>,
     /// What is known of Modbus and of numbers of nodes.
     pub bus_facts: Vec<FactModel>,
@@ -198,16 +201,19 @@ impl<'a> Model<'a> {
     /// A device.
     pub(super) fn new(device: &'a Device, file: &'a FileInfo, options: &'a RustOptions, place: &Place) -> Self {
         let (scope, types) = Scope::of_device(device, options);
-        let mut model = Model::of_scope(scope, types, options);
+        let (mut model, protocol) = Model::of_scope(scope, types, options);
         let title = title(device);
         model.nest = place.nest;
         model.device_name = device_name(device, file, options.device_name.as_deref());
         model.title = docs::escape(&title);
         model.identity = (!device.dictionary_only).then(|| IdentityModel::new(device));
-        model.has_accessors = options.accessors && !model.objects.is_empty() && has_object_access(device);
+        let has_calls = protocol.as_ref().is_some_and(|own| !own.calls.is_empty());
+        model.has_accessors =
+            options.accessors && (!model.objects.is_empty() && has_object_access(device) || has_calls);
         model.ethercat = EtherCatModel::new(device, &model.pdos, &place.modules, place.nest);
         model.code_tables = code_table::models(&device.code_tables, options);
         model.axes = axes::model(device, place.nest);
+        model.protocol = protocol;
         model.bus_facts = bus_facts::models(device, place.nest);
         model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);
         model
@@ -216,20 +222,24 @@ impl<'a> Model<'a> {
     /// A module of a modular device.
     pub(super) fn of_module(module: &'a Module, options: &'a RustOptions, nest: usize) -> Self {
         let (scope, types) = Scope::of_module(module, options);
-        let mut model = Model::of_scope(scope, types, options);
+        let (mut model, _) = Model::of_scope(scope, types, options);
         model.title = docs::escape(&module.name);
         model.module = Some(ethercat::module(module, &model.pdos, nest));
         model
     }
 
-    fn of_scope(scope: Scope<'a>, types: Types, options: &'a RustOptions) -> Self {
+    /// What a scope has, and the protocol of one that is a device.
+    fn of_scope(scope: Scope<'a>, types: Types, options: &'a RustOptions) -> (Self, Option<ProtocolModel>) {
         let locations = Locations::of(&scope);
         let mut objects = objects(&scope, &locations);
         let aliases = ALIASES.iter().filter(|alias| uses(&objects, alias.name)).copied().collect();
         let handle_types = handle_types(&objects);
         let pdos = if options.pdos { pdo::models(&scope, options) } else { Vec::new() };
         let remappable = if options.pdos { remap::models(&scope, &mut objects) } else { Vec::new() };
-        Model {
+        let taken = objects.iter().map(|object| object.name.trim_start_matches("r#"));
+        let taken: Vec<&str> = taken.chain(RESERVED).chain(["messages", "on", "after_power_on"]).collect();
+        let protocol = ProtocolModel::new(&scope, options, &taken);
+        let model = Model {
             handle_types,
             options,
             interface_version: INTERFACE_VERSION,
@@ -244,6 +254,7 @@ impl<'a> Model<'a> {
             types,
             code_tables: Vec::new(),
             axes: None,
+            protocol: None,
             node_id: None,
             bus_facts: Vec::new(),
             accessor_derives: options.derives(false),
@@ -260,7 +271,13 @@ impl<'a> Model<'a> {
             },
             objects,
             aliases,
-        }
+        };
+        (model, protocol)
+    }
+
+    /// Whether the type of the device knows which request was sent last.
+    pub(super) fn selects(&self) -> bool {
+        self.protocol.as_ref().is_some_and(ProtocolModel::selects)
     }
 
     pub(super) fn size_hint(&self) -> usize {

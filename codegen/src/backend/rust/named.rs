@@ -8,7 +8,7 @@ use super::machine::{self, MachineModel};
 use super::options::RustOptions;
 use super::scope::Scope;
 use super::value_type::ValueType;
-use crate::ir::{BitMeaning, Shape, StateMachine, Type, TypeDef};
+use crate::ir::{BitMeaning, Message, Shape, StateMachine, Type, TypeDef};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// The types of a device or module, ready to be written.
@@ -142,7 +142,8 @@ fn used(scope: &Scope<'_>) -> (Vec<u32>, Vec<u32>, HashSet<u32>) {
     let entries = scope.pdos.iter().flat_map(|pdo| &pdo.entries).map(|entry| entry.ty);
     let mut seen = HashSet::new();
     let (mut enumerations, mut bit_fields, mut in_fields) = (Vec::new(), Vec::new(), HashSet::new());
-    for ty in items.chain(entries) {
+    let fields = scope.device.into_iter().flat_map(|device| device.messages.iter().flat_map(Message::values));
+    for ty in items.chain(entries).chain(fields.map(|value| value.item.ty)) {
         let Some((position, definition)) = scope.resolve(ty).1 else { continue };
         if !seen.insert(position) {
             continue;

@@ -4,12 +4,12 @@ use std::collections::HashSet;
 
 use super::docs;
 use super::ethercat::{beside, depends_on};
+use super::field_type::{field_type, FieldType};
 use super::layout;
 use super::model::addressable;
-use super::named::NamedType;
 use super::options::RustOptions;
 use super::scope::{ObjectBus, Scope};
-use crate::ir::{Direction, Group, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Type, Value};
+use crate::ir::{Direction, Group, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// The longest name of a field: the lines that pack it have to stay below the margin.
@@ -236,119 +236,13 @@ fn field_text(scope: &Scope<'_>, entry: &PdoEntry) -> String {
     }
 }
 
-/// How the bits of an entry are written in Rust.
-pub(super) enum FieldType {
-    Bool,
-    /// An integer of Rust's own.
-    Native(&'static str),
-    /// An integer of another width.
-    Odd(bool, u32),
-    Real(u32),
-    Time(&'static str),
-    Bytes(u32),
-    /// An enumeration: its name, and the type of its numbers.
-    Named(String, &'static str),
-}
-
-impl FieldType {
-    /// The type in Rust; `outer` leads to the device's place.
-    pub fn path(&self, outer: &str) -> String {
-        match self {
-            FieldType::Bool => "bool".to_owned(),
-            FieldType::Native(native) => (*native).to_owned(),
-            FieldType::Odd(true, bits) => format!("rt::Int<{bits}>"),
-            FieldType::Odd(false, bits) => format!("rt::Uint<{bits}>"),
-            FieldType::Real(bits) => format!("f{bits}"),
-            FieldType::Time(path) => (*path).to_owned(),
-            FieldType::Bytes(length) => format!("[u8; {length}]"),
-            FieldType::Named(name, _) => format!("{outer}types::{name}"),
-        }
-    }
-}
-
-/// How `bits` bits of a type are written.
-pub(super) fn field_type(scope: &Scope<'_>, ty: Type, bits: u32) -> FieldType {
-    // The sign of a number has its place at the top of an integer of Rust's own.
-    let is_whole = |named: &NamedType| !named.is_signed() || native_bits(named.native) == bits;
-    if let Some(named) = scope.enumeration(ty).filter(|named| named.bits == bits && is_whole(named)) {
-        return FieldType::Named(named.name.clone(), named.native);
-    }
-    let ty = scope.base(ty);
-    let is_whole = ty.bits() == Some(bits);
-    match ty {
-        Type::Boolean if bits == 1 => FieldType::Bool,
-        Type::Real32 | Type::Real64 if is_whole => FieldType::Real(bits),
-        Type::TimeOfDay if is_whole => FieldType::Time("rt::TimeOfDay"),
-        Type::TimeDifference if is_whole => FieldType::Time("rt::TimeDifference"),
-        Type::Integer(_) if bits <= WORD => integer(true, bits),
-        Type::VisibleString(_) | Type::OctetString(_) | Type::UnicodeString(_) | Type::Domain
-            if bits.is_multiple_of(8) =>
-        {
-            FieldType::Bytes(bits / 8)
-        }
-        _ if bits > WORD => FieldType::Bytes(bits.div_ceil(8)),
-        _ => integer(false, bits),
-    }
-}
-
-/// Bits of an integer of Rust's own.
-fn native_bits(native: &str) -> u32 {
-    native[1..].parse().unwrap_or(0)
-}
-
-fn integer(signed: bool, bits: u32) -> FieldType {
-    match (signed, bits) {
-        (true, 8) => FieldType::Native("i8"),
-        (true, 16) => FieldType::Native("i16"),
-        (true, 32) => FieldType::Native("i32"),
-        (true, 64) => FieldType::Native("i64"),
-        (false, 8) => FieldType::Native("u8"),
-        (false, 16) => FieldType::Native("u16"),
-        (false, 32) => FieldType::Native("u32"),
-        (false, 64) => FieldType::Native("u64"),
-        _ => FieldType::Odd(signed, bits),
-    }
-}
-
 fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str) -> FieldModel {
     let name = names_unique::escaped(name);
     let own = format!("self.{name}");
     let kind = field_type(scope, entry.ty, entry.bits);
     let ty = kind.path("super::");
-    let (encode, decode) = match &kind {
-        FieldType::Named(_, native) => {
-            let number = |own: &str| match native.strip_prefix('i') {
-                Some("64") => format!("{own}.raw() as u64"),
-                Some(bits) => format!("{own}.raw() as u{bits} as u64"),
-                None if *native == "u64" => format!("{own}.raw()"),
-                None => format!("{own}.raw() as u64"),
-            };
-            let from = if *native == "u64" { "§".to_owned() } else { format!("§ as {native}") };
-            (number(&own), format!("{ty}::from_raw({from})"))
-        }
-        FieldType::Bool => (format!("{own} as u64"), "§ & 1 == 1".to_owned()),
-        FieldType::Native("u64") => (own, "§".to_owned()),
-        FieldType::Native("i64") => (format!("{own} as u64"), "§ as i64".to_owned()),
-        // A signed number is cut to its width before it is widened, or its sign would spread over the word.
-        FieldType::Native(signed) if signed.starts_with('i') => {
-            (format!("{own} as u{} as u64", entry.bits), format!("§ as {signed}"))
-        }
-        FieldType::Native(unsigned) => (format!("{own} as u64"), format!("§ as {unsigned}")),
-        FieldType::Odd(signed, _) => {
-            let name = if *signed { "rt::Int" } else { "rt::Uint" };
-            (format!("{own}.raw()"), format!("{name}::from_raw(§)"))
-        }
-        FieldType::Real(32) => (format!("{own}.to_bits() as u64"), "f32::from_bits(§ as u32)".to_owned()),
-        FieldType::Real(_) => (format!("{own}.to_bits()"), "f64::from_bits(§)".to_owned()),
-        FieldType::Time(path) => (format!("{own}.raw()"), format!("{path}::from_raw(§)")),
-        FieldType::Bytes(_) => (format!("rt::pdo::from_bytes(&{own})"), "rt::pdo::to_bytes(§)".to_owned()),
-    };
-    let cut = match &kind {
-        FieldType::Named(_, native) if native_bits(native) > entry.bits => {
-            Some(format!("{:#X}", u64::MAX >> (WORD - entry.bits)).replace("0X", "0x"))
-        }
-        _ => None,
-    };
+    let (encode, decode) = (kind.encode(&own, entry.bits), kind.decode(&ty));
+    let cut = kind.cut(entry.bits);
     let facts =
         format!("0x{:04X}:{:02X}, {} bits from bit {}.", entry.index, entry.sub_index, entry.bits, entry.bit_offset);
     let title = docs::escape(text);

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::field_type;
 use super::model::{addressable, ObjectModel};
 use super::pdo;
 use super::scope::{ObjectBus, Scope};
@@ -188,7 +189,7 @@ fn arguments(
         (false, false) => return None,
     };
     let bits = bits(scope.base(item.ty)).filter(|bits| (1..=MAX_ENTRY).contains(bits))?;
-    let field = pdo::field_type(scope, item.ty, bits).path(outer);
+    let field = field_type::field_type(scope, item.ty, bits).path(outer);
     Some(format!("{field}¦ {direction}¦ {}", word(index, sub_index, bits)))
 }
 

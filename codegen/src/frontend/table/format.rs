@@ -1041,6 +1041,8 @@ tables! {
         pub check_escaped: Option<bool>,
         /// The greatest number of data bytes in a frame, without start, end, escapes and check.
         pub max_data: Option<u16>,
+        /// The field of requests with the number of the device for which they are.
+        pub address: Option<At<String>>,
         /// What it is, in your own words.
         pub doc: Option<String>,
         /// Page or line of the manual.

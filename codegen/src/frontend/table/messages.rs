@@ -42,9 +42,10 @@ pub(super) fn framing(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, dev
         check_escaped: own.check_escaped.unwrap_or(own.escape.is_some()),
         check_seed: own.seed,
         max_data: own.max_data,
+        address: own.address.as_ref().map(text),
         documentation: reader.documentation(own.doc.as_deref(), cite),
     }));
-    if let Some(field) = &own.check_from {
+    for field in own.check_from.iter().chain(&own.address) {
         let first = |message: &Message| field_names(&message.request).any(|name| *name == field.value);
         if !device.messages.iter().any(first) {
             let names: Vec<_> = device.messages.iter().flat_map(|message| field_names(&message.request)).collect();

@@ -1,0 +1,263 @@
+//! The fields of requests, replies and their repeated parts.
+
+use super::rules::Rules;
+use crate::backend::rust::docs;
+use crate::backend::rust::field_type::{field_type, FieldType};
+use crate::backend::rust::quantity;
+use crate::backend::rust::scope::Scope;
+use crate::backend::rust::value_type::{native, ValueType};
+use crate::backend::rust::variant;
+use crate::ir::{Item, MessageValue, Type};
+use crate::passes::messages_shaped::Step;
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// The longest name of a field: the lines that write it have to stay below the margin.
+const MAX_NAME: usize = 24;
+
+/// A field, ready to be written.
+pub(in crate::backend::rust) struct Field {
+    pub name: String,
+    pub docs: Vec<String>,
+    pub ty: String,
+    /// The name of the constant with its scale, and the type of that.
+    pub scale: Option<(String, String)>,
+    position: usize,
+    kind: Kind,
+}
+
+enum Kind {
+    Value { bits: u32, order: Vec<u8>, encode: String, decode: String, check: Option<(String, String, String)> },
+    Text { length: u32 },
+    Code { bits: u32 },
+    Setting { space: String, bits: u32 },
+    Blank { space: String, bits: u32 },
+    Settings { space: String, bits: u32 },
+    List,
+    Bytes,
+}
+
+/// The fields of these steps. `entry` is the name of the type of what is repeated, `lifetime` that of what is borrowed.
+pub(super) fn fields(scope: &Scope<'_>, steps: &[Step<'_>], entry: &str) -> Vec<Field> {
+    let with: Vec<&Step<'_>> = steps.iter().filter(|step| name(step).is_some()).collect();
+    let wish = |(position, step): (usize, &&'_ Step<'_>)| (name(step).unwrap_or_default().to_owned(), position);
+    let names: Vec<(String, usize)> = with.iter().enumerate().map(wish).collect();
+    let wishes: Vec<Wish<'_>> =
+        names.iter().map(|(name, at)| Wish { name, fallback: format!("field {at}"), suffix: at.to_string() }).collect();
+    let reserved = ["self", "super", "crate", "station", "request", "to", "from", "count", "list"];
+    let names = names_unique::unique_up_to(&wishes, &reserved, Case::Snake, MAX_NAME);
+    let all = with.iter().zip(&names).enumerate();
+    all.map(|(position, (step, name))| field(scope, step, names_unique::escaped(name), position, entry)).collect()
+}
+
+/// What a field is called; `None` for a step that has none.
+fn name<'s>(step: &'s Step<'_>) -> Option<&'s str> {
+    Some(match step {
+        Step::Value { value, .. } => value.item.name.as_str(),
+        Step::Code { .. } | Step::Blank { .. } => "parameter",
+        Step::Setting { .. } => "setting",
+        Step::Settings { .. } => "settings",
+        Step::ValueOnly { .. } => "value",
+        Step::List { .. } => "entries",
+        Step::Rest => "rest",
+        _ => return None,
+    })
+}
+
+fn field(scope: &Scope<'_>, step: &Step<'_>, name: String, position: usize, entry: &str) -> Field {
+    let plain = |ty: &str, docs: &str, kind: Kind| Field {
+        name: name.clone(),
+        docs: vec![docs.to_owned()],
+        ty: ty.to_owned(),
+        scale: None,
+        position,
+        kind,
+    };
+    match step {
+        Step::Value { bits, value } => typed(scope, value, *bits, name, position),
+        Step::Code { bits } => plain("rt::Parameter", "Number of the parameter.", Kind::Code { bits: *bits }),
+        Step::Blank { bits, space } => {
+            plain("rt::Parameter", "Number of the parameter.", Kind::Blank { space: (*space).to_owned(), bits: *bits })
+        }
+        Step::Setting { bits, space } => plain(
+            "rt::message::Setting",
+            "The parameter and its value.",
+            Kind::Setting { space: (*space).to_owned(), bits: *bits },
+        ),
+        Step::Settings { bits, space, .. } => plain(
+            "rt::message::Settings<'a>",
+            "Parameters and their values.",
+            Kind::Settings { space: (*space).to_owned(), bits: *bits },
+        ),
+        Step::ValueOnly { .. } => plain("&'a [u8]", "The value of the parameter, as it was sent.", Kind::Bytes),
+        Step::List { .. } => plain(&format!("rt::message::List<'a, {entry}>"), "What is repeated.", Kind::List),
+        _ => plain("&'a [u8]", "All bytes that follow.", Kind::Bytes),
+    }
+}
+
+fn typed(scope: &Scope<'_>, value: &MessageValue, bits: u32, name: String, position: usize) -> Field {
+    let item = &value.item;
+    let own = field_type(scope, item.ty, bits);
+    let base = scope.base(item.ty);
+    let (ty, kind) = match own {
+        FieldType::Bytes(length) => (format!("[u8; {length}]"), Kind::Text { length }),
+        // A number of odd width is one of Rust's own that is checked.
+        FieldType::Odd(signed, _) => {
+            let native = native(signed, bits);
+            let width: u32 = native[1..].parse().unwrap_or(64);
+            let sign = format!("(§ << {0}) as {native} >> {0}", width - bits);
+            let decode = if signed { sign } else { format!("§ as {native}") };
+            let encode = match signed {
+                true => format!("self.{name} as u{width} as u64"),
+                false => format!("self.{name} as u64"),
+            };
+            let check = range(item, base, &name, None, true);
+            (native.to_owned(), Kind::Value { bits, order: value.byte_order.clone(), encode, decode, check })
+        }
+        other => {
+            let ty = other.path("super::");
+            let named = matches!(other, FieldType::Named(..)).then_some(ty.as_str());
+            let check = range(item, base, &name, named, false);
+            let encode = other.encode(&format!("self.{name}"), bits);
+            let encode = if ty == "u64" { format!("self.{name}") } else { encode };
+            let decode = other.decode(&ty);
+            (ty.clone(), Kind::Value { bits, order: value.byte_order.clone(), encode, decode, check })
+        }
+    };
+    let quantity = quantity::of(scope, item).filter(|_| !ty.contains("::"));
+    let scale = quantity.map(|own| (name.trim_start_matches("r#").to_ascii_uppercase(), own.path));
+    Field { docs: documentation(scope, item, base), ty, scale, position, kind, name }
+}
+
+/// The type that checks it, the value, and its range; `None` where all numbers of the type are allowed.
+fn range(item: &Item, base: Type, name: &str, named: Option<&str>, is_odd: bool) -> Option<(String, String, String)> {
+    let ty = ValueType::of(base);
+    let wrap = |literal: String| match named {
+        Some(path) => format!("{path}::from_raw(«{literal}»)"),
+        None => literal,
+    };
+    let mut range = ty.range_as(&variant::widest(item), &wrap);
+    if range == "rt::Range::Full" {
+        let (low, high) = base.integer_range().filter(|_| is_odd)?;
+        range = format!("rt::Range::Between(«{low}¦ {high}»)");
+    }
+    let path = match (named, base) {
+        (Some(path), _) => path.to_owned(),
+        (None, Type::Integer(bits)) => native(true, bits.into()).to_owned(),
+        (None, Type::Unsigned(bits)) => native(false, bits.into()).to_owned(),
+        _ => ty.path().to_owned(),
+    };
+    Some((path, format!("self.{name}"), range))
+}
+
+fn documentation(scope: &Scope<'_>, item: &Item, base: Type) -> Vec<String> {
+    let mut facts = format!("{base}");
+    if let Some(limits) = docs::limits(&item.limits) {
+        facts += &format!(", {limits}");
+        facts += &quantity::limits(item).map(|physical| format!(" ({physical})")).unwrap_or_default();
+    }
+    facts += &item.quantity.as_ref().map(|own| quantity::facts(own)).unwrap_or_default();
+    let name = docs::escape(&item.name);
+    let mut lines = vec![format!("{}: {facts}.", name.trim_end_matches(['.', ':']))];
+    let mut sentences = Vec::new();
+    docs::words(item.documentation.as_deref(), &mut sentences);
+    sentences.extend(item.quantity.iter().flat_map(|own| quantity::notes(own)).filter(|own| !own.is_empty()));
+    sentences.extend(scope.manual.place(item.documentation.as_deref(), &item.names));
+    sentences.extend(item.doubts.iter().map(crate::backend::rust::manual::doubt));
+    for sentence in sentences {
+        lines.extend([String::new(), sentence]);
+    }
+    lines
+}
+
+impl Field {
+    /// The variable with what was read.
+    pub(super) fn local(&self) -> String {
+        match self.kind {
+            Kind::List => "list".to_owned(),
+            _ => format!("value_{}", self.position),
+        }
+    }
+
+    /// Whether it borrows from the data.
+    pub(super) fn borrows(&self) -> bool {
+        self.ty.contains("'a")
+    }
+
+    /// What a method takes for it, and how the field is made of that.
+    pub(super) fn argument(&self, rules: &Rules) -> (String, String) {
+        match &self.kind {
+            Kind::Settings { space, bits } => {
+                let rule = format!("messages::{}", rules.name(space, Some(*bits)));
+                let own = format!("{}: rt::message::Settings::sent(«{}¦ {rule}»)", self.name, self.name);
+                ("&'a [rt::message::Setting]".to_owned(), own)
+            }
+            // As seen from the device, which stands beside the modules.
+            _ => {
+                let ty = self.ty.replace("super::types", "types").replace("<'a, ", "<'a, messages::");
+                (ty, self.name.clone())
+            }
+        }
+    }
+
+    pub(super) fn write(&self, rules: &Rules) -> Vec<String> {
+        let name = &self.name;
+        match &self.kind {
+            Kind::Value { bits, order, encode, check, .. } => {
+                let mut lines = Vec::new();
+                if let Some((ty, value, range)) = check {
+                    lines.push(format!("let range = {range};"));
+                    lines.push(format!("rt::message::check::<{ty}>({value}, &range)?;"));
+                }
+                lines.push(match order.is_empty() {
+                    true => format!("to.number({bits}, {encode})?;"),
+                    false => format!("to.ordered(&{order:?}, {encode})?;"),
+                });
+                lines
+            }
+            Kind::Text { .. } => vec![format!("to.bytes(&self.{name})?;")],
+            Kind::Code { bits } => {
+                let mut lines = Vec::new();
+                if *bits < 32 {
+                    let last = (1_u64 << bits) - 1;
+                    lines.push(format!("rt::message::check::<u32>(self.{name}.0, &rt::Range::To({last}))?;"));
+                }
+                lines.push(format!("to.number({bits}, self.{name}.0.into())?;"));
+                lines
+            }
+            Kind::Setting { space, bits } => {
+                vec![format!("{}.write(&self.{name}, to)?;", rules.name(space, Some(*bits)))]
+            }
+            Kind::Blank { space, bits } => {
+                vec![format!("{}.write_blank(self.{name}, to)?;", rules.name(space, Some(*bits)))]
+            }
+            Kind::Settings { .. } | Kind::List => vec![format!("self.{name}.write(to)?;")],
+            Kind::Bytes => vec![format!("to.bytes(self.{name})?;")],
+        }
+    }
+
+    pub(super) fn read(&self, rules: &Rules, tail: u32) -> String {
+        match &self.kind {
+            Kind::Value { bits, order, .. } if order.is_empty() => format!("from.number({bits})?"),
+            Kind::Value { order, .. } => format!("from.ordered(&{order:?})?"),
+            Kind::Text { length } => format!("from.bytes({length})?"),
+            Kind::Code { bits } => format!("from.number({bits})?"),
+            Kind::Setting { space, bits } => format!("{}.read_to(from, {tail})?", rules.name(space, Some(*bits))),
+            Kind::Blank { space, bits } => format!("{}.read_blank(from)?", rules.name(space, Some(*bits))),
+            Kind::Settings { .. } | Kind::List | Kind::Bytes => format!("from.but({tail})?"),
+        }
+    }
+
+    pub(super) fn decode(&self, rules: &Rules) -> String {
+        let local = self.local();
+        match &self.kind {
+            Kind::Value { decode, .. } => decode.replace('§', &local),
+            Kind::Text { .. } => format!("{local}.try_into().ok()?"),
+            Kind::Code { .. } => format!("rt::Parameter({local} as u32)"),
+            Kind::Setting { .. } | Kind::Blank { .. } | Kind::Bytes => local,
+            Kind::Settings { space, bits } => {
+                format!("rt::message::Settings::received(«{local}¦ {}»)?", rules.name(space, Some(*bits)))
+            }
+            Kind::List => format!("rt::message::List::received({local})?"),
+        }
+    }
+}

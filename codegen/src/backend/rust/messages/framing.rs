@@ -1,0 +1,80 @@
+//! The constants of a protocol: how frames are delimited, how long they are, which field numbers the device.
+
+use super::Shaped;
+use crate::backend::rust::data::Data;
+use crate::ir::{Device, Framing, Message, MessageField};
+use crate::passes::messages_shaped::{request, Step};
+
+/// Room for data whose length the description doesn't bound.
+const ROOM: u32 = 256;
+
+/// The expression of the framing; `None` where frames have no last byte, or their check is one that the runtime hasn't.
+pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<String> {
+    const START: &str = "    pub const FRAMING: rt::framing::Delimited = ";
+    let byte = |byte: u8| Data::text(format!("0x{byte:02X}"));
+    let max = framing.max_data.map_or_else(|| "usize::MAX".to_owned(), |max| max.to_string());
+    let from = framing.check_from.as_deref().and_then(|field| place(field, shaped)).unwrap_or(0);
+    let escape = |escape: u8| {
+        let escaped = framing.escaped.iter().copied().map(byte).collect();
+        let own = vec![("byte", byte(escape)), ("xor", byte(framing.escape_xor)), ("escaped", Data::Slice(escaped))];
+        Data::Call("Some", vec![Data::Struct("rt::framing::Escape", own)])
+    };
+    let fields = vec![
+        ("start", Data::option(framing.start.map(|start| format!("0x{start:02X}")))),
+        ("end", byte(framing.end?)),
+        ("escape", framing.escape.map_or_else(|| Data::text("None"), escape)),
+        ("check", Data::text(format!("rt::framing::Check::{}", check(framing)?))),
+        ("check_from", Data::text(from.to_string())),
+        ("is_check_escaped", Data::flag(framing.check_escaped)),
+        ("max_data", Data::text(max)),
+    ];
+    Some(Data::Struct("rt::framing::Delimited", fields).render(4, START.len(), 1, 0))
+}
+
+fn check(framing: &Framing) -> Option<String> {
+    let (byte, word) = (framing.check_seed & 0xFF, framing.check_seed & 0xFFFF);
+    Some(match framing.check.as_str() {
+        "" => "None".to_owned(),
+        "xor" => format!("Xor(0x{byte:02X})"),
+        "sum" => format!("Sum(0x{byte:02X})"),
+        "lrc" => format!("Lrc(0x{byte:02X})"),
+        "crc16" => format!("Crc16(0x{word:04X})"),
+        _ => return None,
+    })
+}
+
+/// The byte of the requests at which a field begins.
+fn place(field: &str, shaped: &[Shaped<'_>]) -> Option<u32> {
+    shaped.iter().find_map(|own| own.request.place(field))
+}
+
+/// The greatest length of the data of a message.
+pub(super) fn max_data(device: &Device, shaped: &[Shaped<'_>]) -> u32 {
+    if let Some(max) = device.framing.as_ref().and_then(|framing| framing.max_data) {
+        return max.into();
+    }
+    let sides = shaped.iter().flat_map(|own| [&own.request, &own.reply]);
+    sides.map(|side| side.steps.iter().map(longest).sum()).max().unwrap_or(ROOM)
+}
+
+fn longest(step: &Step<'_>) -> u32 {
+    match (step.bits(), step) {
+        (Some(bits), _) => bits.div_ceil(8),
+        (None, Step::List { length, max: Some(max), .. }) => length.saturating_mul((*max).into()),
+        (None, Step::Setting { .. } | Step::Blank { .. }) => 12,
+        (None, Step::Settings { max: Some(max), .. }) => 12 * u32::from(*max),
+        (None, _) => ROOM,
+    }
+}
+
+/// The name of the field with the number of the device, where requests have it.
+pub(super) fn station(device: &Device) -> Option<String> {
+    let name = device.framing.as_ref()?.address.as_ref()?;
+    let has = |message: &Message| {
+        let shape = request(device, message);
+        shape.is_ok_and(|own| own.steps.iter().any(|step| matches!(step, Step::Station { .. })))
+    };
+    let is_field = |field: &MessageField| matches!(field, MessageField::Value(value) if value.item.name == *name);
+    let used = device.messages.iter().any(|message| message.request.iter().any(is_field) && has(message));
+    used.then(|| name.to_string())
+}

@@ -1,0 +1,323 @@
+//! Command protocols: a type for every request and reply, how parameters travel in them, and how frames are delimited.
+
+mod completion;
+mod device;
+mod field;
+mod framing;
+mod parameters;
+mod rules;
+mod steps;
+
+use std::collections::HashSet;
+
+use super::docs;
+use super::layout;
+use super::manual;
+use super::options::RustOptions;
+use super::scope::Scope;
+use crate::ir::{Completion, Device, Message};
+use crate::passes::messages_shaped::{self, Side, Step};
+use crate::passes::names_unique::{self, Case, Wish};
+pub(super) use device::{CallModel, DefaultModel};
+use field::Field;
+use parameters::ParametersModel;
+use rules::{RuleModel, Rules};
+use steps::Statements;
+
+/// A protocol, ready to be written.
+pub(super) struct ProtocolModel {
+    /// The expression of the constant.
+    pub framing: Option<String>,
+    pub max_data: u32,
+    /// The name of the field with the number of the device.
+    pub station: Option<String>,
+    pub rules: Vec<RuleModel>,
+    pub messages: Vec<MessageModel>,
+    pub parameters: Option<ParametersModel>,
+    /// The requests that a simulated device tells apart, and whether they borrow from the data.
+    pub requests: Vec<(String, bool)>,
+    pub request_derives: Vec<String>,
+    pub calls: Vec<CallModel>,
+    /// What a device answers after power-on.
+    pub by_default: Option<DefaultModel>,
+}
+
+/// A request and its reply.
+pub(super) struct MessageModel {
+    pub title: String,
+    /// None where only the device sends.
+    pub request: Option<DataModel>,
+    /// None where the reply isn't described.
+    pub reply: Option<DataModel>,
+    /// The type of what comes where the device refuses.
+    pub refusal: String,
+    pub completion: String,
+    /// Whether the requests of others mean what this one has selected.
+    pub is_selector: bool,
+}
+
+/// The data of a request or a reply.
+pub(super) struct DataModel {
+    pub name: String,
+    pub docs: Vec<String>,
+    pub derives: Vec<String>,
+    pub borrows: bool,
+    pub fields: Vec<Field>,
+    pub code: Statements,
+    /// What is repeated.
+    pub entry: Option<EntryModel>,
+    /// The expression that tells whether an order is carried out.
+    pub is_complete: Option<String>,
+}
+
+/// Fields that are repeated.
+pub(super) struct EntryModel {
+    pub name: String,
+    pub title: String,
+    pub derives: Vec<String>,
+    pub length: u32,
+    pub fields: Vec<Field>,
+    pub code: Statements,
+}
+
+/// Names that the code of messages uses itself.
+const RESERVED: [&str; 9] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err", "Protocol", "Request"];
+
+/// A message with its shapes and names.
+struct Shaped<'a> {
+    message: &'a Message,
+    request: Side<'a>,
+    reply: Side<'a>,
+    names: [String; 4],
+}
+
+impl ProtocolModel {
+    /// The protocol of a device; `None` where it has none. Its methods must not be called as `taken`.
+    pub(super) fn new(scope: &Scope<'_>, options: &RustOptions, taken: &[&str]) -> Option<Self> {
+        let device = scope.device?;
+        let shaped = shaped(device);
+        if shaped.is_empty() {
+            return None;
+        }
+        let steps = shaped.iter().flat_map(|own| own.request.steps.iter().chain(&own.reply.steps));
+        let rules = Rules::new(scope, device, steps);
+        let make = Maker { scope, options, device, rules: &rules, all: &shaped };
+        let messages: Vec<MessageModel> = shaped.iter().map(|own| make.message(own)).collect();
+        let calls = if options.accessors { device::calls(&shaped, &messages, &rules, taken) } else { Vec::new() };
+        Some(ProtocolModel {
+            framing: device.framing.as_deref().and_then(|own| framing::constant(own, &shaped)),
+            max_data: framing::max_data(device, &shaped),
+            station: framing::station(device),
+            parameters: parameters::model(device, &shaped, &rules),
+            requests: requests(&messages),
+            request_derives: make.derives(true),
+            by_default: device::by_default(&shaped, &calls),
+            calls,
+            messages,
+            rules: rules.models,
+        })
+    }
+
+    /// Whether requests decide what others mean.
+    pub(super) fn selects(&self) -> bool {
+        self.messages.iter().any(|own| own.is_selector)
+    }
+
+    /// Whether there are methods that are there in any state.
+    pub(super) fn has_free(&self) -> bool {
+        self.calls.iter().any(|own| own.after.is_none() && !own.is_selector)
+    }
+
+    /// Whether the requests that are told apart borrow from the data.
+    pub(super) fn requests_borrow(&self) -> bool {
+        self.requests.iter().any(|(_, borrows)| *borrows)
+    }
+}
+
+/// The messages that have a shape, with names for request, reply, and what is repeated in each.
+fn shaped(device: &Device) -> Vec<Shaped<'_>> {
+    let mut all = Vec::new();
+    for message in &device.messages {
+        let Ok(request) = messages_shaped::request(device, message) else { continue };
+        let Ok(reply) = messages_shaped::reply(device, message, &request) else { continue };
+        all.push(Shaped { message, request, reply, names: Default::default() });
+    }
+    let names: Vec<[String; 4]> = all.iter().map(|own| wished(own.message)).collect();
+    let wish = |(at, name): (usize, &'_ String)| (name.clone(), at);
+    let flat: Vec<(String, usize)> =
+        names.iter().enumerate().flat_map(|(at, own)| own.iter().map(move |name| wish((at, name)))).collect();
+    let wishes: Vec<Wish<'_>> = flat
+        .iter()
+        .map(|(name, at)| Wish { name, fallback: format!("message {at}"), suffix: at.to_string() })
+        .collect();
+    let mut names = names_unique::unique(&wishes, &RESERVED, Case::Pascal).into_iter();
+    for own in &mut all {
+        own.names = std::array::from_fn(|_| names.next().unwrap_or_default());
+    }
+    all
+}
+
+/// Names of request, reply, and of what is repeated in them. What only a device sends is no reply.
+fn wished(message: &Message) -> [String; 4] {
+    let name = &message.name;
+    let reply = if message.request.is_empty() { name.to_string() } else { format!("{name} reply") };
+    let request = if message.request.is_empty() { format!("{name} request") } else { name.to_string() };
+    [request, reply, format!("{name} entry"), format!("{name} reply entry")]
+}
+
+/// What is needed to make models of messages.
+struct Maker<'m, 'a> {
+    scope: &'m Scope<'a>,
+    options: &'m RustOptions,
+    device: &'m Device,
+    rules: &'m Rules,
+    all: &'m [Shaped<'a>],
+}
+
+impl Maker<'_, '_> {
+    fn message(&self, own: &Shaped<'_>) -> MessageModel {
+        let message = own.message;
+        let refuses = |name| self.all.iter().find(|other| Some(&other.message.name) == name);
+        let refusal = refuses(message.error.as_ref()).filter(|other| !borrows(&other.reply.steps));
+        let [request_name, reply_name, entry, reply_entry] = &own.names;
+        let has_request = !message.request.is_empty();
+        let request = has_request.then(|| {
+            let data = self.data(&own.request.steps, request_name, entry);
+            DataModel { docs: self.documentation(message), ..data }
+        });
+        let reply = (!message.reply.is_empty()).then(|| {
+            let data = self.data(&own.reply.steps, reply_name, reply_entry);
+            let docs = match has_request {
+                true => vec![format!("What is answered to [`{request_name}`].")],
+                false => self.documentation(message),
+            };
+            let polled = || completion::expression(self.scope, self.device, message, &data.fields);
+            let is_complete = has_request.then(polled).flatten();
+            DataModel { docs, is_complete, ..data }
+        });
+        MessageModel {
+            title: super::literal::string(&message.name),
+            request,
+            reply,
+            refusal: refusal.map_or_else(|| "core::convert::Infallible".to_owned(), |other| other.names[1].clone()),
+            completion: completion(&message.completion),
+            is_selector: self.all.iter().any(|other| other.message.after.as_ref() == Some(&message.name)),
+        }
+    }
+
+    fn data(&self, steps: &[Step<'_>], name: &str, entry: &str) -> DataModel {
+        let fields = field::fields(self.scope, steps, entry);
+        let code = steps::statements(steps, &fields, self.rules);
+        let borrows = fields.iter().any(Field::borrows);
+        let entry = steps.iter().find_map(|step| match step {
+            Step::List { steps, length, .. } => Some(self.entry(steps, *length, name, entry)),
+            _ => None,
+        });
+        DataModel {
+            name: name.to_owned(),
+            docs: Vec::new(),
+            derives: self.derives(borrows),
+            borrows,
+            fields,
+            code,
+            entry,
+            is_complete: None,
+        }
+    }
+
+    fn entry(&self, steps: &[Step<'_>], length: u32, owner: &str, name: &str) -> EntryModel {
+        let fields = field::fields(self.scope, steps, "");
+        let mut code = steps::statements(steps, &fields, self.rules);
+        // What follows is another one.
+        code.read.pop();
+        EntryModel {
+            name: name.to_owned(),
+            title: format!("What is repeated in [`{owner}`]."),
+            derives: self.derives(false),
+            length,
+            fields,
+            code,
+        }
+    }
+
+    /// Lists have neither a form for `serde` nor for `defmt`.
+    fn derives(&self, borrows: bool) -> Vec<String> {
+        if !borrows {
+            return self.options.derives(true);
+        }
+        let plain =
+            RustOptions { serde: super::Presence::Never, defmt: super::Presence::Never, ..self.options.clone() };
+        plain.derives(true)
+    }
+
+    fn documentation(&self, message: &Message) -> Vec<String> {
+        let mut lines = vec![docs::sentence(&docs::escape(&message.name))];
+        let mut sentences = Vec::new();
+        docs::words(message.documentation.as_deref(), &mut sentences);
+        sentences.extend(completion::sentence(message));
+        if !message.accepted_in.is_empty() {
+            let states: Vec<String> = message.accepted_in.iter().map(|state| docs::escape(state)).collect();
+            sentences.push(format!("Accepted in the states: {}.", states.join(", ")));
+        }
+        for condition in &message.accepted_when {
+            sentences.push(format!("Accepted only while {}.", docs::holds(condition)));
+        }
+        sentences.extend(message.side_effects.iter().map(|effect| docs::sentence(&docs::escape(effect))));
+        sentences.extend(message.after.iter().map(|other| format!("Means this after {}.", docs::escape(other))));
+        if message.by_default {
+            sentences.push("So it is after power-on, too.".to_owned());
+        }
+        sentences.extend(message.availability.as_ref().map(|own| manual::availability(own)));
+        sentences.extend(self.scope.manual.place(message.documentation.as_deref(), &message.names));
+        sentences.extend(message.doubts.iter().map(manual::doubt));
+        for sentence in sentences.into_iter().filter(|sentence| !sentence.is_empty()) {
+            lines.extend([String::new(), sentence]);
+        }
+        lines
+    }
+}
+
+fn borrows(steps: &[Step<'_>]) -> bool {
+    let is_open = |step: &Step<'_>| {
+        matches!(step, Step::Settings { .. } | Step::List { .. } | Step::Rest | Step::ValueOnly { .. })
+    };
+    steps.iter().any(is_open)
+}
+
+fn completion(completion: &Completion) -> String {
+    let word = match completion {
+        Completion::Immediate => "Immediate".to_owned(),
+        Completion::Reply => "Reply".to_owned(),
+        Completion::Polled { .. } => "Polled".to_owned(),
+        Completion::Delayed(milliseconds) => format!("Delayed(«{milliseconds}»)"),
+    };
+    format!("rt::message::Completion::{word}")
+}
+
+/// The requests that can be told apart: of those that are alike, the first.
+fn requests(messages: &[MessageModel]) -> Vec<(String, bool)> {
+    let mut seen = HashSet::new();
+    let requests = messages.iter().filter_map(|message| message.request.as_ref());
+    let first = requests.filter(|request| seen.insert(&request.code.read));
+    first.map(|request| (request.name.clone(), request.borrows)).collect()
+}
+
+/// A struct's literal as `prettyplease` would print it: on one line of `indent` blanks where it is short.
+pub(super) fn literal(path: &str, fields: &[String], indent: usize) -> String {
+    const SHORT: usize = 34;
+    if fields.is_empty() {
+        return path.to_owned();
+    }
+    let flat = format!("{path} {{ {} ", fields.join(", "));
+    if flat.chars().filter(|letter| !layout::is_mark(*letter)).count() <= SHORT {
+        return flat + "}";
+    }
+    let line = |field: &String| format!("{:indent$}    {field},\n", "");
+    let lines: String = fields.iter().map(line).collect();
+    format!("{path} {{\n{lines}{:indent$}}}", "")
+}
+
+/// Whether one of these fields has a scale.
+pub(super) fn has_scales(fields: &[Field]) -> bool {
+    fields.iter().any(|field| field.scale.is_some())
+}

@@ -1,0 +1,114 @@
+//! How parameters stand in messages: a constant for each space of numbers.
+
+use std::collections::BTreeMap;
+
+use crate::backend::rust::scope::Scope;
+use crate::ir::{Binding, Device, Item, Type};
+use crate::passes::messages_shaped::Step;
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// The longest name: the lines that use it have to stay below the margin.
+const MAX_NAME: usize = 24;
+
+/// A constant, ready to be written.
+pub(in crate::backend::rust) struct RuleModel {
+    pub name: String,
+    pub space: String,
+    pub code_bits: u32,
+    pub order: String,
+    /// First and last number, and how many bytes their values have.
+    pub lengths: String,
+}
+
+/// All constants.
+#[derive(Default)]
+pub(in crate::backend::rust) struct Rules {
+    pub models: Vec<RuleModel>,
+}
+
+impl Rules {
+    /// Those that these steps need.
+    pub(super) fn new<'a>(scope: &Scope<'_>, device: &Device, steps: impl Iterator<Item = &'a Step<'a>>) -> Self {
+        let mut used: Vec<(&str, u32)> = Vec::new();
+        for step in steps {
+            let own = match step {
+                Step::Setting { bits, space } | Step::Blank { bits, space } | Step::Settings { bits, space, .. } => {
+                    (*space, *bits)
+                }
+                Step::ValueOnly { space } => (*space, 16),
+                _ => continue,
+            };
+            let is_known =
+                used.iter().any(|used| *used == own || own.0 == used.0 && matches!(step, Step::ValueOnly { .. }));
+            if !is_known {
+                used.push(own);
+            }
+        }
+        let wish = |(space, bits): &(&'a str, u32)| Wish {
+            name: space,
+            fallback: "space".to_owned(),
+            suffix: bits.to_string(),
+        };
+        let wishes: Vec<Wish<'_>> = used.iter().map(wish).collect();
+        let names = names_unique::unique_up_to(
+            &wishes,
+            &["self", "super", "crate", "framing", "max_data"],
+            Case::Snake,
+            MAX_NAME,
+        );
+        let models = used.iter().zip(names).map(|((space, bits), name)| {
+            let own = device.parameter_spaces.iter().find(|own| own.name == *space);
+            let order = own.map(|own| own.byte_order.iter().map(u8::to_string).collect::<Vec<_>>().join(", "));
+            RuleModel {
+                name: name.trim_start_matches('_').to_ascii_uppercase(),
+                space: (*space).to_owned(),
+                code_bits: *bits,
+                order: order.unwrap_or_default(),
+                lengths: lengths(scope, device, space),
+            }
+        });
+        Rules { models: models.collect() }
+    }
+
+    /// The name of the constant for a space, and numbers of so many bits; of any, where these don't matter.
+    pub(super) fn name(&self, space: &str, bits: Option<u32>) -> &str {
+        let fits = |own: &&RuleModel| own.space == space && bits.is_none_or(|bits| own.code_bits == bits);
+        self.models.iter().find(fits).map_or("", |own| own.name.as_str())
+    }
+}
+
+/// The parameters of a space, by their numbers.
+pub(super) fn parameters<'d>(device: &'d Device, space: &str) -> BTreeMap<u32, &'d Item> {
+    let items = device.groups.iter().flat_map(|group| &group.items);
+    let numbered = items.flat_map(|item| {
+        item.bindings.iter().filter_map(move |binding| match binding {
+            Binding::Parameter { space: own, code } if own == space => Some((*code, item)),
+            _ => None,
+        })
+    });
+    let mut all = BTreeMap::new();
+    for (code, item) in numbered {
+        all.entry(code).or_insert(item);
+    }
+    all
+}
+
+/// Neighbouring numbers whose values have one length.
+fn lengths(scope: &Scope<'_>, device: &Device, space: &str) -> String {
+    let mut spans: Vec<(u32, u32, u32)> = Vec::new();
+    for (code, item) in parameters(device, space) {
+        let Some(length) = length(scope.base(item.ty)) else { continue };
+        match spans.last_mut() {
+            Some((_, last, own)) if last.checked_add(1) == Some(code) && *own == length => *last = code,
+            _ => spans.push((code, code, length)),
+        }
+    }
+    let one =
+        |(first, last, length): &(u32, u32, u32)| format!("({first:#X}, {last:#X}, {length})").replace("0X", "0x");
+    spans.iter().map(one).collect::<Vec<_>>().join("¦ ")
+}
+
+/// How many bytes a value of a type has; `None` where that isn't fixed, or they are more than 8.
+fn length(ty: Type) -> Option<u32> {
+    ty.bits().map(|bits| bits.div_ceil(8)).filter(|length| (1..=8).contains(length))
+}
