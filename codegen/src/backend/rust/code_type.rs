@@ -1,5 +1,7 @@
 //! The type of a table's codes: an enumeration, so that a program can tell alarms apart by their names.
 
+use std::collections::{BTreeMap, HashSet};
+
 use super::docs;
 use super::manual;
 use super::options::RustOptions;
@@ -42,14 +44,10 @@ type Span = (i64, i64);
 
 /// The type of `table`, without a name as yet; `None` where no row has a code of 64 bits.
 pub(super) fn model<'a>(table: &'a CodeTable, options: &RustOptions) -> Option<CodeTypeModel> {
-    let mut rows: Vec<(Span, &CodeRow)> = Vec::new();
-    for row in &table.rows {
-        // Of rows for several models of a device, the first one names the code.
-        match span(row) {
-            Some(own) if rows.iter().all(|(other, _)| *other != own) => rows.push((own, row)),
-            _ => {}
-        }
-    }
+    let mut seen = HashSet::new();
+    // Of rows for several models of a device, the first one names the code.
+    let first_of_its_span = |row: &'a CodeRow| Some((span(row).filter(|own| seen.insert(*own))?, row));
+    let rows: Vec<(Span, &CodeRow)> = table.rows.iter().filter_map(first_of_its_span).collect();
     let low = rows.iter().map(|(span, _)| span.0).min()?;
     let high = rows.iter().map(|(span, _)| span.1).max()?;
     let (native, first, last) = *NATIVES.iter().find(|native| native.1 <= low && high <= native.2)?;
@@ -82,21 +80,31 @@ fn span(row: &CodeRow) -> Option<Span> {
 fn disjoint(spans: &[Span]) -> Vec<(usize, Span)> {
     let mut order: Vec<usize> = (0..spans.len()).collect();
     order.sort_by_key(|at| spans[*at].0.abs_diff(spans[*at].1));
-    let mut taken: Vec<(usize, Span)> = Vec::new();
+    // What the spans so far cover together: the last code to each first. A span takes those that it meets into its own, so
+    // that each is met once.
+    let mut covered: BTreeMap<i64, i64> = BTreeMap::new();
+    let mut pieces = Vec::new();
     for at in order {
-        let (first, last) = spans[at];
-        // What is left, from here on; beyond `last` nothing is.
-        let mut next = Some(first);
-        let mut own = Vec::new();
-        for (_, other) in taken.iter().filter(|(_, other)| other.1 >= first && other.0 <= last) {
-            own.extend(next.filter(|next| *next < other.0).map(|next| (at, (next, other.0 - 1))));
-            next = other.1.checked_add(1);
+        let (mut first, mut last) = spans[at];
+        // What is left, up to here; below `first` nothing is.
+        let mut end = Some(last);
+        while let Some((low, high)) = last_meeting(&covered, spans[at]) {
+            covered.remove(&low);
+            pieces.extend(end.filter(|end| *end > high).map(|end| (at, (high + 1, end))));
+            end = low.checked_sub(1);
+            (first, last) = (first.min(low), last.max(high));
         }
-        own.extend(next.filter(|next| *next <= last).map(|next| (at, (next, last))));
-        taken.extend(own);
-        taken.sort_by_key(|(_, span)| span.0);
+        pieces.extend(end.filter(|end| *end >= spans[at].0).map(|end| (at, (spans[at].0, end))));
+        covered.insert(first, last);
     }
-    taken
+    pieces.sort_by_key(|(_, span)| span.0);
+    pieces
+}
+
+/// The last of the disjoint spans that share a code with `own`.
+fn last_meeting(spans: &BTreeMap<i64, i64>, own: Span) -> Option<Span> {
+    let (first, last) = spans.range(..=own.1).next_back()?;
+    (*last >= own.0).then_some((*first, *last))
 }
 
 fn pattern((first, last): Span) -> String {
@@ -144,6 +152,50 @@ mod tests {
             [(0, (i64::MIN, i64::MAX - 1)), (1, (i64::MAX, i64::MAX))]
         );
         assert_eq!(disjoint(&[(0, 1), (0, 0), (1, 1)]), [(1, (0, 0)), (2, (1, 1))]);
+    }
+
+    /// The same, code by code.
+    fn disjoint_by_code(spans: &[Span]) -> Vec<(usize, Span)> {
+        let mut pieces: Vec<(usize, Span)> = Vec::new();
+        let codes = spans.iter().map(|span| span.0).min().unwrap()..=spans.iter().map(|span| span.1).max().unwrap();
+        for code in codes {
+            let having = (0..spans.len()).filter(|at| (spans[*at].0..=spans[*at].1).contains(&code));
+            let Some(narrowest) = having.min_by_key(|at| spans[*at].0.abs_diff(spans[*at].1)) else { continue };
+            match pieces.last_mut() {
+                Some((at, span)) if *at == narrowest && span.1 == code - 1 => span.1 = code,
+                _ => pieces.push((narrowest, (code, code))),
+            }
+        }
+        pieces
+    }
+
+    #[test]
+    fn spans_that_overlap_in_any_way() {
+        let mut state = 1_u32;
+        let mut below = |limit: i64| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            i64::from(state >> 8) % limit
+        };
+        for longest in [1, 3, 20, 300] {
+            for count in 1..100 {
+                let firsts: Vec<i64> = (0..count).map(|_| below(400) - 200).collect();
+                let spans: Vec<Span> = firsts.iter().map(|first| (*first, *first + below(longest))).collect();
+                assert_eq!(disjoint(&spans), disjoint_by_code(&spans), "{spans:?}");
+            }
+        }
+    }
+
+    /// `count` codes with one between each two, in a span of all.
+    fn holes(count: i64) -> Vec<Span> {
+        (0..count).map(|at| (2 * at + 1, 2 * at + 1)).chain([(0, 2 * count)]).collect()
+    }
+
+    #[test]
+    fn many_narrow_spans_in_a_wide_one() {
+        assert_eq!(disjoint(&holes(300)), disjoint_by_code(&holes(300)));
+        let pieces = disjoint(&holes(20_000));
+        let owner = |code: i64| if code % 2 == 0 { 20_000 } else { code as usize / 2 };
+        assert_eq!(pieces, (0..=40_000).map(|code| (owner(code), (code, code))).collect::<Vec<_>>());
     }
 
     #[test]
