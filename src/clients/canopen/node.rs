@@ -67,7 +67,7 @@ fn sent<E>(is_sent: bool) -> Result<(), Error<E>> {
     }
 }
 
-/// What a heartbeat of `id` in one of `states` is; in any state where there are none.
+/// The state that the frame tells where it is a heartbeat of `id`.
 fn state_of(frame: &CanFrame, id: NodeId) -> Option<NmtState> {
     NmtState::of(frame).filter(|(node, _)| *node == id).map(|(_, state)| state)
 }
