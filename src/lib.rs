@@ -93,6 +93,8 @@ mod machine;
 pub mod message;
 pub mod modbus;
 mod node_id;
+#[cfg(test)]
+mod now;
 pub mod pdo;
 pub mod profinet;
 mod quantity;

@@ -1,15 +1,15 @@
 //! A client of twenty lines, and everything that an accessor does with it.
 
 use std::collections::HashMap;
-use std::future::Future;
-use std::pin::pin;
-use std::sync::Arc;
-use std::task::{Context, Poll, Wake};
 
 use lexibus::{
     AsyncClient, CanOpen, Client, Domain, Error, Flags, Initial, Int, Item, LengthError, NodeId, Object, OnCanOpen,
     OutOfRange, Range, Ro, Rw, SdoWrite, UnicodeString, VisibleString, Wo,
 };
+
+#[path = "support/now.rs"]
+mod now;
+use now::now;
 
 const CONTROLWORD: Item<u16, Rw, OnCanOpen> =
     Item::new(OnCanOpen::canopen(0x6040, 0), "Controlword", Range::Full, Initial::Value(0), "", Flags::RPDO);
@@ -62,19 +62,6 @@ impl AsyncClient for Memory {
 
     async fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<Object>> {
         Client::write(self, address, data)
-    }
-}
-
-struct Silent;
-
-impl Wake for Silent {
-    fn wake(self: Arc<Self>) {}
-}
-
-fn now<F: Future>(future: F) -> F::Output {
-    match pin!(future).poll(&mut Context::from_waker(&Arc::new(Silent).into())) {
-        Poll::Ready(output) => output,
-        Poll::Pending => panic!("the future waits"),
     }
 }
 

@@ -1,11 +1,7 @@
 //! Messages and numbered parameters over streams of `embedded-io`, with a simulated drive at the other end.
 
 use std::collections::{BTreeMap, VecDeque};
-use std::future::Future;
 use std::io::ErrorKind;
-use std::pin::pin;
-use std::sync::Arc;
-use std::task::{Context, Poll, Wake};
 
 use lexibus::clients::serial::{embedded_io, embedded_io_async, SerialError, SerialLine};
 use lexibus::framing::{Check, Delimited, FrameError, Framing};
@@ -14,6 +10,10 @@ use lexibus::{
     AbortCode, AsyncExchange, Error, Exchange, Flags, Initial, Item, LengthError, OnSerial, Parameter,
     ParameterMessages, Parameters, Range, Rw,
 };
+
+#[path = "support/now.rs"]
+mod now;
+use now::now;
 
 const FRAMING: Delimited = Delimited::new(Some(0x02), 0x03)
     .with_escape(0x1B, 0xFF, &[0x02, 0x03, 0x1B])
@@ -188,18 +188,6 @@ impl Drive {
             }
             _ => Vec::new(),
         })
-    }
-}
-
-fn now<F: Future>(future: F) -> F::Output {
-    struct Silent;
-    impl Wake for Silent {
-        fn wake(self: Arc<Self>) {}
-    }
-    let waker = Arc::new(Silent).into();
-    match pin!(future).poll(&mut Context::from_waker(&waker)) {
-        Poll::Ready(output) => output,
-        Poll::Pending => panic!("the future waits"),
     }
 }
 

@@ -1,9 +1,6 @@
 //! Drivers against simulated devices: the bindings of two drives, on each of their buses.
 
-use std::future::Future;
-use std::pin::pin;
 use std::sync::Arc;
-use std::task::{Context, Poll, Wake};
 
 use lexibus::sim::{Connection, Device, Exception, Fault};
 use lexibus::table::{AccessRights, Bound, Entry};
@@ -14,6 +11,10 @@ use lexibus::{
 use lexibus_drives::demo_drive::types::{Command, Controlword, ModesOfOperation, State, Statusword};
 use lexibus_drives::demo_drive::{self, objects, pdo, DemoDrive};
 use lexibus_drives::vector_step::{self, VectorStep};
+
+#[path = "support/now.rs"]
+mod now;
+use now::now;
 
 const NODE: NodeId = match NodeId::new(5) {
     Some(node) => node,
@@ -552,19 +553,6 @@ fn a_device_that_is_only_on_modbus() {
     let mut bit = [7];
     assert_eq!(device.client::<Modbus>().read(OUTPUT, &mut bit), Ok(1));
     assert_eq!(bit, [0]);
-}
-
-struct Silent;
-
-impl Wake for Silent {
-    fn wake(self: Arc<Self>) {}
-}
-
-fn now<F: Future>(future: F) -> F::Output {
-    match pin!(future).poll(&mut Context::from_waker(&Arc::new(Silent).into())) {
-        Poll::Ready(output) => output,
-        Poll::Pending => panic!("the future waits"),
-    }
 }
 
 #[test]

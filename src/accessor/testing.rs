@@ -1,13 +1,9 @@
 //! A device of one value, for the tests of the accessors.
 
 use core::convert::Infallible;
-use core::future::Future;
-use core::pin::pin;
-use core::task::{Context, Poll};
-use std::sync::Arc;
-use std::task::Wake;
 use std::vec::Vec;
 
+pub(super) use crate::now::now;
 use crate::value::Value;
 use crate::{AsyncClient, CanOpen, Client, Error, Flags, Initial, Item, Object, OnCanOpen, Range};
 
@@ -55,18 +51,4 @@ impl AsyncClient for Device {
 
 pub(super) fn item<V: Value, A>() -> Item<V, A, OnCanOpen> {
     Item::new(OnCanOpen::canopen(0x2000, 1), "Test item", Range::Full, Initial::Unknown, "", Flags::NONE)
-}
-
-struct Silent;
-
-impl Wake for Silent {
-    fn wake(self: Arc<Self>) {}
-}
-
-/// The result of a future that never has to wait.
-pub(super) fn now<F: Future>(future: F) -> F::Output {
-    match pin!(future).poll(&mut Context::from_waker(&Arc::new(Silent).into())) {
-        Poll::Ready(output) => output,
-        Poll::Pending => panic!("the future waits"),
-    }
 }

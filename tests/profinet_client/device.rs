@@ -1,10 +1,6 @@
 //! A simulated device, blocking and not.
 
 use std::collections::HashMap;
-use std::future::Future;
-use std::pin::pin;
-use std::sync::Arc;
-use std::task::{Context, Poll, Wake};
 
 use lexibus::profinet::parameter_access::{Format, GLOBAL, LOCAL};
 use lexibus::profinet::{AsyncRecordClient, PnioStatus, RecordAddress, RecordClient};
@@ -157,17 +153,5 @@ impl AsyncRecordClient for Async {
 
     async fn pause(&mut self) {
         self.0.pause();
-    }
-}
-
-pub fn now<F: Future>(future: F) -> F::Output {
-    struct Silent;
-    impl Wake for Silent {
-        fn wake(self: Arc<Self>) {}
-    }
-    let waker = Arc::new(Silent).into();
-    match pin!(future).poll(&mut Context::from_waker(&waker)) {
-        Poll::Ready(output) => output,
-        Poll::Pending => panic!("the future waits"),
     }
 }

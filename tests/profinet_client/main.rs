@@ -3,14 +3,17 @@
 #![cfg(feature = "macros")]
 
 mod device;
+#[path = "../support/now.rs"]
+mod now;
 mod parameters;
 
-use device::{now, Async, Device, INVALID_INDEX};
+use device::{Async, Device, INVALID_INDEX};
 use lexibus::profinet::{
     AsyncImageClient, FTrailer, ImageClient, IoObject, IoPlace, IoSpan, IoStatus, NotAllowed, Plan, PnioStatus,
     RecordAccess, RecordClient, SubmoduleAddress,
 };
 use lexibus::{Error, Flags, Initial, Item, LengthError, OnProfinet, Range, Record, Rw, VisibleString};
+use now::now;
 
 lexibus::dictionary! {
     /// A station with a PROFIsafe module.

@@ -7,7 +7,8 @@ use lexibus::profinet::parameter_access::{
 use lexibus::profinet::{PnioStatus, RecordAddress, RecordClient, SubmoduleAddress};
 use lexibus::{Error, LengthError};
 
-use super::device::{now, Async, Device, STATE_CONFLICT};
+use super::device::{Async, Device, STATE_CONFLICT};
+use super::now::now;
 
 #[test]
 fn parameters_byte_by_byte() {

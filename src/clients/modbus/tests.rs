@@ -1,6 +1,4 @@
 use core::future::Future;
-use core::pin::pin;
-use core::task::{Context as TaskContext, Poll};
 use std::boxed::Box;
 use std::collections::HashMap;
 use std::io;
@@ -10,6 +8,7 @@ use tokio_modbus::Slave;
 
 use super::*;
 use crate::modbus::{Span, TableLimits};
+use crate::now::now;
 use std::string::String;
 use std::vec::Vec;
 
@@ -107,19 +106,6 @@ impl tokio_modbus::client::Client for Device {
     {
         Box::pin(async { Ok(()) })
     }
-}
-
-fn now<F: Future>(future: F) -> F::Output {
-    match pin!(future).poll(&mut TaskContext::from_waker(&std::task::Waker::from(std::sync::Arc::new(Silent)))) {
-        Poll::Ready(output) => output,
-        Poll::Pending => panic!("the future waits"),
-    }
-}
-
-struct Silent;
-
-impl std::task::Wake for Silent {
-    fn wake(self: std::sync::Arc<Self>) {}
 }
 
 #[test]

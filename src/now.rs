@@ -1,0 +1,19 @@
+//! Futures that are ready at once, polled with no runtime, for the tests.
+
+use core::future::Future;
+use core::pin::pin;
+use core::task::{Context, Poll};
+use std::sync::Arc;
+use std::task::Wake;
+
+/// What a future gives that never has to wait.
+pub(crate) fn now<F: Future>(future: F) -> F::Output {
+    struct Silent;
+    impl Wake for Silent {
+        fn wake(self: Arc<Self>) {}
+    }
+    match pin!(future).poll(&mut Context::from_waker(&Arc::new(Silent).into())) {
+        Poll::Ready(output) => output,
+        Poll::Pending => panic!("the future waits"),
+    }
+}
