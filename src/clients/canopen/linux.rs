@@ -60,9 +60,9 @@ impl CanPort for CanSocket {
 /// How long to wait where the queue of the interface is full: about a frame of 125 kbit/s.
 pub(super) const PAUSE: Duration = Duration::from_millis(1);
 
-/// Whether the queue of the interface is full, as it soon is where no other node acknowledges frames (`ENOBUFS`).
+/// Whether the queue of the interface is full, as it soon is where no other node acknowledges frames.
 pub(super) fn is_full(error: &io::Error) -> bool {
-    error.raw_os_error() == Some(105)
+    error.raw_os_error() == Some(libc::ENOBUFS)
 }
 
 fn is_late(error: &io::Error) -> bool {
