@@ -1,6 +1,6 @@
 //! An EtherCAT drive from Init to motion: objects, PDO assignment, process data, all typed.
 //!
-//! `cargo run --example ethercat --features ethercat,macros`
+//! `cargo run --example ethercat --features std,ethercat,macros`
 //!
 //! It runs against a drive that is simulated in this process. On a real segment, `ethercrab::std::tx_rx_task` takes the
 //! place of `Segment::run`, and nothing else changes.
@@ -40,7 +40,7 @@ async fn main() -> Result<(), Box<dyn Error>> {
     let config = MainDeviceConfig { dc_static_sync_iterations: 100, ..MainDeviceConfig::default() };
     let maindevice = MainDevice::new(pdu_loop, timeouts, config);
 
-    let servo = ethercat::SubDevice::new(&servo::DEVICE, ethercat::Servo::new(servo::ENTRIES));
+    let servo = ethercat::SubDevice::new(&servo::DEVICE, ethercat::Servo::new());
     let mut segment = ethercat::Segment::new(vec![servo]);
     tokio::select! {
         ended = segment.run(tx, rx) => Ok(ended?),

@@ -26,7 +26,7 @@ lexibus::dictionary! {
 }
 
 use servo::types::{Controlword, ModesOfOperation, State};
-use servo::{image, pdo, view, DemoServo};
+use servo::{image, objects, pdo, view, DemoServo};
 
 type Group<S = PreOp> = SubDeviceGroup<4, 64, DefaultLock, S>;
 
@@ -60,7 +60,7 @@ fn with_segment<F: Future>(
 
 /// A servo that the test can look into.
 fn servo() -> (SubDevice, Rc<RefCell<Servo>>) {
-    let servo = Rc::new(RefCell::new(Servo::new(servo::ENTRIES)));
+    let servo = Rc::new(RefCell::new(Servo::new()));
     (SubDevice::new(&servo::DEVICE, servo.clone()), servo)
 }
 
@@ -95,7 +95,7 @@ fn objects_of_every_length() {
         assert_eq!(drive.statusword().read_async().await.unwrap().raw(), 0x0250);
         drive.target_position().write_async(-100_000).await.unwrap();
         assert_eq!(drive.target_position().read_async().await, Ok(-100_000));
-        assert_eq!(device.borrow().objects.get(0x607A, 0), -100_000);
+        assert_eq!(device.borrow().device.get(objects::TARGET_POSITION), Ok(-100_000));
 
         // Normal: what fits into a message of the mailbox.
         assert_eq!(drive.operating_time().read_async().await, Ok(5_000_000_123));
@@ -159,7 +159,10 @@ fn process_data_by_default() {
         let assignment = Assignment::<8>::by_default(&servo::DEVICE).unwrap();
         drive.client().configure(assignment.startup()).await.unwrap();
         // What the description wants to be written on the way to Safe-Operational.
-        assert_eq!(device.borrow().objects.get(0x6060, 0), 8);
+        assert_eq!(
+            device.borrow().device.get(objects::MODES_OF_OPERATION),
+            Ok(ModesOfOperation::CyclicSynchronousPosition)
+        );
 
         let group: Group<Op> = group.into_op(maindevice).await.unwrap();
         let subdevice = group.subdevice(maindevice, 0).unwrap();
@@ -180,8 +183,8 @@ fn process_data_by_default() {
             }
         }
         assert_eq!(state, Some(State::OperationEnabled));
-        assert_eq!(device.borrow().objects.get(0x6040, 0), 0x0F);
-        assert_eq!(device.borrow().objects.get(0x607A, 0), 4711);
+        assert_eq!(device.borrow().device.get(objects::CONTROLWORD), Ok(Controlword::from_raw(0x0F)));
+        assert_eq!(device.borrow().device.get(objects::TARGET_POSITION), Ok(4711));
         assert_eq!(drive.position_actual_value().read_async().await, Ok(4711));
 
         // One field where it stands.
@@ -219,7 +222,7 @@ fn process_data_of_another_choice() {
             group.tx_rx(maindevice).await.unwrap();
         }
         group.tx_rx(maindevice).await.unwrap();
-        assert_eq!(device.borrow().objects.get(0x60FF, 0), -1500);
+        assert_eq!(device.borrow().device.get(objects::TARGET_VELOCITY), Ok(-1500));
         let inputs = subdevice.inputs_raw();
         let bit = |index| assignment.find(index).unwrap().bit as usize;
         let velocity = view::Velocity::at(&inputs[..], bit(pdo::Velocity::INDEX)).unwrap();
@@ -308,7 +311,7 @@ fn an_emergency_in_front_of_an_answer_is_kept() {
         assert_eq!(drive.client().take_emergency(), None);
         assert_eq!(drive.encoder_offset().read_async().await, Ok(7));
         // And one that was there before the request.
-        device.borrow_mut().trip(0x3210);
+        device.borrow_mut().trip(0x3210).unwrap();
         assert_eq!(drive.statusword().read_async().await.unwrap().state(), Some(State::Fault));
         assert_eq!(drive.client().take_emergency().map(|emergency| emergency.code), Some(0x3210));
     });
@@ -328,8 +331,8 @@ fn several_subdevices_in_a_row() {
         let (mut left, mut right) = (drive(maindevice, &group, 0), drive(maindevice, &group, 1));
         left.profile_velocity().write_async(111).await.unwrap();
         right.profile_velocity().write_async(222).await.unwrap();
-        assert_eq!(first.borrow().objects.get(0x6081, 0), 111);
-        assert_eq!(second.borrow().objects.get(0x6081, 0), 222);
+        assert_eq!(first.borrow().device.get(objects::PROFILE_VELOCITY), Ok(111));
+        assert_eq!(second.borrow().device.get(objects::PROFILE_VELOCITY), Ok(222));
 
         let group = group.into_op(maindevice).await.unwrap();
         for (index, target_position) in [(0, 1), (1, 2)] {
@@ -340,8 +343,8 @@ fn several_subdevices_in_a_row() {
         let answer = group.tx_rx_sync_system_time(maindevice).await.unwrap();
         assert_eq!(answer.working_counter, 6);
         assert!(answer.extra.is_some(), "the segment has a clock");
-        assert_eq!(first.borrow().objects.get(0x607A, 0), 1);
-        assert_eq!(second.borrow().objects.get(0x607A, 0), 2);
+        assert_eq!(first.borrow().device.get(objects::TARGET_POSITION), Ok(1));
+        assert_eq!(second.borrow().device.get(objects::TARGET_POSITION), Ok(2));
     });
 }
 

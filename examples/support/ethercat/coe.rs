@@ -1,6 +1,6 @@
 //! The SDO server behind the mailbox (ETG.1000.6 5.6.2): expedited, normal and segmented transfers, complete access.
 
-use lexibus::AbortCode;
+use lexibus::{AbortCode, Emergency};
 
 use super::objects::Dictionary;
 
@@ -59,8 +59,8 @@ impl Server {
     }
 
     /// An emergency message.
-    pub fn emergency(&mut self, emergency: [u8; 8]) -> Vec<u8> {
-        self.message(1, &emergency)
+    pub fn emergency(&mut self, emergency: Emergency) -> Vec<u8> {
+        self.message(1, &emergency.to_bytes())
     }
 
     fn upload(

@@ -9,7 +9,7 @@
 //! | `subdevice` | the firmware: state machine, mailbox, process data |
 //! | `coe` | the SDO server behind the mailbox |
 //! | `pdos` | the objects that configure PDOs, and the way between objects and process data |
-//! | `objects` | what a device's application provides: its objects |
+//! | `objects` | what a device's application provides: its objects, such as those of `lexibus::sim::Device` |
 //! | `servo` | the application of the demo servo |
 
 mod coe;

@@ -1,18 +1,12 @@
 //! The application of the demo servo: the state machine of CiA 402, and a position that follows its target at once.
 
-use std::collections::VecDeque;
+use lexibus::sim::{Device, Place};
+use lexibus::{AbortCode, Emergency, Object};
 
-use lexibus::Entry;
-
-use super::objects::{Dictionary, Table};
-
-const CONTROLWORD: u16 = 0x6040;
-const STATUSWORD: u16 = 0x6041;
-const POSITION: u16 = 0x6064;
-const VELOCITY: u16 = 0x606C;
-const TARGET_POSITION: u16 = 0x607A;
-const TARGET_VELOCITY: u16 = 0x60FF;
-const ENCODER_OFFSET: u16 = 0x2012;
+use super::objects::Dictionary;
+// The bindings of whatever program simulates the servo.
+use crate::servo::types::{Controlword, Statusword};
+use crate::servo::{objects, ENTRIES};
 
 /// The error code of a sensor (IEC 61800-7-201).
 const SENSOR_FAULT: u16 = 0x7300;
@@ -29,28 +23,26 @@ enum State {
 
 /// The demo servo.
 pub struct Servo {
-    pub objects: Table,
+    /// Its objects.
+    pub device: Device,
     state: State,
-    emergencies: VecDeque<[u8; 8]>,
-    last_controlword: i64,
+    last_controlword: Controlword,
 }
 
 impl Servo {
     /// A servo that was just switched on.
-    pub fn new(entries: &'static [Entry]) -> Self {
-        let objects = Table::new(entries);
-        Self { objects, state: State::SwitchOnDisabled, emergencies: VecDeque::new(), last_controlword: 0 }
+    pub fn new() -> Self {
+        Self { device: Device::new(ENTRIES), state: State::SwitchOnDisabled, last_controlword: Controlword::new() }
     }
 
     /// A fault: the drive stops, and tells so.
-    pub fn trip(&mut self, code: u16) {
+    pub fn trip(&mut self, code: u16) -> Result<(), AbortCode> {
         self.state = State::Fault;
-        let [low, high] = code.to_le_bytes();
-        self.emergencies.push_back([low, high, 0x21, 0, 0, 0, 0, 0]);
-        self.show();
+        self.device.emit_emergency(code, 0x21, [0; 5]);
+        self.show()
     }
 
-    fn show(&mut self) {
+    fn show(&mut self) -> Result<(), AbortCode> {
         let bits = match self.state {
             State::SwitchOnDisabled => 0x40,
             State::ReadyToSwitchOn => 0x21,
@@ -58,14 +50,14 @@ impl Servo {
             State::OperationEnabled => 0x27,
             State::Fault => 0x08,
         };
-        self.objects.set(STATUSWORD, 0, 0x0210 | bits);
+        self.device.set(objects::STATUSWORD, Statusword::from_raw(0x0210 | bits))
     }
 
-    fn obey(&mut self) {
-        let word = self.objects.get(CONTROLWORD, 0);
-        let reset = word & 0x80 != 0 && self.last_controlword & 0x80 == 0;
-        self.last_controlword = word;
-        self.state = match (self.state, word & 0x0F) {
+    fn obey(&mut self) -> Result<(), AbortCode> {
+        let controlword = self.device.get(objects::CONTROLWORD)?;
+        let last = std::mem::replace(&mut self.last_controlword, controlword);
+        let reset = controlword.raw() & !last.raw() & 0x80 != 0;
+        self.state = match (self.state, controlword.raw() & 0x0F) {
             (State::Fault, _) if reset => State::SwitchOnDisabled,
             (State::Fault, _) => State::Fault,
             (_, command) if command & 0x02 == 0 || command & 0x04 == 0 => State::SwitchOnDisabled,
@@ -75,35 +67,43 @@ impl Servo {
             (State::ReadyToSwitchOn, 0x0F) => State::SwitchedOn,
             _ => State::OperationEnabled,
         };
+        Ok(())
+    }
+
+    fn run(&mut self, operational: bool) -> Result<(), AbortCode> {
+        if operational {
+            self.obey()?;
+        }
+        self.show()?;
+        if self.state == State::OperationEnabled {
+            let (position, velocity) = (objects::TARGET_POSITION, objects::TARGET_VELOCITY);
+            self.device.set(objects::POSITION_ACTUAL_VALUE, self.device.get(position)?)?;
+            self.device.set(objects::VELOCITY_ACTUAL_VALUE, self.device.get(velocity)?)?;
+        }
+        Ok(())
     }
 }
 
 impl Dictionary for Servo {
     fn read(&mut self, index: u16, sub_index: u8) -> Result<Vec<u8>, u32> {
-        self.objects.read(index, sub_index)
+        self.device.read(index, sub_index)
     }
 
     fn write(&mut self, index: u16, sub_index: u8, data: &[u8]) -> Result<(), u32> {
-        self.objects.write(index, sub_index, data)?;
-        if index == ENCODER_OFFSET && self.state == State::OperationEnabled {
+        self.device.write(index, sub_index, data)?;
+        let is_encoder_offset = objects::ENCODER_OFFSET.object() == Some(Object::new(index, sub_index));
+        if is_encoder_offset && self.state == State::OperationEnabled {
             // The position jumps under the controller.
-            self.trip(SENSOR_FAULT);
+            self.trip(SENSOR_FAULT).map_err(|code| code.0)?;
         }
         Ok(())
     }
 
     fn cycle(&mut self, operational: bool) {
-        if operational {
-            self.obey();
-        }
-        self.show();
-        if self.state == State::OperationEnabled {
-            self.objects.set(POSITION, 0, self.objects.get(TARGET_POSITION, 0));
-            self.objects.set(VELOCITY, 0, self.objects.get(TARGET_VELOCITY, 0));
-        }
+        self.run(operational).expect("the objects of the servo");
     }
 
-    fn emergency(&mut self) -> Option<[u8; 8]> {
-        self.emergencies.pop_front()
+    fn emergencies(&mut self) -> Vec<Emergency> {
+        self.device.emergencies()
     }
 }

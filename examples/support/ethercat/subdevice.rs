@@ -126,7 +126,7 @@ impl SubDevice {
                 Objects { is_pre_op: self.state == PRE_OP, pdos: &mut self.pdos, own: &mut *self.objects };
             self.server.answer(&message, back.range.len(), &mut objects)
         });
-        while let Some(emergency) = self.objects.emergency() {
+        for emergency in self.objects.emergencies() {
             self.messages.push_back(self.server.emergency(emergency));
         }
         self.messages.extend(answer);
