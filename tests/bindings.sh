@@ -1,14 +1,17 @@
 #!/usr/bin/env bash
 # Generates what is checked in: the bindings under generated/src, those whose instructions are counted, and the schema of
-# register tables; with --check, compares them instead.
+# register tables; with --check, compares them instead. `$LEXIBUS` is the compiler where one is there already.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-cargo run --quiet -p lexibus-codegen --features cli -- generate dictionaries/demo-drive.eds --table feature=table \
+lexibus() {
+    if [[ -n ${LEXIBUS:-} ]]; then "$LEXIBUS" "$@"; else cargo run --quiet -p lexibus-codegen --features cli -- "$@"; fi
+}
+lexibus generate dictionaries/demo-drive.eds --table feature=table \
     --out generated/src/demo_drive.rs "$@"
-cargo run --quiet -p lexibus-codegen --features cli -- generate dictionaries/aec-vector-step.toml --table feature=table \
+lexibus generate dictionaries/aec-vector-step.toml --table feature=table \
     --out generated/src/vector_step.rs "$@"
-cargo run --quiet -p lexibus-codegen --features cli -- generate benches/instructions/axis.esi.xml -A warnings \
+lexibus generate benches/instructions/axis.esi.xml -A warnings \
     --out benches/instructions/src/axis.rs "$@"
-cargo run --quiet -p lexibus-codegen --features cli -- generate tests/data/drive.gsdml.xml \
+lexibus generate tests/data/drive.gsdml.xml \
     --out benches/instructions/src/station.rs "$@"
-cargo run --quiet -p lexibus-codegen --features cli -- schema --out dictionaries/table.schema.json "$@"
+lexibus schema --out dictionaries/table.schema.json "$@"
