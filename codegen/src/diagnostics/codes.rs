@@ -831,7 +831,37 @@ codes! {
         "two items share registers, or bits of one"
         "One of the two has the wrong number, or a type that is too long. Where the device shows a part of a value in registers \
          of its own, say so: `part`, or `same_as` and this code in `allow`."
-    MSG010 MESSAGE_UNSHAPED "message-unshaped" Lint Warn
+    MSG001 FRAMING_BYTES "framing-bytes" Lint Warn
+        "start, end, escape and escaped bytes of frames contradict each other"
+        "Start, end and escape of a frame are three bytes; each of them is escaped where it is data, and what is sent in its place is \
+        none of them. Else frames don't end where they should."
+    MSG002 MESSAGE_LENGTH "message-length" Lint Warn
+        "a message has no whole bytes, or is longer than a frame"
+        "Fields of less than a byte follow each other and fill bytes. All data of a message, with as many repetitions as it declares, \
+        fit into what the framing says is the greatest number of data bytes."
+    MSG003 MESSAGES_ALIKE "messages-alike" Lint Warn
+        "two requests can have the same bytes"
+        "The device couldn't tell which of the two was meant: a constant was misprinted. Where the same request means different things \
+        after different messages, say `after`."
+    MSG004 REPLY_OF_ANOTHER "reply-of-another" Lint Warn
+        "a reply has the constant of another message"
+        "The constant that replies begin with is in the requests that they answer. This one is in the request of another message: the \
+        manual's table was copied from there."
+    MSG005 ERROR_ALIKE "error-alike" Lint Warn
+        "a reply can have the same bytes as what comes in its place"
+        "A master can't tell from the bytes whether the device answered or refused. Where it never refuses, the message has no `error`."
+    MSG006 BYTE_NUMBERS "byte-numbers" Lint Warn
+        "the printed numbers of bytes don't count on"
+        "Between two fields of a message, the manual's numbers of bytes (`at`) leave some out or count some twice: a row of its table is \
+        missing or has slid, or one of the numbers is misprinted."
+    MSG007 ODD_REQUEST "odd-request" Lint Warn
+        "one request begins with another constant than all others of its form"
+        "Nine or more requests begin with several constants, and all but one with the same. That one is an exception or a misprint."
+    MSG008 STATES_DIFFER "states-differ" Lint Warn
+        "a message is accepted in a state in which the table of commands and states refuses it, or the other way round"
+        "The section of a command and the table of commands and states are two places of the manual that say the same. Keep the one \
+        that tells the states one by one."
+    MSG009 MESSAGE_UNSHAPED "message-unshaped" Lint Warn
         "no code is generated for a message"
         "Its fields can't be written and read one after the other: a part of a byte is left over, two parts are as long as the data \
         are, or something comes back from a place of the request that depends on what is in front of it. The documentation of \

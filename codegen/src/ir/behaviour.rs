@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Condition, Scale, Texts, Value};
+use super::{CompactString, Condition, Documentation, Doubt, Scale, Texts, Value};
+use crate::source::Origin;
 
 /// Access rights of an item, seen from the bus (CiA 306; ETG.2000 Flags/Access).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -249,6 +250,38 @@ pub struct Quantity {
     pub sentinels: Vec<(Value, CompactString)>,
     /// Number of raw steps in which the device rounds.
     pub step: Option<Value>,
+    /// What the physical number is in a unit of the machine that the device drives.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub machine: Option<Box<MachineUnit>>,
+}
+
+/// A unit of the machine that a device drives: the physical number, multiplied and divided by numbers that only whoever builds the
+/// machine knows ([`GivenNumber`]).
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MachineUnit {
+    /// Symbol of the unit.
+    pub unit: CompactString,
+    /// The given numbers that multiply.
+    pub times: Vec<CompactString>,
+    /// The given numbers that divide.
+    pub over: Vec<CompactString>,
+}
+
+/// A number that no device holds and whoever builds the machine knows, such as the pitch of a screw.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GivenNumber {
+    /// Its name.
+    pub name: CompactString,
+    /// Symbol of its unit.
+    pub unit: CompactString,
+    /// What it is on the models of the device, where these know it: the model and its number.
+    pub models: Vec<(CompactString, Value)>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+    /// Contradictions of the source.
+    pub doubts: Vec<Doubt>,
+    /// Where it is declared.
+    pub origin: Origin,
 }
 
 /// Storage, side effects and conditions of writing.

@@ -58,6 +58,9 @@ pub struct Device {
     pub parameter_spaces: Vec<super::ParameterSpace>,
     /// How frames of the command protocol are delimited and checked.
     pub framing: Option<Box<Framing>>,
+    /// Numbers of the machine, of which units make use.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub given: Vec<super::GivenNumber>,
     /// Alarms, emergency codes, abort codes and the like.
     pub code_tables: Vec<CodeTable>,
     /// State machines.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Direction, Documentation, Texts, Value};
+use super::{Availability, CompactString, Direction, Documentation, Texts, Value};
 use crate::source::{Origin, Span};
 
 /// A state machine.
@@ -10,18 +10,67 @@ use crate::source::{Origin, Span};
 pub struct StateMachine {
     /// Its name.
     pub name: CompactString,
-    /// The item that tells the state.
+    /// The item that tells the state, or `Message.field` where a reply does.
     pub status_item: CompactString,
     /// The item that commands it.
     pub control_item: CompactString,
-    /// States, by the bits of the status item.
+    /// The enumeration whose values are the states, where the source has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub state_type: Option<CompactString>,
+    /// States, by the bits of the status item; with a `state_type`, one for each of its values.
     pub states: Vec<Pattern>,
+    /// The state after power-on.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial: Option<CompactString>,
     /// Commands, by the bits of the control item.
     pub commands: Vec<Pattern>,
     /// From which state to which.
     pub transitions: Vec<Transition>,
+    /// What commands do in each state, where the source has a table of that.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outcomes: Vec<CommandOutcomes>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
+}
+
+/// What a command does in each state: a row of a table of commands and states.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CommandOutcomes {
+    /// Its name in that table.
+    pub name: CompactString,
+    /// The messages, or commands of the machine, that the row is about; none where the source describes it nowhere else.
+    pub commands: Vec<CompactString>,
+    /// Who has it.
+    pub availability: Option<Box<Availability>>,
+    /// What it does, state by state.
+    pub cells: Vec<StateOutcome>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+    /// Where it is declared.
+    pub origin: Origin,
+}
+
+/// What a command does in one state.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct StateOutcome {
+    /// The state in which it comes.
+    pub state: CompactString,
+    /// What happens, one of these; none where the source says nothing.
+    pub outcomes: Vec<Outcome>,
+    /// On what it depends, and what happens besides.
+    pub documentation: Option<Box<Documentation>>,
+}
+
+/// What happens to a command.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// It is carried out, and the state stays.
+    Unchanged,
+    /// The device refuses it.
+    Refused,
+    /// It leads to the first of these states, which leads by itself to the next.
+    States(Vec<CompactString>),
 }
 
 /// A state or a command: bits that have to have a value.

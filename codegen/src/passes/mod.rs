@@ -19,6 +19,8 @@ mod mapped_objects_exist;
 mod mapping_steps_checked;
 mod mentioned_objects_exist;
 pub(crate) mod messages_shaped;
+mod message_frames;
+mod messages_checked;
 mod modules_fit;
 mod names_in_texts_exist;
 mod names_tell_apart;
@@ -80,6 +82,7 @@ fn device(device: &mut Device, modules: &[Module], format: Option<Format>, diagn
     facts(device, is_table, diagnostics);
     if is_table {
         messages_shaped::run(device, diagnostics);
+        messages_checked::run(device, diagnostics);
         mentioned_objects_exist::run(device, diagnostics);
         names_in_texts_exist::run(device, diagnostics);
     }

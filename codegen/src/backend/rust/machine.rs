@@ -79,21 +79,19 @@ pub(super) fn models(
     options: &RustOptions,
 ) -> Vec<MachineModel> {
     let model = |((machine, [states, commands]), [state, command]): ((&StateMachine, [String; 2]), [String; 2])| {
-        let about = |what: &str, item: &str| {
-            let text = format!("{what} of {}, as {} tells them.", docs::escape(&machine.name), docs::escape(item));
-            vec![text]
+        let about = |what: &str, item: &str, does: &str| {
+            let by = if item.is_empty() { String::new() } else { format!(", as {} {does} them", docs::escape(item)) };
+            vec![format!("{what} of {}{by}.", docs::escape(&machine.name))]
         };
-        let state_docs = about("States", &machine.status_item);
-        let mut command_docs = vec![format!(
-            "Commands of {}, as {} takes them.",
-            docs::escape(&machine.name),
-            docs::escape(&machine.control_item)
-        )];
+        let state_docs = about("States", &machine.status_item, "tells");
+        let mut command_docs = about("Commands", &machine.control_item, "takes");
         command_docs.extend(transitions(machine));
         let patterns = |name, docs, list, item: &str, method| {
             patterns(scope, (name, docs), list, (item, method), bit_fields, options)
         };
-        let states = patterns(states, state_docs, &machine.states, &machine.status_item, state);
+        // The values of an enumeration have a type already.
+        let own_states = if machine.state_type.is_some() { &[] } else { machine.states.as_slice() };
+        let states = patterns(states, state_docs, own_states, &machine.status_item, state);
         let method = format!("with_{command}");
         let commands = patterns(commands, command_docs, &machine.commands, &machine.control_item, method);
         let transitions = states

@@ -69,6 +69,7 @@ const OWN: &[&str] = &[
     "effects",
     "replaced_by",
     "same_as",
+    "upper",
     "count",
     "max_count",
     "stride",

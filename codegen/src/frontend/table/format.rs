@@ -160,6 +160,8 @@ tables! {
         pub chapters: Vec<At<ChapterTable>>,
         /// Units with a scale, by name.
         pub units: Entries<UnitTable>,
+        /// Numbers that only whoever builds the machine knows, such as the pitch of a screw.
+        pub given: Entries<GivenTable>,
         /// Named values.
         pub enums: Entries<EnumTable>,
         /// Named bits.
@@ -516,6 +518,8 @@ tables! {
         pub buses: Option<Vec<At<String>>>,
         /// Whether each axis has its own.
         pub per_axis: Option<bool>,
+        /// The item that holds the upper half of the same number, of which this is the lower one.
+        pub upper: Option<At<String>>,
         /// Another name of the same value.
         pub same_as: Option<At<String>>,
         /// Meant for the vendor or a tool.
@@ -628,10 +632,38 @@ tables! {
         pub scale: Option<At<Scaling>>,
         /// The physical value of raw 0.
         pub offset: Option<f64>,
+        /// What the physical number is in a unit of the machine.
+        pub machine: Option<MachineUnitTable>,
         /// How the manual writes it.
         pub orig: Option<String>,
         /// What it is, in your own words.
         pub doc: Option<String>,
+    }
+
+    /// A unit of the machine: the physical number, multiplied and divided by numbers of `[given]`.
+    pub struct MachineUnitTable {
+        /// Its symbol.
+        pub unit: Option<At<String>>,
+        /// The numbers that multiply.
+        pub times: Vec<At<String>>,
+        /// The numbers that divide.
+        pub over: Vec<At<String>>,
+    }
+
+    /// A number that only whoever builds the machine knows.
+    pub struct GivenTable {
+        /// Symbol of its unit.
+        pub unit: Option<At<String>>,
+        /// What it is on models that know it.
+        pub models: Entries<Literal>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// Named values of an integer.
@@ -925,12 +957,16 @@ tables! {
         pub status: Option<At<String>>,
         /// The item that commands it.
         pub control: Option<At<String>>,
-        /// States, by the bits of `status`.
-        pub states: Entries<PatternTable>,
+        /// States, by the bits of `status`; or the name of an enumeration whose values they are.
+        pub states: Option<At<TextOr<Entries<PatternTable>>>>,
+        /// The state after power-on.
+        pub initial: Option<At<String>>,
         /// Commands, by the bits of `control`.
         pub commands: Entries<PatternTable>,
         /// From which state to which.
         pub transitions: Vec<At<TransitionTable>>,
+        /// What each command does in each state.
+        pub matrix: Option<At<MatrixTable>>,
         /// What it is, in your own words.
         pub doc: Option<String>,
         /// Page or line of the manual.
@@ -939,6 +975,57 @@ tables! {
         pub doubt: Option<OneOrMany<DoubtTable>>,
         /// Several contradictions.
         pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
+    /// What commands do in each state.
+    pub struct MatrixTable {
+        /// The states of the columns.
+        pub states: Vec<At<String>>,
+        /// The notes that cells refer to.
+        pub notes: Entries<String>,
+        /// The rows: messages or commands, each with a cell for every state.
+        pub rows: Entries<MatrixRow>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
+    /// What a command does in each state.
+    pub struct MatrixRow {
+        /// The messages or commands that the row is about, where its name is none; empty where nothing else describes it.
+        pub commands: Option<Vec<At<String>>>,
+        /// For each state `same`, `refused`, `?`, or the state that follows (`"a > b"` where `b` follows `a` by itself);
+        /// several of these with `or` between them.
+        pub cells: Vec<At<TextOr<MatrixCell>>>,
+        /// Models that have it; `*` stands for any letters.
+        pub models: Option<Vec<At<String>>>,
+        /// First firmware that has it.
+        pub since: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
+    /// A cell with more than an outcome.
+    pub struct MatrixCell {
+        /// What happens, as in a cell without more.
+        pub to: Option<At<String>>,
+        /// A note of the table.
+        pub note: Option<At<NumberOrText>>,
+        /// On what it depends, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
     }
 
     /// Bits that have to have a value.
@@ -1095,6 +1182,8 @@ tables! {
         pub doubt: Option<OneOrMany<DoubtTable>>,
         /// Several contradictions.
         pub doubts: Option<OneOrMany<DoubtTable>>,
+        /// Findings that the doubt explains.
+        pub allow: Option<Vec<At<String>>>,
     }
 
     /// When an order is carried out.
@@ -1113,6 +1202,8 @@ tables! {
 
     /// A field of a message.
     pub struct FieldTable {
+        /// The number that the manual gives to its first byte; numbers have to count on from field to field.
+        pub at: Option<At<u16>>,
         /// Fixed bytes.
         pub bytes: Option<Vec<u8>>,
         /// The only value of bits, as many as the `type` has, that fill no whole bytes.

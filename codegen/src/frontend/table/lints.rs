@@ -1,6 +1,6 @@
 //! Lints that need a table as it is written: digits, printed objects beside printed numbers, patterns of states.
 
-use super::at::{At, Entries, Literal};
+use super::at::{At, Entries, Literal, TextOr};
 use super::format::{MachineTable, NumberOrText, PatternTable, Row};
 use super::place;
 use super::spaces::Space;
@@ -192,7 +192,9 @@ pub(super) fn unprinted(reader: &mut Reader<'_, '_>, rows: &[(At<String>, At<Row
 
 /// Holds the states of a machine against each other, and so its commands.
 pub(super) fn machine(reader: &mut Reader<'_, '_>, table: &MachineTable) {
-    patterns(reader, &table.states, "states", &codes::STATES_OVERLAP);
+    if let Some(TextOr::Table(states)) = table.states.as_ref().map(|own| &own.value) {
+        patterns(reader, states, "states", &codes::STATES_OVERLAP);
+    }
     patterns(reader, &table.commands, "commands", &codes::COMMANDS_OVERLAP);
 }
 

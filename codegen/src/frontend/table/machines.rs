@@ -1,12 +1,15 @@
 //! State machines and procedures.
 
-use super::at::{At, Entries};
+use super::at::{At, Entries, TextOr};
 use super::format::{MachineTable, PatternTable, ProcedureTable, StepTable, TransitionTable};
 use super::references::References;
 use super::tree::{cited, Reader};
-use super::{lints, process, value};
+use super::{lints, outcomes, process, value};
 use crate::diagnostics::codes;
-use crate::ir::{CompactString, Device, Pattern, Procedure, StateMachine, Step, Transition, Type, Value};
+use crate::ir::{
+    CompactString, Device, EnumValue, MessageField, Pattern, Procedure, Shape, StateMachine, Step, Transition, Type,
+    Value,
+};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -25,24 +28,77 @@ pub(super) fn machine(
     lints::machine(reader, table);
     let (origin, cite) = (reader.origin(name), table.cite.as_ref().map(cited));
     device.doubts.extend(reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()));
-    let states = patterns(reader, &table.states);
+    let (state_type, states) = states(reader, table, device);
     let commands = patterns(reader, &table.commands);
     let mut transitions = Vec::new();
     for given in &table.transitions {
         transitions.extend(transition(reader, given, (&states, &commands), device));
     }
     for item in [&table.status, &table.control].into_iter().flatten() {
-        references.push((item.clone(), "item"));
+        if !is_field_of_reply(device, &item.value) {
+            references.push((item.clone(), "item"));
+        }
+    }
+    let list = |own: &[Pattern]| own.iter().map(|own| own.name.to_string()).collect::<Vec<_>>();
+    let mut names = outcomes::Names { states: list(&states), commands: list(&commands) };
+    names.commands.extend(device.messages.iter().map(|message| message.name.to_string()));
+    if let Some(initial) = table.initial.as_ref().filter(|own| !names.states.contains(&own.value)) {
+        reader.unresolved("state", &initial.value, reader.span(initial), names.states.iter().map(String::as_str));
+    }
+    let mut rows = Vec::new();
+    if let Some(matrix) = &table.matrix {
+        rows = outcomes::read(reader, &matrix.value, &names, references);
+        device.doubts.extend(outcomes::doubts(reader, matrix));
     }
     device.machines.push(StateMachine {
         name: text(name),
         status_item: table.status.as_ref().map(text).unwrap_or_default(),
         control_item: table.control.as_ref().map(text).unwrap_or_default(),
+        state_type,
         states,
+        initial: table.initial.as_ref().map(text),
         commands,
         transitions,
+        outcomes: rows,
         documentation: reader.documentation(table.doc.as_deref(), cite),
     });
+}
+
+/// The states of a machine: patterns of its own, or the values of an enumeration.
+fn states(reader: &mut Reader<'_, '_>, table: &MachineTable, device: &Device) -> (Option<CompactString>, Vec<Pattern>) {
+    let Some(given) = &table.states else { return (None, Vec::new()) };
+    let name = match &given.value {
+        TextOr::Table(own) => return (None, patterns(reader, own)),
+        TextOr::Text(name) => name,
+    };
+    let is_enumeration = |shape: &Shape| matches!(shape, Shape::Enumeration { .. });
+    let found = device.types.iter().find(|own| own.name == name.as_str() && is_enumeration(&own.shape));
+    let Some((Shape::Enumeration { base, values, .. }, ..)) = found.map(|own| (&own.shape, ())) else {
+        let known = device.types.iter().filter(|own| is_enumeration(&own.shape)).map(|own| own.name.as_str());
+        reader.unresolved("enumeration", name, reader.span(given), known);
+        return (None, Vec::new());
+    };
+    let mask = base.bits().filter(|&bits| bits < 32).map_or(u32::MAX, |bits| (1 << bits) - 1);
+    let single = values.iter().filter(|value| value.last.is_none() && value.zone.is_none());
+    let pattern = |value: &EnumValue| Pattern {
+        name: value.name.clone(),
+        mask,
+        value: (value.value & i128::from(mask)) as u32,
+        names: value.names.clone(),
+        documentation: value.documentation.clone(),
+    };
+    (Some(name.as_str().into()), single.map(pattern).collect())
+}
+
+/// Whether the text is `Message.field`, a field of the reply to a message.
+fn is_field_of_reply(device: &Device, text: &str) -> bool {
+    text.rsplit_once('.').is_some_and(|(message, field)| {
+        let reply = device.messages.iter().find(|own| own.name == message).map(|own| own.reply.as_slice());
+        reply.unwrap_or_default().iter().any(|own| match own {
+            MessageField::Value(value) => value.item.name == field,
+            _ => false,
+        })
+    })
 }
 
 fn patterns(reader: &mut Reader<'_, '_>, entries: &Entries<PatternTable>) -> Vec<Pattern> {

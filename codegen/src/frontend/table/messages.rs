@@ -13,6 +13,7 @@ use crate::ir::{
     Access, Availability, Binding, CompactString, Completion, Device, Framing, Item, Message, MessageField,
     MessageValue, ParameterSpace, Type, Value,
 };
+use crate::source::Span;
 use crate::text::brief;
 
 /// How deep repeated fields are read.
@@ -28,6 +29,7 @@ fn text(at: &At<String>) -> CompactString {
 
 /// How frames are delimited and checked.
 pub(super) fn framing(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, device: &mut Device) {
+    bytes_of_framing(reader, table);
     let own = &table.value;
     let (origin, cite) = (reader.origin(table), own.cite.as_ref().map(cited));
     device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
@@ -51,6 +53,31 @@ pub(super) fn framing(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, dev
             let names: Vec<_> = device.messages.iter().flat_map(|message| field_names(&message.request)).collect();
             reader.unresolved("field", &field.value, reader.span(field), names.iter().map(|name| name.as_str()));
         }
+    }
+}
+
+/// Holds the bytes of the framing against each other.
+fn bytes_of_framing(reader: &mut Reader<'_, '_>, table: &At<FramingTable>) {
+    let own = &table.value;
+    let special = [("start", own.start), ("end", own.end), ("escape", own.escape)];
+    let special: Vec<(&str, u8)> = special.into_iter().filter_map(|(name, byte)| Some((name, byte?))).collect();
+    let mut problems = Vec::new();
+    for (at, (name, byte)) in special.iter().enumerate() {
+        // Start and end may be one byte, which stands between frames.
+        let same = special[..at].iter().find(|(other, own)| own == byte && (*other, *name) != ("start", "end"));
+        problems.extend(same.map(|(other, _)| format!("`{other}` and `{name}` are both 0x{byte:02X}")));
+        if own.escape.is_some() && !own.escaped.contains(byte) {
+            problems.push(format!("0x{byte:02X} is the `{name}` of frames, and isn't escaped"));
+        }
+    }
+    for byte in own.escaped.iter().filter(|_| own.escape.is_some()) {
+        let sent = byte ^ own.escape_xor;
+        if special.iter().any(|(_, own)| *own == sent) {
+            problems.push(format!("0x{byte:02X} is sent as 0x{sent:02X}, which is special itself"));
+        }
+    }
+    for message in problems {
+        reader.report(&codes::FRAMING_BYTES, reader.span(table), message);
     }
 }
 
@@ -93,6 +120,12 @@ pub(super) fn message(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<M
     let request = with.list(&own.request, 0);
     with.request = field_names(&request).cloned().collect();
     let reply = with.list(&own.reply, 0);
+    for (list, fields) in [(&own.request, &request), (&own.reply, &reply)] {
+        with.numbers(list, fields);
+    }
+    let last = own.request.iter().chain(&own.reply).map(|field| field.end).max();
+    let whole = Span::new(reader.file, name.start, last.unwrap_or(name.end).max(name.end));
+    rows.allow_in(reader, whole, &own.allow);
     let replies: Vec<CompactString> = field_names(&reply).cloned().collect();
     let completion = completion(reader, rows, own.completion.as_ref(), &replies);
     references(own, &mut rows.references);
@@ -262,6 +295,46 @@ impl Fields<'_, '_, '_> {
         }
         let fixed = own.bytes.clone().map(MessageField::Constant).or(own.pad.map(MessageField::Padding));
         Some(fixed.unwrap_or(MessageField::Rest))
+    }
+
+    /// The printed numbers of bytes count on from field to field, up to the first one whose length isn't known.
+    fn numbers(&mut self, list: &[At<FieldTable>], fields: &[MessageField]) {
+        if list.len() != fields.len() {
+            return;
+        }
+        let (mut bits, mut first) = (0u32, None);
+        for (given, field) in list.iter().zip(fields) {
+            if let Some(at) = &given.value.at {
+                let number = i64::from(at.value) - i64::from(bits / 8);
+                let first = *first.get_or_insert(number);
+                if number != first {
+                    let message = format!(
+                        "the field has byte number {}, and would have {}",
+                        at.value,
+                        first + i64::from(bits / 8)
+                    );
+                    self.reader.report(&codes::BYTE_NUMBERS, self.reader.span(at), message);
+                    return;
+                }
+            }
+            match self.bits(field) {
+                Some(own) => bits += own,
+                None => return,
+            }
+        }
+    }
+
+    /// The length of a field, where it is always the same.
+    fn bits(&self, field: &MessageField) -> Option<u32> {
+        match field {
+            MessageField::Constant(bytes) => Some(bytes.len() as u32 * 8),
+            MessageField::FixedBits { bits, .. } | MessageField::ItemCode { bits, .. } => Some(u32::from(*bits)),
+            MessageField::Value(value) => self.rows.underlying(value.item.ty).bits(),
+            MessageField::Echo { bytes: Some((first, last)), .. } => Some((u32::from(last - first) + 1) * 8),
+            MessageField::Copy { first, last } => Some((u32::from(last - first) + 1) * 8),
+            MessageField::Padding(bytes) => Some(u32::from(*bytes) * 8),
+            _ => None,
+        }
     }
 
     fn echo(&mut self, echo: &At<String>, field: &At<FieldTable>) -> MessageField {

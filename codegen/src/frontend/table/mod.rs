@@ -5,7 +5,7 @@
 //! | `format`, `at`, `alternatives` | the tables of the format, as `serde` reads them; the pieces they are made of |
 //! | `tree` | from the text to those tables, with every error at its place; options |
 //! | `place`, `types`, `value`, `units` | numbers and places, names of types, literals, symbols of units |
-//! | `definitions` | units, enumerations, bit fields |
+//! | `definitions`, `given` | units, enumerations, bit fields; numbers of the machine |
 //! | `scale` | how raw numbers become physical ones |
 //! | `conditions`, `variants` | when something exists; what differs between models and buses |
 //! | `references`, `numbered` | names that lead to something else, and numbers in their place |
@@ -15,7 +15,7 @@
 //! | `defaults`, `misplaced` | what rows inherit; keys that say nothing where they stand |
 //! | `device` | the head: device, models, axes |
 //! | `process`, `images` | process data: PDOs, fixed process images |
-//! | `code_tables`, `machines`, `messages` | codes; state machines and procedures; messages and their frames |
+//! | `code_tables`, `machines`, `outcomes`, `messages` | codes; state machines and procedures; what commands do in each state; messages and their frames |
 //! | `overlay` | tables that say something of what another file describes |
 //! | `lints`, `summary` | what needs the table as it is written; what another place of the manual says |
 //! | `schema` | the JSON Schema of the format |
@@ -29,6 +29,7 @@ mod defaults;
 mod definitions;
 mod device;
 pub mod format;
+mod given;
 mod images;
 mod limits;
 mod lints;
@@ -37,6 +38,7 @@ mod messages;
 mod misplaced;
 mod numbered;
 mod objects;
+mod outcomes;
 pub mod overlay;
 mod place;
 mod process;
@@ -86,7 +88,7 @@ pub(crate) fn is_unit(symbol: &str) -> bool {
 const VERSION: u32 = 1;
 
 /// The keys of a table, and the order in which they are read: what others refer to comes first.
-const KEYS: [&str; 21] = [
+const KEYS: [&str; 22] = [
     "lexibus",
     "device",
     "overlay",
@@ -97,6 +99,7 @@ const KEYS: [&str; 21] = [
     "defaults",
     "spaces",
     "units",
+    "given",
     "enums",
     "bits",
     "chapters",
@@ -149,6 +152,9 @@ pub fn read(
         taken.place(&mut reader, item);
     }
     device.groups.extend(dictionary.into_values());
+    for (name, given) in table.named::<format::GivenTable>(&mut reader, "given") {
+        device.given.push(given::number(&mut reader, &name, &given, &mut rows.references));
+    }
     // Their fields have types as rows do.
     table.frames(&mut reader, &mut rows, &mut device);
     rows.definitions.make_unused(&mut reader);

@@ -79,6 +79,7 @@ impl<'d> Known<'d> {
         match kind {
             "model" => device.variants.is_empty() || device.variants.iter().any(|own| glob(text, &own.name)),
             "constant" => device.variants.iter().any(|own| own.constants.iter().any(|(name, _)| name == text)),
+            "given number" => device.given.iter().any(|given| given.name == text),
             "message" => device.messages.iter().any(|message| message.name == text),
             "procedure" => device.procedures.iter().any(|procedure| procedure.name == text),
             "state" => states(device).any(|state| state == text),
@@ -102,6 +103,7 @@ impl<'d> Known<'d> {
             "constant" => {
                 device.variants.iter().flat_map(|own| &own.constants).map(|(name, _)| name.as_str()).collect()
             }
+            "given number" => device.given.iter().map(|own| own.name.as_str()).collect(),
             "message" => device.messages.iter().map(|own| own.name.as_str()).collect(),
             "procedure" => device.procedures.iter().map(|own| own.name.as_str()).collect(),
             "state" => states(device).collect(),

@@ -10,7 +10,7 @@ use super::numbered::Numbered;
 use super::references::{References, ITEM};
 use super::spaces::{Buses, Space};
 use super::tree::{cited, Reader};
-use super::{place, scale, types, value};
+use super::{given, place, scale, types, value};
 use crate::diagnostics::{codes, Code, Diagnostic};
 use crate::ir::{
     Access, Availability, Behaviour, Extension, Item, Mappable, ModbusTable, Quantity, Shape, Storage, Type, TypeDef,
@@ -144,7 +144,7 @@ impl Rows {
         }
     }
 
-    fn allow_in(&mut self, reader: &mut Reader<'_, '_>, span: Span, names: &Option<Vec<At<String>>>) {
+    pub fn allow_in(&mut self, reader: &mut Reader<'_, '_>, span: Span, names: &Option<Vec<At<String>>>) {
         for name in names.iter().flatten() {
             match codes::find(&name.value) {
                 Some(code) => self.allowed.push((span, code)),
@@ -341,6 +341,8 @@ impl Rows {
                 None => unit.value.as_str().into(),
             };
             quantity.units = reader.original(own.as_ref().and_then(|table| table.orig.as_deref()));
+            let machine = own.as_ref().and_then(|table| table.machine.as_ref());
+            quantity.machine = machine.and_then(|machine| given::unit(reader, machine, &mut self.references));
             if own.is_none() && !super::units::is_known(&unit.value) {
                 let names = self.definitions.units.iter().map(|(name, _)| name.value.as_str());
                 let similar = super::tree::similar(&unit.value, names).or_else(|| super::units::usual(&unit.value));
@@ -426,6 +428,10 @@ impl Rows {
             own.options = needs.iter().map(|need| need.as_str().into()).collect();
         }
         item.availability = (own != Availability::default()).then(|| Box::new(own));
+        if let Some(upper) = &row.upper {
+            self.references.push((upper.clone(), ITEM));
+            item.extensions.push(extension("upper_half", &upper.value, reader.span(upper)));
+        }
         if let Some(same) = &row.same_as {
             self.references.push((same.clone(), ITEM));
             item.extensions.push(extension("same_as", &same.value, reader.span(same)));

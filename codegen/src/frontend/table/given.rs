@@ -1,0 +1,62 @@
+//! Numbers of the machine that a device drives, and units that are made of them.
+
+use super::at::At;
+use super::format::{GivenTable, MachineUnitTable};
+use super::references::References;
+use super::tree::{cited, Reader};
+use super::{units, value};
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{GivenNumber, MachineUnit, Type};
+use crate::text::brief;
+
+/// A number of `[given]`.
+pub(super) fn number(
+    reader: &mut Reader<'_, '_>,
+    name: &At<String>,
+    table: &GivenTable,
+    references: &mut References,
+) -> GivenNumber {
+    if let Some(unit) = &table.unit {
+        symbol(reader, unit);
+    }
+    let mut models = Vec::new();
+    for (model, given) in table.models.iter() {
+        references.push((model.clone(), "model"));
+        models.push((model.value.as_str().into(), value::value(reader, given, Type::Real64)));
+    }
+    let (origin, cite) = (reader.origin(name), table.cite.as_ref().map(cited));
+    GivenNumber {
+        name: name.value.as_str().into(),
+        unit: table.unit.as_ref().map(|unit| unit.value.as_str().into()).unwrap_or_default(),
+        models,
+        doubts: reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()),
+        documentation: reader.documentation(table.doc.as_deref(), cite),
+        origin,
+    }
+}
+
+/// The unit that `[units]` says the machine has for a physical number.
+pub(super) fn unit(
+    reader: &mut Reader<'_, '_>,
+    table: &MachineUnitTable,
+    references: &mut References,
+) -> Option<Box<MachineUnit>> {
+    let given = table.times.iter().chain(&table.over);
+    references.extend(given.map(|name| (name.clone(), "given number")));
+    let unit = table.unit.as_ref()?;
+    symbol(reader, unit);
+    let names = |list: &[At<String>]| list.iter().map(|own| own.value.as_str().into()).collect();
+    let unit = unit.value.as_str().into();
+    Some(Box::new(MachineUnit { unit, times: names(&table.times), over: names(&table.over) }))
+}
+
+fn symbol(reader: &mut Reader<'_, '_>, unit: &At<String>) {
+    if !units::is_known(&unit.value) {
+        let message = format!("`{}` is no unit that is known", brief(&unit.value));
+        let found = Diagnostic::new(&codes::UNKNOWN_UNIT, reader.span(unit), message);
+        reader.diagnostics.push(match units::usual(&unit.value) {
+            Some(usual) => found.help(format!("did you mean `{usual}`?")),
+            None => found.label("kept as it is"),
+        });
+    }
+}

@@ -1,0 +1,158 @@
+//! What commands do in each state: the table of commands and states that a manual has of a machine.
+
+use super::at::{At, TextOr};
+use super::format::{MatrixCell, MatrixRow, MatrixTable};
+use super::references::References;
+use super::tree::{cited, number_or_text, Reader};
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{Availability, CommandOutcomes, CompactString, Documentation, Doubt, Outcome, StateOutcome};
+use crate::source::Span;
+use crate::text::brief;
+
+/// What the cells may name: states of the machine, its commands and the device's messages.
+pub(super) struct Names {
+    pub states: Vec<String>,
+    pub commands: Vec<String>,
+}
+
+/// The rows of the table.
+pub(super) fn read(
+    reader: &mut Reader<'_, '_>,
+    table: &MatrixTable,
+    names: &Names,
+    references: &mut References,
+) -> Vec<CommandOutcomes> {
+    for state in &table.states {
+        known(reader, "state", &state.value, reader.span(state), &names.states);
+    }
+    let mut rows = Vec::new();
+    for (name, row) in table.rows.iter() {
+        rows.push(self::row(reader, table, (name, row), names, references));
+    }
+    rows
+}
+
+/// The doubts of the table and of its rows.
+pub(super) fn doubts(reader: &Reader<'_, '_>, table: &At<MatrixTable>) -> Vec<Doubt> {
+    let own = &table.value;
+    let cite = own.cite.as_ref().map(cited);
+    let mut found = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], reader.origin(table), cite.as_deref());
+    for (name, row) in own.rows.iter() {
+        let (row, origin) = (&row.value, reader.origin(name));
+        let cite = row.cite.as_ref().map(cited);
+        found.extend(reader.doubts([row.doubt.as_ref(), row.doubts.as_ref()], origin, cite.as_deref()));
+    }
+    found
+}
+
+fn known(reader: &mut Reader<'_, '_>, what: &str, name: &str, span: Span, list: &[String]) {
+    if !list.iter().any(|own| own == name) {
+        reader.unresolved(what, name, span, list.iter().map(String::as_str));
+    }
+}
+
+fn row(
+    reader: &mut Reader<'_, '_>,
+    table: &MatrixTable,
+    (name, row): (&At<String>, &At<MatrixRow>),
+    names: &Names,
+    references: &mut References,
+) -> CommandOutcomes {
+    let own = &row.value;
+    let commands = match &own.commands {
+        Some(list) => list.clone(),
+        None => vec![name.clone()],
+    };
+    for command in &commands {
+        known(reader, "command", &command.value, reader.span(command), &names.commands);
+    }
+    references.extend(own.models.iter().flatten().map(|model| (model.clone(), "model")));
+    if own.cells.len() != table.states.len() {
+        let message = format!(
+            "`{}` has {} cells, and the table {} states",
+            brief(&name.value),
+            own.cells.len(),
+            table.states.len()
+        );
+        reader.report(&codes::TABLE_VALUE, reader.span(name), message);
+    }
+    let mut cells = Vec::with_capacity(own.cells.len());
+    for (state, given) in table.states.iter().zip(&own.cells) {
+        let (outcomes, documentation) = cell(reader, table, given, names);
+        cells.push(StateOutcome { state: state.value.as_str().into(), outcomes, documentation });
+    }
+    let availability = Availability {
+        models: own.models.iter().flatten().map(|model| model.value.as_str().into()).collect(),
+        since: own.since.as_deref().map(Into::into),
+        ..Availability::default()
+    };
+    CommandOutcomes {
+        name: name.value.as_str().into(),
+        commands: commands.iter().map(|command| command.value.as_str().into()).collect(),
+        availability: (availability != Availability::default()).then(|| Box::new(availability)),
+        cells,
+        documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
+        origin: reader.origin(name),
+    }
+}
+
+/// The outcomes of a cell, and what is said of them.
+fn cell(
+    reader: &mut Reader<'_, '_>,
+    table: &MatrixTable,
+    given: &At<TextOr<MatrixCell>>,
+    names: &Names,
+) -> (Vec<Outcome>, Option<Box<Documentation>>) {
+    let span = reader.span(given);
+    let own = match &given.value {
+        TextOr::Text(text) => return (outcomes(reader, text, span, names), None),
+        TextOr::Table(own) => own,
+    };
+    let Some(to) = &own.to else {
+        reader.report(&codes::TABLE_VALUE, span, "a cell says `to` what the command leads");
+        return (Vec::new(), None);
+    };
+    let mut words: Vec<&str> = own.doc.as_deref().into_iter().collect();
+    if let Some(note) = &own.note {
+        let key = number_or_text(&note.value);
+        match table.notes.iter().find(|(name, _)| name.value == key) {
+            Some((_, text)) => words.push(&text.value),
+            None => {
+                let notes = table.notes.iter().map(|(name, _)| name.value.as_str());
+                reader.unresolved("note", &key, reader.span(note), notes);
+            }
+        }
+    }
+    let text = (!words.is_empty()).then(|| words.join(". "));
+    let documentation = reader.documentation(text.as_deref(), own.cite.as_ref().map(cited));
+    (outcomes(reader, &to.value, reader.span(to), names), documentation)
+}
+
+/// `same`, `refused`, `?` or states that follow each other; several of these with `or` between them.
+fn outcomes(reader: &mut Reader<'_, '_>, text: &str, span: Span, names: &Names) -> Vec<Outcome> {
+    if text.trim() == "?" {
+        return Vec::new();
+    }
+    let mut found = Vec::new();
+    for one in text.split(" or ").map(str::trim) {
+        let outcome = match one {
+            "same" => Outcome::Unchanged,
+            "refused" => Outcome::Refused,
+            _ => {
+                let chain: Vec<CompactString> = one.split('>').map(|state| state.trim().into()).collect();
+                for state in &chain {
+                    known(reader, "state", state, span, &names.states);
+                }
+                Outcome::States(chain)
+            }
+        };
+        if found.contains(&outcome) {
+            let message = format!("the cell says `{}` twice", brief(one));
+            let help = "one of them is another outcome: compare the cell with the manual";
+            reader.diagnostics.push(Diagnostic::new(&codes::TABLE_DUPLICATE, span, message).help(help));
+            continue;
+        }
+        found.push(outcome);
+    }
+    found
+}
