@@ -21243,6 +21243,25 @@ pub mod codes {
         }
     }
 }
+/// Sequences of writes, in their order. Each is sent with `SdoWrite::send`.
+pub mod procedures {
+    use ::lexibus as rt;
+    /// Restarts the drive. The two commands have to follow each other directly.
+    ///
+    /// Manual, line 2597.
+    pub const RESTART: [rt::SdoWrite; 2] = [
+        rt::SdoWrite::new_u16(0x20C2, 0x01, 0x008E),
+        rt::SdoWrite::new_u16(0x20C2, 0x01, 0x008F),
+    ];
+    /// Puts the Antaios chip into boot mode. Modbus communication is off from then on, until the drive is switched off.
+    ///
+    /// Manual, line 2597.
+    pub const ENTER_ANTAIOS_BOOT_MODE: [rt::SdoWrite; 3] = [
+        rt::SdoWrite::new_u16(0x20C2, 0x01, 0x0093),
+        rt::SdoWrite::new_u16(0x20C2, 0x01, 0x0094),
+        rt::SdoWrite::new_u16(0x20C2, 0x01, 0x0093),
+    ];
+}
 /// A handle for every register and every entry of the object dictionary.
 pub mod objects {
     use ::lexibus as rt;

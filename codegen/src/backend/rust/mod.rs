@@ -26,6 +26,7 @@ mod nested;
 mod options;
 mod pdo;
 mod place;
+mod procedure;
 mod profinet;
 mod quantity;
 mod remap;

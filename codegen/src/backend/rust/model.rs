@@ -13,6 +13,7 @@ use super::named::Types;
 use super::options::{Presence, RustOptions};
 use super::pdo::{self, PdoModel};
 use super::place::{Buses, Place as Address};
+use super::procedure::{self, ProcedureModel};
 use super::quantity;
 use super::remap::{self, RemappableModel};
 use super::scope::{ObjectBus, Scope};
@@ -52,6 +53,8 @@ pub(super) struct Model<'a> {
     pub handles: [&'static str; 3],
     pub types: Types,
     pub code_tables: Vec<CodeTableModel>,
+    /// Procedures that are nothing but writes of objects.
+    pub procedures: Vec<ProcedureModel>,
     pub axes: Option<AxesModel>,
     /// Requests and replies.
     pub protocol: Option<ProtocolModel>,
@@ -201,7 +204,9 @@ impl<'a> Model<'a> {
     /// A device.
     pub(super) fn new(device: &'a Device, file: &'a FileInfo, options: &'a RustOptions, place: &Place) -> Self {
         let (scope, types) = Scope::of_device(device, options);
+        let procedures = procedure::models(&scope, device);
         let (mut model, protocol) = Model::of_scope(scope, types, options);
+        model.procedures = procedures;
         let title = title(device);
         model.nest = place.nest;
         model.device_name = device_name(device, file, options.device_name.as_deref());
@@ -253,6 +258,7 @@ impl<'a> Model<'a> {
             handles: handles(&scope),
             types,
             code_tables: Vec::new(),
+            procedures: Vec::new(),
             axes: None,
             protocol: None,
             node_id: None,

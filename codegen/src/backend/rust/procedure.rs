@@ -1,0 +1,86 @@
+//! Procedures that are nothing but writes of objects, such as a start-up list: constants that a program sends as they are.
+
+use super::docs;
+use super::scope::{ObjectBus, Scope};
+use crate::ir::{Binding, Device, Item, Procedure, Step, Type, Value};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// A procedure, ready to be written.
+pub(super) struct ProcedureModel {
+    pub name: String,
+    pub docs: Vec<String>,
+    /// The calls that make the writes.
+    pub writes: Vec<String>,
+}
+
+pub(super) fn models(scope: &Scope<'_>, device: &Device) -> Vec<ProcedureModel> {
+    let own = device.procedures.iter();
+    let own: Vec<(&Procedure, Vec<String>)> = own.filter_map(|own| Some((own, writes(scope, own)?))).collect();
+    let wish = |(number, (own, _)): (usize, &(&Procedure, Vec<String>))| {
+        // Borrowed from the device, not from the list.
+        (own.name.to_string(), format!("procedure {number}"), number.to_string())
+    };
+    let words: Vec<(String, String, String)> = own.iter().enumerate().map(wish).collect();
+    let wishes: Vec<Wish<'_>> = words
+        .iter()
+        .map(|(name, fallback, suffix)| Wish { name, fallback: fallback.clone(), suffix: suffix.clone() })
+        .collect();
+    let names = names_unique::unique(&wishes, &["rt"], Case::Snake);
+    own.into_iter()
+        .zip(names)
+        .map(|((own, writes), name)| ProcedureModel {
+            name: name.to_ascii_uppercase(),
+            docs: documentation(scope, own),
+            writes,
+        })
+        .collect()
+}
+
+fn documentation(scope: &Scope<'_>, own: &Procedure) -> Vec<String> {
+    let mut sentences = Vec::new();
+    docs::words(own.documentation.as_deref(), &mut sentences);
+    if sentences.is_empty() {
+        sentences.push(docs::sentence(&docs::escape(&own.name)));
+    }
+    sentences.extend(scope.manual.place(own.documentation.as_deref(), &own.names));
+    let paragraphs = sentences.into_iter().flat_map(|sentence| [String::new(), sentence]);
+    paragraphs.skip(1).collect()
+}
+
+/// The writes of a procedure; `None` where it has other steps, or values that only the device knows.
+fn writes(scope: &Scope<'_>, own: &Procedure) -> Option<Vec<String>> {
+    let writes: Option<Vec<String>> = own.steps.iter().map(|step| write(scope, step)).collect();
+    writes.filter(|writes| !writes.is_empty())
+}
+
+fn write(scope: &Scope<'_>, step: &Step) -> Option<String> {
+    let Step::Write(name, Value::Int(value)) = step else { return None };
+    let item = scope.item(name)?;
+    let (index, sub_index) = object(scope, item)?;
+    let (Type::Unsigned(bits @ (8 | 16 | 32)) | Type::Integer(bits @ (8 | 16 | 32))) = scope.base(item.ty) else {
+        return None;
+    };
+    let mask = (1i128 << bits) - 1;
+    let number = value & mask;
+    // A number that its item can't have has its finding; it isn't cut to another one.
+    if *value != number && *value != number - mask - 1 {
+        return None;
+    }
+    let number = match bits {
+        8 => format!("0x{number:02X}"),
+        16 => format!("0x{number:04X}"),
+        _ => format!("0x{:04X}_{:04X}", number >> 16, number & 0xFFFF),
+    };
+    Some(format!("rt::SdoWrite::new_u{bits}(0x{index:04X}, 0x{sub_index:02X}, {number})"))
+}
+
+/// Where an item is on the bus of the device.
+fn object(scope: &Scope<'_>, item: &Item) -> Option<(u16, u8)> {
+    item.bindings.iter().find_map(|binding| match binding {
+        Binding::Object { buses, index, sub_index } => {
+            let is_there = if scope.bus == ObjectBus::CoE { buses.coe } else { buses.canopen };
+            is_there.then_some((*index, *sub_index))
+        }
+        _ => None,
+    })
+}
