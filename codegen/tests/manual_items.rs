@@ -3,6 +3,9 @@
 //! dictionaries/aec-vector-step.toml that says how it was read. The list is the overview; the tests hold it against the
 //! tests that it names, the doubts and, where the manual is beside the repository, its lines.
 
+#[path = "table_support/items.rs"]
+mod items;
+
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -144,16 +147,6 @@ fn every_item_is_accounted_for() {
     assert_eq!(missing, [""; 0]);
 }
 
-/// The text of a test, from its name to its end.
-fn test<'s>(sources: &[&'s str], name: &str) -> Option<&'s str> {
-    let head = format!("fn {name}() {{");
-    sources.iter().find_map(|source| {
-        let start = source.find(&head)?;
-        let rest = &source[start..];
-        Some(&rest[..rest.find("\n}\n").unwrap_or(rest.len())])
-    })
-}
-
 #[test]
 fn the_tests_expect_what_the_list_says() {
     let lints = [include_str!("lints_manual.rs"), include_str!("lints_table.rs")];
@@ -164,43 +157,17 @@ fn the_tests_expect_what_the_list_says() {
             Import(name, codes) => (imports.as_slice(), name, codes),
             Doubt(_) => continue,
         };
-        let text = test(sources, name).unwrap_or_else(|| panic!("item {item}: there is no test `{name}`"));
+        let text = items::test(sources, name).unwrap_or_else(|| panic!("item {item}: there is no test `{name}`"));
         for code in *codes {
             assert!(text.contains(&format!("\"{code}\"")), "item {item}: `{name}` doesn't expect {code}");
         }
     }
 }
 
-/// The lines that a text names: `L12`, `L12-15`, and in brackets behind a first one also `L12, 15`.
-fn named(text: &str, lines: &mut BTreeSet<usize>) {
-    for (at, _) in text.match_indices('L') {
-        let rest = &text[at + 1..];
-        let end = rest.find(|c: char| !c.is_ascii_digit() && c != '-').unwrap_or(rest.len());
-        let mut ends = rest[..end].split('-').map(|number| number.parse::<usize>().ok());
-        if let Some(Some(first)) = ends.next() {
-            let last = ends.next().flatten().filter(|&last| last >= first && last < first + 400).unwrap_or(first);
-            lines.extend(first..=last);
-        }
-    }
-}
-
-/// The lines that the doubts of the table name in what the manual says.
-fn doubted() -> BTreeSet<usize> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries/aec-vector-step.toml");
-    let table = std::fs::read_to_string(path).expect("the table");
-    let mut lines = BTreeSet::new();
-    for (at, mark) in table.match_indices("says = ") {
-        let rest = &table[at + mark.len()..];
-        let quote = &rest[..1];
-        let text = rest[1..].split(quote).next().unwrap_or_default();
-        named(text, &mut lines);
-    }
-    lines
-}
-
 #[test]
 fn the_doubts_name_the_lines() {
-    let doubted = doubted();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries/aec-vector-step.toml");
+    let doubted = items::doubted(&std::fs::read_to_string(path).expect("the table"));
     let mut missing = Vec::new();
     for (item, how) in ITEMS {
         let Doubt(lines) = how else { continue };
