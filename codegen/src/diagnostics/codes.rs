@@ -708,7 +708,7 @@ codes! {
     TAB012 HEX_DIGITS "hex-digits" Lint Warn
         "a hexadecimal number doesn't have the digits of its type"
         "A number with more digits than its type has bits for (`0x007FFFFFFF` of 32 bits), one that is filled up with zeros to \
-        another length (`0x0000` of 32 bits), or an index without four digits (`0x20A`). A digit was doubled or lost, or the \
+        another length (`0x0000` of 32 bits), or an index without four digits (`0x20A`) or without `0x`. A digit was doubled or lost, or the \
         type is another. Or it begins with `0X`, which is read, and often is a mark of another hand in the manual. In an \
         EDS, numbers as long as those of a longer type are found only where a level of this code is set."
     TAB013 BIT_OUTSIDE_TYPE "bit-outside-type" Lint Warn
@@ -831,6 +831,15 @@ codes! {
         "two items share registers, or bits of one"
         "One of the two has the wrong number, or a type that is too long. Where the device shows a part of a value in registers \
          of its own, say so: `part`, or `same_as` and this code in `allow`."
+    TAB044 EXAMPLE_DIFFERS "example-differs" Lint Warn
+        "an example isn't as its message says"
+        "The bytes of a request or reply that the manual prints were held against the fields of the message: their number, \
+        constant bytes and values, lengths, echoes, reserved bits, and values that have a name. One of the two is misprinted: keep \
+        what the other frames support, with a `doubt`."
+    TAB045 CELLS_TWICE "cells-twice" Lint Warn
+        "two codes have the same cells"
+        "The table says that no two codes have the same cells (`distinct`), and two do. A row was copied: write the doubt down, \
+        and allow this code on the table."
     MSG001 FRAMING_BYTES "framing-bytes" Lint Warn
         "start, end, escape and escaped bytes of frames contradict each other"
         "Start, end and escape of a frame are three bytes; each of them is escaped where it is data, and what is sent in its place is \

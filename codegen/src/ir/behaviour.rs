@@ -309,6 +309,9 @@ pub struct Behaviour {
     pub safety: Option<CompactString>,
     /// Whether a tool doesn't show it (Visible of GSDML).
     pub hidden: bool,
+    /// What the slave's own side may do with memory of its slave controller (PDI access in ETG.1000.4).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pdi_access: Option<Access>,
     /// Communication states in which reading is allowed (ETG.2000 ReadRestrictions); empty = all.
     pub read_states: Vec<CompactString>,
     /// Communication states in which writing is allowed (ETG.2000 WriteRestrictions); empty = all.

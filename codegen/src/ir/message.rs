@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Availability, CompactString, Condition, Documentation, Doubt, Item, Texts, Value};
-use crate::source::Origin;
+use crate::source::{Origin, Span};
 
 /// A request and its reply.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -36,6 +36,9 @@ pub struct Message {
     pub availability: Option<Box<Availability>>,
     /// States in which the device accepts it; empty = all.
     pub accepted_in: Vec<CompactString>,
+    /// Frames that the source prints as examples.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub examples: Vec<MessageExample>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
     /// Contradictions of the source.
@@ -59,6 +62,21 @@ fn values(fields: &[MessageField]) -> Box<dyn Iterator<Item = &MessageValue> + '
             _ => Box::new(std::iter::empty()),
         }
     }))
+}
+
+/// A request, and what a device answered, byte for byte.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MessageExample {
+    /// The bytes of the request; empty where the source has none.
+    pub request: Vec<u8>,
+    /// The bytes of the reply; empty where the source has none.
+    pub reply: Vec<u8>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+    /// Where the bytes of the request stand.
+    pub request_at: Span,
+    /// Where the bytes of the reply stand.
+    pub reply_at: Span,
 }
 
 /// When an order is carried out.
@@ -156,6 +174,9 @@ pub struct MessageValue {
     pub item: Item,
     /// Order of its bytes on the wire, the most significant numbered 0; empty = big-endian.
     pub byte_order: Vec<u8>,
+    /// The field of the same frame from which on the value counts the bytes, where it is a length.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub counts: Option<CompactString>,
 }
 
 /// Numbers by which a command protocol addresses items, and the messages that carry their values.

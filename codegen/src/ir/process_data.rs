@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Extension, Texts, Type, Value};
+use super::{CompactString, Documentation, Extension, Texts, Type, Value};
 use crate::source::Origin;
 
 /// Cyclic data of a device or a module.
@@ -88,6 +88,12 @@ pub struct Pdo {
     pub oversampling: Option<Box<Oversampling>>,
     /// The name in other languages.
     pub names: Texts,
+    /// Greatest length of its own in bytes, where the source gives one that isn't its sync manager's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub max_bytes: Option<u16>,
+    /// What the source says about it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub documentation: Option<Box<Documentation>>,
     /// What the source says beyond that.
     pub extensions: Vec<Extension>,
     /// Whether no section describes it and it follows from NrOfRXPDO or NrOfTXPDO and CompactPDO (CiA 306).
@@ -119,6 +125,8 @@ impl Pdo {
             overwritten_by_module: false,
             oversampling: None,
             names: Texts::default(),
+            max_bytes: None,
+            documentation: None,
             extensions: Vec::new(),
             implicit: false,
             origin: Origin::default(),
@@ -232,6 +240,8 @@ pub enum PdoEntryKind {
     Item,
     /// An object that the source doesn't describe: raw bits.
     Unknown,
+    /// An object whose index the source doesn't give: raw bits under a name, with index 0.
+    Unnumbered,
     /// Room that nobody uses: a dummy entry of CANopen, padding of EtherCAT.
     Padding,
 }

@@ -13,12 +13,17 @@ pub(super) const CAN_BITS: u32 = 64;
 /// Runs before the PDOs that follow from mapping objects are added: those have checks of their own, as EtherCAT has.
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     for pdo in &device.process_data.pdos {
-        for entry in pdo.entries.iter().filter(|entry| entry.kind != PdoEntryKind::Padding) {
+        let has_object = |kind| !matches!(kind, PdoEntryKind::Padding | PdoEntryKind::Unnumbered);
+        for entry in pdo.entries.iter().filter(|entry| has_object(entry.kind)) {
             let (object, span) = ((entry.index, entry.sub_index), entry.origin.span);
             let mapped = Mapped { object, bits: entry.bits, direction: pdo.direction, span };
             mapped.check(device, device.ethercat.is_some(), diagnostics);
         }
         let bits = pdo.bits();
+        if let Some(max) = pdo.max_bytes.filter(|&max| bits > u32::from(max) * 8) {
+            let message = format!("the PDO 0x{:04X} has {bits} bits, and at most {max} bytes", pdo.mapping_index);
+            diagnostics.push(Diagnostic::new(&codes::PDO_TOO_LONG, pdo.origin.span, message));
+        }
         if device.canopen.is_some() && device.ethercat.is_none() && bits > CAN_BITS {
             let message = format!("the PDO 0x{:04X} has {bits} bits, and a CAN frame has 64", pdo.mapping_index);
             diagnostics.push(Diagnostic::new(&codes::PDO_TOO_LONG, pdo.origin.span, message));

@@ -20,7 +20,11 @@ fn report(item: &Item, code: &'static Code, span: Span, message: String, diagnos
 }
 
 fn bound(owner: Owner<'_>, item: &Item, binding: &Binding, diagnostics: &mut Diagnostics) {
-    let Some(bits) = owner.definition(item.ty).map_or(item.ty.bits(), |definition| definition.bits) else { return };
+    let own = || match item.ty {
+        Type::OctetString(bytes) | Type::VisibleString(bytes) => bytes?.checked_mul(8),
+        ty => ty.bits(),
+    };
+    let Some(bits) = owner.definition(item.ty).map_or_else(own, |definition| definition.bits) else { return };
     let name = brief(&item.name);
     match binding {
         Binding::EscMemory { length, .. } if bits.div_ceil(8) != u32::from(*length) => {

@@ -21,6 +21,7 @@ mod mentioned_objects_exist;
 pub(crate) mod messages_shaped;
 mod message_frames;
 mod messages_checked;
+mod message_examples_agree;
 mod modules_fit;
 mod names_in_texts_exist;
 mod names_tell_apart;
@@ -133,6 +134,7 @@ fn facts(device: &Device, is_table: bool, diagnostics: &mut Diagnostics) {
     titles_are_no_names::run(owner, diagnostics);
     firmware_comparable::run(device, diagnostics);
     aliases_agree::run(device, diagnostics);
+    message_examples_agree::run(device, diagnostics);
     if is_table || !device.procedures.is_empty() {
         procedures_possible::run(device, diagnostics);
         mapping_steps_checked::run(device, diagnostics);

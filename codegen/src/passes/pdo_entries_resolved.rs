@@ -68,10 +68,10 @@ fn pdos(pdos: &mut [Pdo], owner: &Owner<'_>, diagnostics: &mut Diagnostics) {
         for entry in &mut pdo.entries {
             entry.bit_offset = offset;
             offset = offset.saturating_add(entry.bits);
-            if entry.index == 0 {
-                entry.kind = PdoEntryKind::Padding;
-            } else {
-                resolve(entry, owner, diagnostics);
+            match entry.kind {
+                PdoEntryKind::Unnumbered => {}
+                _ if entry.index == 0 => entry.kind = PdoEntryKind::Padding,
+                _ => resolve(entry, owner, diagnostics),
             }
         }
     }

@@ -3,7 +3,8 @@
 use std::collections::HashSet;
 
 use crate::ir::{
-    Access, Binding, CompactString, Device, Direction, Group, Item, ObjectCode, Pdo, PdoEntry, Type, Value,
+    Access, Binding, CompactString, Device, Direction, Group, Item, ObjectCode, Pdo, PdoEntry, PdoEntryKind, Type,
+    Value,
 };
 
 /// A mapping object for every PDO of `device` that has none.
@@ -24,7 +25,7 @@ pub(super) fn can_be_told(pdo: &Pdo) -> bool {
         && !pdo.implicit
         && !pdo.entries.is_empty()
         && pdo.entries.len() <= 254
-        && pdo.entries.iter().all(|entry| entry.bits <= 0xFF)
+        && pdo.entries.iter().all(|entry| entry.bits <= 0xFF && entry.kind != PdoEntryKind::Unnumbered)
 }
 
 fn object(pdo: &Pdo) -> Group {

@@ -94,6 +94,9 @@ fn behaviour(behaviour: &Behaviour, paragraphs: &mut Vec<String>) {
             sentences.push(format!("Kept over power-off once {} was given.", escape(command)));
         }
     }
+    if let Some(access) = behaviour.pdi_access {
+        sentences.push(format!("The device's own side has it {}.", access.name()));
+    }
     if let Some(effective) = &behaviour.effective {
         sentences.push(format!("Takes effect at: {}", sentence(&escape(effective))));
     }

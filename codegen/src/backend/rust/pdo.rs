@@ -110,11 +110,7 @@ fn model(scope: &Scope<'_>, pdo: &Pdo, struct_name: String, options: &RustOption
     let word = pdo.bits() <= WORD;
     Some(PdoModel {
         name: struct_name,
-        docs: vec![
-            title(scope, pdo),
-            String::new(),
-            format!("Mapping 0x{:04X}, {} bits.", pdo.mapping_index, pdo.bits()),
-        ],
+        docs: documentation(scope, pdo),
         derives: options.derives(true),
         mapping_index: pdo.mapping_index,
         line: pdo.origin.line,
@@ -129,6 +125,18 @@ fn model(scope: &Scope<'_>, pdo: &Pdo, struct_name: String, options: &RustOption
         configuration: configuration(scope, pdo),
         has_identifier: has_identifier(pdo),
     })
+}
+
+/// The lines about a PDO.
+fn documentation(scope: &Scope<'_>, pdo: &Pdo) -> Vec<String> {
+    let mut lines = vec![title(scope, pdo)];
+    let mut sentences = vec![format!("Mapping 0x{:04X}, {} bits.", pdo.mapping_index, pdo.bits())];
+    docs::words(pdo.documentation.as_deref(), &mut sentences);
+    sentences.extend(scope.manual.place(pdo.documentation.as_deref(), &[]));
+    for sentence in sentences {
+        lines.extend([String::new(), sentence]);
+    }
+    lines
 }
 
 /// What the PDO is called, as a sentence.
@@ -243,8 +251,11 @@ fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str) -> FieldMo
     let ty = kind.path("super::");
     let (encode, decode) = (kind.encode(&own, entry.bits), kind.decode(&ty));
     let cut = kind.cut(entry.bits);
-    let facts =
-        format!("0x{:04X}:{:02X}, {} bits from bit {}.", entry.index, entry.sub_index, entry.bits, entry.bit_offset);
+    let object = match entry.kind {
+        PdoEntryKind::Unnumbered => "an object without a known index".to_owned(),
+        _ => format!("0x{:04X}:{:02X}", entry.index, entry.sub_index),
+    };
+    let facts = format!("{object}, {} bits from bit {}.", entry.bits, entry.bit_offset);
     let title = docs::escape(text);
     FieldModel {
         docs: if title.is_empty() {

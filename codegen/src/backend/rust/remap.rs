@@ -122,6 +122,7 @@ fn on_ethercat(scope: &Scope<'_>, device: &Device, pdo: &Pdo, constants: &mut Ve
     let managers = &device.process_data.sync_managers;
     let own = managers.iter().find(|manager| Some(manager.number) == pdo.sync_manager);
     let bytes = own.and_then(|manager| manager.size_range.1).unwrap_or(MAX_SYNC_MANAGER);
+    let bytes = pdo.max_bytes.map_or(bytes, |own| own.min(bytes));
     constants.push(format!("MAX_BITS: u32 = {}", u32::from(bytes) * 8));
     Some("rt::pdo::OnEtherCat")
 }

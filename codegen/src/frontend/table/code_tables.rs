@@ -1,10 +1,10 @@
 //! Codes with a meaning: alarms, emergency codes, abort codes.
 
-use super::at::{At, Literal, TextOr};
+use super::at::{At, Entries, Literal, TextOr};
 use super::format::{CodeTableRow, CodesTable};
 use super::tree::{cited, Reader};
 use super::{place, value};
-use crate::diagnostics::codes;
+use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Availability, CodeRow, CodeTable, Device, Type, Value};
 use crate::text::brief;
 
@@ -24,6 +24,12 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
         };
         let (origin, cite) = (reader.origin(key), row.cite.as_ref().map(cited));
         device.doubts.extend(reader.doubts([row.doubt.as_ref(), row.doubts.as_ref()], origin, cite.as_deref()));
+        let as_before = table.distinct.then(|| same_cells(&table.rows, key, row)).flatten();
+        if let Some(other) = as_before {
+            let message = format!("the codes {} and {} have the same cells", brief(&other.value), brief(&key.value));
+            let found = Diagnostic::new(&codes::CELLS_TWICE, reader.span(key), message);
+            reader.diagnostics.push(found.note_at(reader.span(other), "the first one"));
+        }
         let cell = |literal: &Literal| value::convert(literal, Type::Opaque(None), false).unwrap_or(Value::Bool(false));
         rows.push(CodeRow {
             code: first,
@@ -41,6 +47,20 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
         rows,
         origin: reader.origin(name),
     });
+}
+
+/// The code in front of `key` that has the cells of `row`, where it has any.
+fn same_cells<'t>(
+    rows: &'t Entries<TextOr<CodeTableRow>>,
+    key: &At<String>,
+    row: &CodeTableRow,
+) -> Option<&'t At<String>> {
+    let before = rows.iter().take_while(|(other, _)| other.start < key.start);
+    let mut same = before.filter(|(_, other)| match &other.value {
+        TextOr::Table(other) => !row.cells.is_empty() && other.cells == row.cells,
+        TextOr::Text(_) => false,
+    });
+    same.next().map(|(other, _)| other)
 }
 
 /// Models and firmware that have a code.

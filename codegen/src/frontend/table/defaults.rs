@@ -42,6 +42,7 @@ inherited! {
     "order" order
     "swap" swap
     "length" length
+    "pdi" pdi
 }
 
 /// Keys of rows that each row has for itself.

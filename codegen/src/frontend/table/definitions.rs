@@ -77,7 +77,7 @@ impl Definitions {
                 };
                 let mut about = self.about(reader, &place, (&table.doc, &table.cite), [&table.doubt, &table.doubts]);
                 about.name.push_str(&suffix);
-                self.bit_field(reader, about, base, &table.at)
+                self.bit_field(reader, about, base, (&table.at, table.address))
             }
         };
         self.made.insert(key, id);
@@ -143,7 +143,7 @@ impl Definitions {
         bits: &BitEntries,
     ) -> Type {
         let about = About { name: name.into(), doc: None, cite: None, origin };
-        Type::Named(self.bit_field(reader, about, base, bits))
+        Type::Named(self.bit_field(reader, about, base, (bits, None)))
     }
 
     fn push(&mut self, reader: &Reader<'_, '_>, about: About<'_>, base: Type, shape: Shape) -> TypeId {
@@ -203,14 +203,16 @@ impl Definitions {
         self.push(reader, about, base, Shape::Enumeration { base, values, closed })
     }
 
-    fn bit_field(&mut self, reader: &mut Reader<'_, '_>, about: About<'_>, base: Type, entries: &BitEntries) -> TypeId {
+    fn bit_field(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        about: About<'_>,
+        base: Type,
+        (entries, address): (&BitEntries, Option<u32>),
+    ) -> TypeId {
         let mut fields = Vec::new();
         for (key, meanings) in entries.iter() {
-            let Some((offset, bits)) = place::bits(&key.value) else {
-                let message = format!("`{}` are no bits: write `7` or `\"3-2\"`", brief(&key.value));
-                reader.report(&codes::TABLE_PLACE, reader.span(key), message);
-                continue;
-            };
+            let Some((offset, bits)) = bits_of_key(reader, key, (base, address)) else { continue };
             for meaning in &meanings.value.0 {
                 let plain = BitTable::default();
                 let (name, table) = match meaning {
@@ -317,6 +319,35 @@ impl Definitions {
             _ => BitMeaning::Number,
         }
     }
+}
+
+/// First bit and number of bits that a key stands for; behind the address of a byte, the bits of that byte.
+fn bits_of_key(reader: &mut Reader<'_, '_>, key: &At<String>, (base, first): (Type, Option<u32>)) -> Option<(u8, u8)> {
+    let Some((byte, bits)) = key.value.split_once(':') else {
+        let found = place::bits(&key.value);
+        if found.is_none() {
+            let message = format!("`{}` are no bits: write `7` or `\"3-2\"`", brief(&key.value));
+            reader.report(&codes::TABLE_PLACE, reader.span(key), message);
+        }
+        return found;
+    };
+    let byte = place::integer(byte);
+    let bits = place::bits(bits).filter(|(offset, bits)| offset + bits <= 8);
+    let (Some(byte), Some((offset, bits)), Some(first)) = (byte, bits, first) else {
+        let message = format!("`{}` are no bits of a byte", brief(&key.value));
+        let found = Diagnostic::new(&codes::TABLE_PLACE, reader.span(key), message);
+        reader.diagnostics.push(found.help("write `\"0x221:3-2\"`, and in the bit field its `address`"));
+        return None;
+    };
+    let bytes = base.bits().unwrap_or(0).div_ceil(8);
+    let number = u8::try_from(byte - i128::from(first)).ok().filter(|&number| u32::from(number) < bytes);
+    if number.is_none() {
+        let message = format!("the byte {byte:#06X} lies outside of {base} at {first:#06X}").replace("0X", "0x");
+        let found = Diagnostic::new(&codes::BIT_OUTSIDE_TYPE, reader.span(key), message);
+        reader.diagnostics.push(found.label("left out"));
+    }
+    // An integer has 64 bits at most.
+    Some((number?.saturating_mul(8).saturating_add(offset), bits))
 }
 
 fn window(value: &ValueTable) -> Window<'_> {

@@ -135,6 +135,73 @@ tables! {
         pub cite: Option<OneOrMany<NumberOrText>>,
     }
 
+    /// What a master has to know of an EtherCAT slave beside its objects and PDOs.
+    pub struct EtherCatTable {
+        /// CAN application protocol over EtherCAT, and what it can.
+        pub coe: Option<FlagOr<CoeTable>>,
+        /// ADS over EtherCAT.
+        pub aoe: bool,
+        /// Ethernet over EtherCAT.
+        pub eoe: bool,
+        /// File access over EtherCAT.
+        pub foe: bool,
+        /// Servo profile over EtherCAT.
+        pub soe: bool,
+        /// A protocol of the vendor's over EtherCAT.
+        pub voe: bool,
+        /// Its sync managers.
+        pub sync_managers: Vec<At<SyncManagerTable>>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
+    /// What the CAN application protocol of a slave can.
+    pub struct CoeTable {
+        /// It tells of its objects.
+        pub sdo_info: bool,
+        /// The assignment of PDOs may be written (0x1C12, 0x1C13).
+        pub pdo_assign: bool,
+        /// The mapping of PDOs may be written.
+        pub pdo_config: bool,
+        /// A master reads the assignment from the device.
+        pub pdo_upload: bool,
+        /// All sub-indices may be transferred at once.
+        pub complete_access: bool,
+        /// Values may be transferred in segments.
+        pub segmented_sdo: bool,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+    }
+
+    /// A sync manager.
+    pub struct SyncManagerTable {
+        /// Its number.
+        pub number: Option<u8>,
+        /// `mailbox_out`, `mailbox_in`, `outputs` or `inputs`, seen from the master.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::PURPOSES)))]
+        pub purpose: Option<At<String>>,
+        /// Its first address in the memory of the slave controller.
+        pub start: Option<u16>,
+        /// Its length in bytes by default.
+        pub size: Option<u16>,
+        /// Its least length.
+        pub min: Option<u16>,
+        /// Its greatest length.
+        pub max: Option<u16>,
+        /// Its control byte.
+        pub control: Option<u8>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
     /// A register table, an overlay or a profile.
     pub struct Document {
         /// Version of the format: 1.
@@ -150,6 +217,8 @@ tables! {
         pub manual: Option<At<ManualTable>>,
         /// Models of a family that share the table.
         pub models: Vec<At<ModelTable>>,
+        /// Mailbox and sync managers of an EtherCAT slave.
+        pub ethercat: Option<At<EtherCatTable>>,
         /// What the manual leaves open.
         pub options: Entries<OptionTable>,
         /// What rows have that don't say otherwise.
@@ -439,6 +508,9 @@ tables! {
         pub obj: Option<At<NumberOrText>>,
         /// Address in the memory of an EtherCAT slave controller.
         pub esc: Option<At<u16>>,
+        /// What the slave itself may do with that memory, where the manual says: `ro`, `rw` or `wo`.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["ro", "rw", "wo"])))]
+        pub pdi: Option<At<String>>,
         /// Length there, in bytes; of any other row what the manual prints, which is compared with the type.
         pub length: Option<At<u16>>,
         /// Name in an ASCII protocol.
@@ -739,8 +811,10 @@ tables! {
         pub doubts: Option<OneOrMany<DoubtTable>>,
         /// Findings that the doubt explains.
         pub allow: Option<Vec<At<String>>>,
+        /// The address of the byte with bits 0 to 7, where the manual counts the bits of each byte (`"0x221:3-2"`).
+        pub address: Option<u32>,
         /// The bits, and ranges of bits (`"3-2"`); a list where other items decide what they mean.
-        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::BITS)))]
+        #[cfg_attr(feature = "cli", schemars(transform = schema::keys(schema::BITS_OF_BYTES)))]
         pub at: BitEntries,
     }
 
@@ -829,8 +903,12 @@ tables! {
         /// `rx` or `tx`, seen from the device.
         #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["rx", "tx"])))]
         pub direction: Option<At<String>>,
-        /// `"0x6040:0/16"`, `"item"` or `"pad/8"`.
+        /// `"0x6040:0/16"`, `"item"`, `"pad/8"`, or `"? name/16"` where the manual gives no object.
         pub entries: Vec<At<String>>,
+        /// Its length in bytes as the manual prints it; a list where several places do. It is compared with the entries.
+        pub length: Option<At<OneOrMany<u32>>>,
+        /// Its greatest length in bytes, where its mapping can be changed.
+        pub max: Option<u16>,
         /// Whether its entries can't be changed.
         pub fixed: bool,
         /// Whether it has to be assigned.
@@ -849,6 +927,8 @@ tables! {
         pub doubt: Option<OneOrMany<DoubtTable>>,
         /// Several contradictions.
         pub doubts: Option<OneOrMany<DoubtTable>>,
+        /// Findings that the doubt explains.
+        pub allow: Option<Vec<At<String>>>,
     }
 
     /// A fixed process image.
@@ -918,6 +998,10 @@ tables! {
     pub struct CodesTable {
         /// Names of the columns beside code and meaning.
         pub columns: Vec<String>,
+        /// Whether no two codes have the same cells.
+        pub distinct: bool,
+        /// Findings that a doubt explains.
+        pub allow: Option<Vec<At<String>>>,
         /// What it is, in your own words.
         pub doc: Option<String>,
         /// Page or line of the manual.
@@ -1074,6 +1158,8 @@ tables! {
         pub doubt: Option<OneOrMany<DoubtTable>>,
         /// Several contradictions.
         pub doubts: Option<OneOrMany<DoubtTable>>,
+        /// Findings that the doubt explains.
+        pub allow: Option<Vec<At<String>>>,
     }
 
     /// A step.
@@ -1152,6 +1238,8 @@ tables! {
         pub completion: Option<At<TextOr<CompletionTable>>>,
         /// The states in which the device takes it.
         pub accepted_in: Vec<At<String>>,
+        /// Frames that the manual prints, byte for byte; they are held against the fields.
+        pub examples: Vec<At<ExampleTable>>,
         /// Items that have to have one of these values.
         pub when: Option<Conditions>,
         /// About how many milliseconds a reply takes that comes late.
@@ -1186,6 +1274,22 @@ tables! {
         pub allow: Option<Vec<At<String>>>,
     }
 
+    /// A request and its reply as the manual prints them.
+    pub struct ExampleTable {
+        /// The bytes of the request.
+        pub request: At<Vec<u8>>,
+        /// The bytes of the reply.
+        pub reply: At<Vec<u8>>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
     /// When an order is carried out.
     pub struct CompletionTable {
         /// When this item, or field of replies, says so; a bit stands behind a dot.
@@ -1206,7 +1310,7 @@ tables! {
         pub at: Option<At<u16>>,
         /// Fixed bytes.
         pub bytes: Option<Vec<u8>>,
-        /// The only value of bits, as many as the `type` has, that fill no whole bytes.
+        /// The only value: of a `field`, or else of bits, as many as the `type` has, that fill no whole bytes.
         pub fixed: Option<At<Literal>>,
         /// Name of a value.
         pub field: Option<At<String>>,
@@ -1233,6 +1337,10 @@ tables! {
         pub min: Option<At<Literal>>,
         /// The greatest value, raw.
         pub max: Option<At<Literal>>,
+        /// The only value.
+        pub fixed: Option<At<Literal>>,
+        /// It is the number of bytes from this field of the frame to its end.
+        pub counts: Option<At<String>>,
         /// Raw values that are no numbers, with their meaning.
         pub na: Option<Entries<String>>,
         /// A copy of this field of the request; of some of its bytes with `part`.

@@ -87,6 +87,15 @@ fn hexadecimal(text: &str) -> Option<String> {
 /// Reports an index that isn't written in four digits: one was lost.
 pub(super) fn index<T>(reader: &mut Reader<'_, '_>, given: &At<T>) {
     capital(reader, reader.span(given));
+    let text = reader.source.slice(reader.span(given)).trim_matches(['"', '\'']);
+    let first = text.split([':', '.']).next().unwrap_or_default();
+    if let Some(number) = first.parse::<u16>().ok().filter(|number| *number > 0) {
+        let message = format!("the index `{first}` is decimal: 0x{number:04X}");
+        let found = Diagnostic::new(&codes::HEX_DIGITS, reader.span(given), message);
+        reader
+            .diagnostics
+            .push(found.help(format!("write 0x{number:04X}, or 0x{first} where the manual leaves `0x` out")));
+    }
     if let Some(message) = digits_of_index(reader, given) {
         let found = Diagnostic::new(&codes::HEX_DIGITS, reader.span(given), message);
         reader.diagnostics.push(found.help("a digit was doubled or lost: look at the rows around it"));

@@ -2,7 +2,7 @@
 
 use super::at::{At, FlagOr, Literal, TextOr};
 use super::format::{
-    field_row, CompletionTable, FieldTable, FramingTable, MessageTable, NumberOrText, Row, SpaceTable,
+    field_row, CompletionTable, ExampleTable, FieldTable, FramingTable, MessageTable, NumberOrText, Row, SpaceTable,
 };
 use super::references::{References, ITEM_OR_FIELD};
 use super::rows::{Named, Rows};
@@ -10,8 +10,8 @@ use super::tree::{cited, Reader};
 use super::{place, types, value};
 use crate::diagnostics::codes;
 use crate::ir::{
-    Access, Availability, Binding, CompactString, Completion, Device, Framing, Item, Message, MessageField,
-    MessageValue, ParameterSpace, Type, Value,
+    Access, Availability, Binding, CompactString, Completion, Device, Doubt, Framing, Item, Message, MessageExample,
+    MessageField, MessageValue, ParameterSpace, Type, Value,
 };
 use crate::source::Span;
 use crate::text::brief;
@@ -104,6 +104,14 @@ pub(super) fn spaces<'t>(
     }
 }
 
+/// Where a message ends, with its fields and examples.
+pub(super) fn end(table: &At<MessageTable>) -> u32 {
+    let own = &table.value;
+    let fields = own.request.iter().chain(&own.reply).map(|field| field.end);
+    let frames = own.examples.iter().flat_map(|example| [example.value.request.end, example.value.reply.end]);
+    fields.chain(frames).fold(table.end, u32::max)
+}
+
 /// A request and its reply.
 pub(super) fn message(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<MessageTable>, device: &mut Device) {
     let own = &table.value;
@@ -123,14 +131,15 @@ pub(super) fn message(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<M
     for (list, fields) in [(&own.request, &request), (&own.reply, &reply)] {
         with.numbers(list, fields);
     }
-    let last = own.request.iter().chain(&own.reply).map(|field| field.end).max();
-    let whole = Span::new(reader.file, name.start, last.unwrap_or(name.end).max(name.end));
-    rows.allow_in(reader, whole, &own.allow);
     let replies: Vec<CompactString> = field_names(&reply).cloned().collect();
     let completion = completion(reader, rows, own.completion.as_ref(), &replies);
     references(own, &mut rows.references);
     let availability = availability(own);
-    let doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref());
+    let mut doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref());
+    for (fields, tables) in [(&request, &own.request), (&reply, &own.reply)] {
+        counted(reader, fields, tables);
+    }
+    let examples = own.examples.iter().map(|given| example(reader, given, &mut doubts)).collect();
     let effects = own.effects.iter().flat_map(|effects| &effects.0);
     device.messages.push(Message {
         name: text(name),
@@ -146,10 +155,39 @@ pub(super) fn message(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<M
         names: reader.original(own.orig.as_deref()),
         availability: (availability != Availability::default()).then(|| Box::new(availability)),
         accepted_in: own.accepted_in.iter().map(text).collect(),
+        examples,
         documentation: reader.documentation(own.doc.as_deref(), cite),
         doubts,
         origin,
     });
+}
+
+/// Reports lengths that count from a field that their frame doesn't have.
+fn counted(reader: &mut Reader<'_, '_>, fields: &[MessageField], tables: &[At<FieldTable>]) {
+    let echoes = fields.iter().filter_map(|field| match field {
+        MessageField::Echo { field, .. } => Some(field),
+        _ => None,
+    });
+    let known: Vec<&CompactString> = field_names(fields).chain(echoes).collect();
+    for counts in tables.iter().filter_map(|table| table.value.counts.as_ref()) {
+        if !known.iter().any(|own| **own == counts.value) {
+            reader.unresolved("field", &counts.value, reader.span(counts), known.iter().map(|own| own.as_str()));
+        }
+    }
+}
+
+/// Frames as the manual prints them.
+fn example(reader: &mut Reader<'_, '_>, given: &At<ExampleTable>, doubts: &mut Vec<Doubt>) -> MessageExample {
+    let own = &given.value;
+    let (origin, cite) = (reader.origin(given), own.cite.as_ref().map(cited));
+    doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+    MessageExample {
+        request: own.request.value.clone(),
+        reply: own.reply.value.clone(),
+        documentation: reader.documentation(own.doc.as_deref(), cite),
+        request_at: reader.span(&own.request),
+        reply_at: reader.span(&own.reply),
+    }
 }
 
 fn availability(own: &MessageTable) -> Availability {
@@ -243,7 +281,7 @@ impl Fields<'_, '_, '_> {
         let kinds = [
             own.field.is_some(),
             own.bytes.is_some(),
-            own.fixed.is_some(),
+            own.fixed.is_some() && own.field.is_none(),
             own.echo.is_some(),
             own.copy.is_some(),
             own.code.is_some(),
@@ -395,7 +433,7 @@ impl Fields<'_, '_, '_> {
     /// A value in a message: read as a row is, with what a field has in common with it.
     fn typed(&mut self, field: &At<FieldTable>, name: &At<String>) -> Option<MessageField> {
         let own = &field.value;
-        let row = Row { offset: own.offset, ..field_row!(own) };
+        let row = Row { offset: own.offset, fixed: own.fixed.clone(), ..field_row!(own) };
         let named = Named { name: &name.value, key: name, number: 0, end: field.end };
         let ty = self.rows.ty(self.reader, named, &row)?;
         let mut item = Item::new(Binding::Ascii(CompactString::default()));
@@ -410,7 +448,8 @@ impl Fields<'_, '_, '_> {
             let message = format!("the order has {} bytes, and the type {bytes}", byte_order.len());
             self.reader.report(&codes::TABLE_VALUE, self.reader.span(order), message);
         }
-        Some(MessageField::Value(Box::new(MessageValue { item, byte_order })))
+        let counts = own.counts.as_ref().map(text);
+        Some(MessageField::Value(Box::new(MessageValue { item, byte_order, counts })))
     }
 }
 

@@ -28,6 +28,7 @@ mod conditions;
 mod defaults;
 mod definitions;
 mod device;
+mod ethercat;
 pub mod format;
 mod given;
 mod images;
@@ -95,6 +96,7 @@ const KEYS: [&str; 22] = [
     "profile",
     "manual",
     "models",
+    "ethercat",
     "options",
     "defaults",
     "spaces",
@@ -139,6 +141,9 @@ pub fn read(
     let buses = device::head(&mut reader, &head, &mut device);
     for model in table.list(&mut reader, "models") {
         device::model(&mut reader, &model, &mut device);
+    }
+    if let Some(settings) = table.take(&mut reader, "ethercat") {
+        ethercat::settings(&mut reader, &settings, buses, &mut device);
     }
     let mut rows = table.rows(&mut reader, buses);
     device.modbus = std::mem::take(&mut rows.modbus);
@@ -291,7 +296,8 @@ impl<'a> Table<'a> {
         for image in self.list(reader, "images") {
             images::image(reader, rows, &image, device);
         }
-        for message in self.list(reader, "messages") {
+        for message in self.list::<format::MessageTable>(reader, "messages") {
+            rows.allow_at(reader, (message.start, messages::end(&message)), &message.value.allow);
             messages::message(reader, rows, &message, device);
         }
         if let Some(framing) = self.take(reader, "framing") {
@@ -308,7 +314,9 @@ impl<'a> Table<'a> {
             rows.references.extend(models.map(|model| (model.clone(), "model")));
             device::axes(reader, &axes, device);
         }
-        for pdo in self.list(reader, "pdos") {
+        for pdo in self.list::<format::PdoTable>(reader, "pdos") {
+            let end = pdo.value.entries.iter().map(|entry| entry.end).fold(pdo.end, u32::max);
+            rows.allow_at(reader, (pdo.start, end), &pdo.value.allow);
             process::pdo(reader, &pdo, device);
         }
         for (name, table) in self.named::<format::CodesTable>(reader, "codes") {
@@ -317,14 +325,11 @@ impl<'a> Table<'a> {
                 at::TextOr::Text(_) => None,
             });
             rows.references.extend(models.flatten().map(|model| (model.clone(), "model")));
+            let end = table.rows.iter().map(|(_, row)| row.end).fold(name.end, u32::max);
+            rows.allow_at(reader, (name.start, end), &table.allow);
             code_tables::table(reader, &name, &table, device);
         }
-        for (name, table) in self.named(reader, "machines") {
-            machines::machine(reader, &name, &table, device, &mut rows.references);
-        }
-        for (name, table) in self.named(reader, "procedures") {
-            machines::procedure(reader, &name, &table, device, &mut rows.references);
-        }
+        self.sequences(reader, rows, device);
         for (name, option) in &self.options {
             let (origin, cite) = (reader.origin(name), option.cite.as_ref().map(tree::cited));
             let doubts = [option.doubt.as_ref(), option.doubts.as_ref()];
@@ -334,6 +339,18 @@ impl<'a> Table<'a> {
             let origin = reader.origin(&doubt);
             let list = at::OneOrMany(vec![doubt.value]);
             device.doubts.extend(reader.doubts([Some(&list), None], origin, None));
+        }
+    }
+
+    /// State machines and procedures.
+    fn sequences(&mut self, reader: &mut Reader<'a, '_>, rows: &mut Rows, device: &mut Device) {
+        for (name, table) in self.named(reader, "machines") {
+            machines::machine(reader, &name, &table, device, &mut rows.references);
+        }
+        for (name, table) in self.named::<format::ProcedureTable>(reader, "procedures") {
+            let end = table.steps.iter().map(|step| step.end).fold(name.end, u32::max);
+            rows.allow_at(reader, (name.start, end), &table.allow);
+            machines::procedure(reader, &name, &table, device, &mut rows.references);
         }
     }
 }

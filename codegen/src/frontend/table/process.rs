@@ -45,6 +45,8 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, device: &mu
         }
     }
     let cite = own.cite.as_ref().map(cited);
+    pdo.documentation = reader.documentation(own.doc.as_deref(), cite.clone());
+    pdo.max_bytes = own.max;
     device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], pdo.origin, cite.as_deref()));
     for text in &own.entries {
         if let Some(entry) = entry(reader, text, device) {
@@ -52,10 +54,21 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, device: &mu
             pdo.entries.push(PdoEntry { bit_offset, ..entry });
         }
     }
+    printed_lengths(reader, own, &pdo);
     device.process_data.pdos.push(pdo);
 }
 
-/// `0x6040:0/16`, `item`, `item/16`, `pad/8`.
+/// Holds the lengths that the manual prints against the entries.
+fn printed_lengths(reader: &mut Reader<'_, '_>, own: &PdoTable, pdo: &Pdo) {
+    let Some(printed) = &own.length else { return };
+    let (index, bits) = (pdo.mapping_index, pdo.bits());
+    for bytes in printed.value.0.iter().filter(|bytes| bytes.saturating_mul(8) != bits) {
+        let message = format!("the PDO 0x{index:04X} is printed with {bytes} bytes, and its entries have {bits} bits");
+        reader.report(&codes::LENGTH_MISMATCH, reader.span(printed), message);
+    }
+}
+
+/// `0x6040:0/16`, `item`, `item/16`, `pad/8`, `? name/16`.
 fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, device: &Device) -> Option<PdoEntry> {
     let (what, bits) = match text.value.rsplit_once('/') {
         Some((what, bits)) => (what.trim(), place::integer(bits).and_then(|bits| u32::try_from(bits).ok())),
@@ -68,6 +81,15 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, device: &Device) -> Opt
             reader.report(&codes::TABLE_PLACE, reader.span(text), "padding has a length: write `pad/8`");
         }
         return Some(PdoEntry { origin, kind: PdoEntryKind::Padding, ..PdoEntry::new(0, 0, bits?) });
+    }
+    if let Some(name) = what.strip_prefix('?').map(str::trim) {
+        let bits = bits.filter(|&bits| bits > 0 && !name.is_empty());
+        if bits.is_none() {
+            let message = "what has no object has a name and a length: write `? torque limit/16`";
+            reader.report(&codes::TABLE_PLACE, reader.span(text), message);
+        }
+        let entry = PdoEntry::new(0, 0, bits?);
+        return Some(PdoEntry { origin, kind: PdoEntryKind::Unnumbered, name: name.into(), ..entry });
     }
     let by_name = || {
         let mut items = device.groups.iter().flat_map(|group| &group.items);

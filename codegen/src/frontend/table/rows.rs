@@ -144,7 +144,12 @@ impl Rows {
         }
     }
 
-    pub fn allow_in(&mut self, reader: &mut Reader<'_, '_>, span: Span, names: &Option<Vec<At<String>>>) {
+    /// Findings of an element of the table that is no row.
+    pub fn allow_at(&mut self, reader: &mut Reader<'_, '_>, at: (u32, u32), names: &Option<Vec<At<String>>>) {
+        self.allow_in(reader, Span::new(reader.file, at.0, at.1), names);
+    }
+
+    fn allow_in(&mut self, reader: &mut Reader<'_, '_>, span: Span, names: &Option<Vec<At<String>>>) {
         for name in names.iter().flatten() {
             match codes::find(&name.value) {
                 Some(code) => self.allowed.push((span, code)),
@@ -396,6 +401,13 @@ impl Rows {
         }
         behaviour.self_clearing = row.clears.unwrap_or(behaviour.self_clearing);
         behaviour.write_once = row.once.unwrap_or(behaviour.write_once);
+        if let Some(pdi) = &row.pdi {
+            behaviour.pdi_access = reader.word(pdi, "access", &ACCESSES);
+            if !item.bindings.iter().any(|binding| matches!(binding, crate::ir::Binding::EscMemory { .. })) {
+                let message = "`pdi` is about the memory of a slave controller, and the row has no address there";
+                reader.report(&codes::TABLE_VALUE, reader.span(pdi), message);
+            }
+        }
         behaviour.hidden = row.hidden.unwrap_or(behaviour.hidden);
         if let Some(OneOrMany(effects)) = &row.effects {
             behaviour.side_effects = effects.iter().map(|effect| effect.as_str().into()).collect();

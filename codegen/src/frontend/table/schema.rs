@@ -142,9 +142,11 @@ fn grammar_of_keys(schema: &mut Schema, grammar: &str) {
 /// What keys of objects, bits and values look like.
 pub(super) const OBJECTS: &str = r"#(\.\.=?#)?(:#(\.\.=?#)?)?";
 pub(super) const BITS: &str = r"\[?#((\.\.|-)#)?\]?";
+pub(super) const BITS_OF_BYTES: &str = r"(#:)?\[?#((\.\.|-)#)?\]?";
 pub(super) const VALUES: &str = r"[-+]?#(\.\.=?[-+]?#)?";
 
 /// The words of longer lists.
 pub(super) const BUSES: &[&str] = &["canopen", "ethercat", "modbus", "profinet", "serial"];
+pub(super) const PURPOSES: &[&str] = &["mailbox_out", "mailbox_in", "outputs", "inputs"];
 pub(super) const CHECKS: &[&str] = &["xor", "sum", "lrc", "crc8", "crc16"];
 pub(super) const TRIGGERS: &[&str] = &["rising", "falling", "toggle", "self_clearing"];

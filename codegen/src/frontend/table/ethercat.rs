@@ -1,0 +1,101 @@
+//! What a master has to know of an EtherCAT slave beside its objects and PDOs: mailbox protocols and sync managers.
+
+use super::at::{At, FlagOr};
+use super::format::{CoeTable, EtherCatTable, SyncManagerTable};
+use super::spaces::Buses;
+use super::tree::{cited, Reader};
+use crate::diagnostics::{codes, Diagnostic};
+use crate::ir::{Coe, Device, Mailbox, Protocol, SyncManager, SyncManagerPurpose};
+
+/// The words of `purpose`.
+const PURPOSES: [(&str, SyncManagerPurpose); 4] = [
+    ("mailbox_out", SyncManagerPurpose::MailboxOut),
+    ("mailbox_in", SyncManagerPurpose::MailboxIn),
+    ("outputs", SyncManagerPurpose::Outputs),
+    ("inputs", SyncManagerPurpose::Inputs),
+];
+
+/// Reads `[ethercat]`.
+pub(super) fn settings(reader: &mut Reader<'_, '_>, table: &At<EtherCatTable>, buses: Buses, device: &mut Device) {
+    let own = &table.value;
+    if !buses.ethercat {
+        let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(table), "the device isn't on EtherCAT");
+        reader.diagnostics.push(found.help("`buses` of `[device]` has those that it is on"));
+        return;
+    }
+    let settings = device.ethercat.get_or_insert_with(Box::default);
+    settings.mailbox = mailbox(own).map(Box::new);
+    let (origin, cite) = (reader.origin(table), own.cite.as_ref().map(cited));
+    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+    for given in &own.sync_managers {
+        if let Some(manager) = sync_manager(reader, given, device) {
+            device.process_data.sync_managers.push(manager);
+        }
+    }
+    device.process_data.sync_managers.sort_by_key(|manager| manager.number);
+}
+
+fn mailbox(own: &EtherCatTable) -> Option<Mailbox> {
+    let coe = match &own.coe {
+        Some(FlagOr::Table(table)) => Some(coe(table)),
+        Some(FlagOr::Flag(true)) => Some(Coe::default()),
+        Some(FlagOr::Flag(false)) | None => None,
+    };
+    let plain = |is_there: bool| is_there.then(Protocol::default);
+    let mailbox = Mailbox {
+        coe,
+        aoe: plain(own.aoe),
+        eoe: plain(own.eoe),
+        foe: plain(own.foe),
+        soe: plain(own.soe),
+        voe: plain(own.voe),
+        ..Mailbox::default()
+    };
+    (mailbox != Mailbox::default()).then_some(mailbox)
+}
+
+fn coe(table: &CoeTable) -> Coe {
+    Coe {
+        sdo_info: table.sdo_info,
+        pdo_assign: table.pdo_assign,
+        pdo_config: table.pdo_config,
+        pdo_upload: table.pdo_upload,
+        complete_access: table.complete_access,
+        segmented_sdo: table.segmented_sdo,
+        ..Coe::default()
+    }
+}
+
+fn sync_manager(reader: &mut Reader<'_, '_>, given: &At<SyncManagerTable>, device: &mut Device) -> Option<SyncManager> {
+    let own = &given.value;
+    let (origin, cite) = (reader.origin(given), own.cite.as_ref().map(cited));
+    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
+    let purpose = own.purpose.as_ref().and_then(|word| reader.word(word, "purpose", &PURPOSES));
+    let (Some(number), Some(start_address), Some(purpose)) = (own.number, own.start, purpose) else {
+        let message = "a sync manager has a `number`, a `start` and a `purpose`";
+        reader.report(&codes::TABLE_VALUE, reader.span(given), message);
+        return None;
+    };
+    if device.process_data.sync_managers.iter().any(|other| other.number == number) {
+        let message = format!("there are two sync managers with the number {number}");
+        reader.report(&codes::TABLE_DUPLICATE, reader.span(given), message);
+        return None;
+    }
+    if own.size.zip(own.max).is_some_and(|(size, max)| size > max) {
+        let message = format!("the sync manager {number} is longer by default than it can be");
+        reader.report(&codes::TABLE_VALUE, reader.span(given), message);
+    }
+    Some(SyncManager {
+        number,
+        purpose,
+        label: own.purpose.as_ref().map(|word| word.value.as_str().into()).unwrap_or_default(),
+        start_address,
+        default_size: own.size,
+        size_range: (own.min, own.max),
+        control: own.control.unwrap_or(0),
+        enable: true,
+        op_only: false,
+        is_virtual: false,
+        origin,
+    })
+}
