@@ -25,7 +25,12 @@ fn everything() -> RustOptions {
     RustOptions { table: Presence::Always, ..RustOptions::default() }
 }
 
-const TABLES: [&str; 3] = ["tests/data/press.toml", "tests/data/hoist.toml", "dictionaries/aec-vector-step.toml"];
+const TABLES: [&str; 4] = [
+    "tests/data/press.toml",
+    "tests/data/hoist.toml",
+    "dictionaries/aec-vector-step.toml",
+    "dictionaries/kollmorgen-akd.toml",
+];
 
 #[test]
 fn tables_compile() {

@@ -4,6 +4,7 @@
 //!
 //! | feature | module | drive |
 //! |---|---|---|
+//! | `akd` | `akd` | Kollmorgen AKD servo drives, on EtherCAT |
 //! | `demo-drive` | `demo_drive` | an imaginary CiA 402 drive, to try things on |
 //! | `vector-step` | `vector_step` | AEC Vector Step stepper drives, on CANopen, EtherCAT and Modbus |
 //! | `table` | – | adds `ENTRIES`, a table of all entries, to each module |
@@ -19,6 +20,11 @@
 //! # }
 //! ```
 #![no_std]
+
+/// Kollmorgen AKD servo drives (`dictionaries/kollmorgen-akd.toml`).
+#[cfg(feature = "akd")]
+#[rustfmt::skip]
+pub mod akd;
 
 /// An imaginary CiA 402 drive (`dictionaries/demo-drive.eds`).
 #[cfg(feature = "demo-drive")]
