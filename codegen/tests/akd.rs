@@ -6,8 +6,8 @@ use std::path::Path;
 
 use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::ir::{
-    Access, Binding, BitFieldEntry, BitMeaning, Device, Direction, Documentation, EnumValue, Item, Pattern, Pdo,
-    PdoEntryKind, Shape, StateMachine, Step, Type, Value,
+    Access, Binding, BitFieldEntry, BitMeaning, Device, Direction, Documentation, EnumValue, Item, MessageField,
+    Pattern, Pdo, PdoEntryKind, Shape, StateMachine, Step, Type, Value,
 };
 use lexibus_codegen::source::Source;
 
@@ -575,6 +575,8 @@ fn mailbox_frames_and_their_example() {
     assert_eq!((reply[0], reply[7]), (0x0E, 0x20));
     (reply[0], reply[7]) = (0x0A, 0x30);
     assert_eq!(example.reply, reply);
+    frame(&manual, device, &message.request, (1137, 1165));
+    frame(&manual, device, &message.reply, (1176, 1205));
     let services = values(device, "CoeService");
     for (line, cells) in rows(&manual, 1147, 1155).into_iter().chain(rows(&manual, 1186, 1194)) {
         let cell = cells.iter().rev().find(|cell| cell.contains(':')).expect("a type");
@@ -589,6 +591,31 @@ fn mailbox_frames_and_their_example() {
         let printed: BTreeSet<u32> = text.split("0x").skip(1).map(|part| hex(&part[..2])).collect();
         let own: BTreeSet<u32> = values(device, name).iter().map(|own| own.value as u32).collect();
         assert_eq!((own.len(), own), (count, printed), "{name}");
+    }
+}
+
+/// Holds the rows of a frame, `Byte 0` to `Byte 15`, against the fields that have these bytes.
+fn frame(manual: &[String], device: &Device, fields: &[MessageField], (first, last): (usize, usize)) {
+    let mut bytes: Vec<Option<BTreeSet<usize>>> = Vec::new();
+    for field in fields {
+        let (length, cites) = match field {
+            MessageField::Value(value) => {
+                let bits = basic(device, value.item.ty).bits().expect("a length");
+                (bits / 8, Some(cited(value.item.documentation.as_deref())))
+            }
+            // The index has two bytes, the sub-index one.
+            MessageField::Echo { field, .. } => (if field == "index" { 2 } else { 1 }, None),
+            other => panic!("{other:?}"),
+        };
+        bytes.extend((0..length).map(|_| cites.clone()));
+    }
+    let printed: Vec<(usize, usize)> = rows(manual, first, last)
+        .iter()
+        .filter_map(|(line, cells)| Some((cells[0].strip_prefix("Byte ")?.parse().ok()?, *line)))
+        .collect();
+    assert_eq!(printed.iter().map(|(byte, _)| *byte).collect::<Vec<_>>(), (0..bytes.len()).collect::<Vec<_>>());
+    for (byte, line) in printed {
+        assert!(bytes[byte].as_ref().is_none_or(|cites| cites.contains(&line)), "L{line}: byte {byte}");
     }
 }
 
