@@ -85,6 +85,10 @@ impl Simulated {
                 self.height = play.entries.iter().map(|own| own.height).sum();
                 PlayReply.write(request, to)
             }
+            Request::Note(note) => {
+                self.height = note.rest.len() as i32;
+                NoteReply.write(request, to)
+            }
             Request::Name(_) => NameReply { rest: b"Winde" }.write(request, to),
         };
         written.expect("room for the reply");
@@ -202,6 +206,9 @@ fn what_is_repeated_and_what_goes_on_to_the_end() {
     assert_eq!(hoist.client().exchange().height, -69_999);
     assert_eq!(hoist.client().exchange().sent[1], [5, 0xA1, 0xFE, 0xEE, 0x90, 3, 0, 0, 1, 0]);
     assert_eq!(hoist.name(*b"de").send().map(|reply| reply.rest), Ok(&b"Winde"[..]));
+    assert_eq!(hoist.note(9, b"ab").send(), Ok(NoteReply));
+    assert_eq!(hoist.client().exchange().sent[3], [5, 0xA5, 5, 0, 0x02, 0x01, 9, b'a', b'b']);
+    assert_eq!(Note::parse(&mut Reader::new(&[5, 0xA5, 4, 0, 0x02, 0x01, 9, b'a', b'b'])), None);
     let too_high = [PlayEntry { height: 1 << 23, pause: 0 }];
     assert_eq!(hoist.play(List::from(&too_high)).send(), Err(Error::OutOfRange(OutOfRange).into()));
 }

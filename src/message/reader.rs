@@ -67,6 +67,17 @@ impl<'r> Reader<'r> {
         (self.number(width)? == expected).then_some(())
     }
 
+    /// Reads a number in this order of bytes that has to be this.
+    pub fn fixed_in(&mut self, order: &[u8], expected: u64) -> Option<()> {
+        (self.ordered(order)? == expected).then_some(())
+    }
+
+    /// Whether `length` is the number of all bytes from `first` on.
+    pub fn counted(&self, first: usize, length: u64) -> Option<()> {
+        let own = self.data.len().checked_sub(first)?;
+        (u64::try_from(own) == Ok(length)).then_some(())
+    }
+
     /// Reads a number of `width` bits, 64 at most, the most significant first.
     pub fn number(&mut self, width: u32) -> Option<u64> {
         let (mut left, mut number) = (width.min(64), 0_u64);
@@ -148,6 +159,11 @@ mod tests {
         let mut reader = Reader::new(&[3, 9, 0x2F]);
         assert_eq!((reader.copy(&[1, 2, 3], 2, 2), reader.fixed(4, 2), reader.fixed(4, 3)), (Some(()), Some(()), None));
         assert_eq!(Reader::new(&[4]).copy(&[1, 2, 3], 2, 1), None);
+        let mut reader = Reader::new(&[3, 0, 9]);
+        assert_eq!(
+            (reader.fixed_in(&[1, 0], 3), reader.counted(1, 2), reader.counted(4, 0)),
+            (Some(()), Some(()), None)
+        );
     }
 
     #[test]

@@ -188,6 +188,23 @@ impl<'b> Writer<'b> {
         self.bytes(request.get(first..end).ok_or(LengthError::new(end, request.len()))?)
     }
 
+    /// Writes how many bytes there are from `first` on over the bytes from `at` on, in this order.
+    ///
+    /// # Errors
+    ///
+    /// Where the number has more bytes than that.
+    pub fn length(&mut self, at: usize, order: &[u8], first: usize) -> Result<(), WriteError> {
+        let (length, bits) = (self.len().saturating_sub(first) as u64, self.bits);
+        let room = 8 * order.len() as u32;
+        if length.checked_shr(room).unwrap_or(0) != 0 {
+            return Err(OutOfRange.into());
+        }
+        self.bits = at * 8;
+        let written = self.ordered(order, length);
+        self.bits = bits;
+        written
+    }
+
     /// Writes `count` bytes of the request, from `first` on, and 0 for those that it lacks.
     ///
     /// # Errors
@@ -228,6 +245,18 @@ mod tests {
         assert_eq!(writer.echo(&[1, 2], 1, 2), Err(LengthError::new(3, 2).into()));
         assert_eq!(writer.padding(2), Ok(()));
         assert_eq!(writer.written(), [0, 0]);
+    }
+
+    #[test]
+    fn lengths_are_known_at_the_end() {
+        let mut data = [0; 300];
+        let mut writer = Writer::new(&mut data);
+        writer.number(16, 0).unwrap();
+        writer.bytes(&[7; 4]).unwrap();
+        assert_eq!(writer.length(0, &[1, 0], 2), Ok(()));
+        assert_eq!(writer.written(), [4, 0, 7, 7, 7, 7]);
+        writer.padding(280).unwrap();
+        assert_eq!((writer.length(0, &[0], 2), writer.len()), (Err(OutOfRange.into()), 286));
     }
 
     #[test]

@@ -78,8 +78,11 @@ impl<'a> Frame<'a> {
             }
             MessageField::Echo { bytes: Some((first, last)), .. } => Some((usize::from(last - first) + 1) * 8),
             MessageField::ItemCode { bits, .. } => Some(usize::from(*bits)),
+            MessageField::FixedBits { bits, .. } => Some(usize::from(*bits)),
+            MessageField::Copy { first, last } => Some((usize::from(last.saturating_sub(*first)) + 1) * 8),
             MessageField::Padding(bytes) => Some(usize::from(*bytes) * 8),
-            MessageField::ItemValue { .. } | MessageField::Repeat { .. } | MessageField::Rest => None,
+            MessageField::ItemValue { .. } | MessageField::ItemPadding { .. } => None,
+            MessageField::Repeat { .. } | MessageField::Rest => None,
         }
     }
 
@@ -92,8 +95,23 @@ impl<'a> Frame<'a> {
             }
             MessageField::Value(value) => self.value(value, number(self.bytes, (at, bits), &value.byte_order)),
             MessageField::Echo { field, bytes: part } => self.echo(field, *part, (at, bits)).into_iter().collect(),
+            MessageField::FixedBits { value, .. } => {
+                let own = number(self.bytes, (at, bits), &[]);
+                let differs = (own != *value).then(|| format!("has {own:#X} in {bits} bits for {value:#X}"));
+                differs.into_iter().collect()
+            }
+            MessageField::Copy { first, .. } => self.copy(usize::from(*first), (at, bits)).into_iter().collect(),
             _ => Vec::new(),
         }
+    }
+
+    /// What is wrong with bytes of the request that come back, as far as it has them.
+    fn copy(&self, first: usize, (at, bits): (usize, usize)) -> Option<String> {
+        let sent = self.request?.1.get(first..)?;
+        let own = self.bytes.get(at / 8..(at + bits) / 8).filter(|_| at.is_multiple_of(8))?;
+        let count = own.len().min(sent.len());
+        let (own, sent) = (own.get(..count)?, sent.get(..count)?);
+        (own != sent).then(|| format!("has {} for bytes from {first} on, and {} was sent", hex(own), hex(sent)))
     }
 
     fn value(&self, value: &MessageValue, number: u64) -> Vec<String> {

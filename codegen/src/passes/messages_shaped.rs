@@ -3,7 +3,7 @@
 //! [`request`] and [`reply`] give that shape to back ends: steps of known length one after the other, among which one at most is
 //! as long as the data are.
 
-use super::owner::Owner;
+use super::owner::{fixed, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Device, Message, MessageField, MessageValue, Type};
 use crate::text::brief;
@@ -19,6 +19,10 @@ pub(crate) enum Step<'a> {
     Padding(u32),
     /// The number of the device.
     Station { bits: u32, value: &'a MessageValue },
+    /// A value that is always the same.
+    Fixed { bits: u32, order: &'a [u8], value: u64 },
+    /// How many bytes the frame has from this one on.
+    Length { bits: u32, order: &'a [u8], from: u32, counts: &'a str },
     /// A value.
     Value { bits: u32, value: &'a MessageValue },
     /// How often the fields of the list occur.
@@ -62,6 +66,7 @@ const SEVERAL_LENGTHS: Problem = "it has two parts whose length isn't known";
 const LONE_VALUE: Problem = "the value of a parameter doesn't stand behind the parameter's number";
 const ECHO: Problem = "a field comes back whose place in the request isn't known, or isn't whole bytes";
 const REPEATED: Problem = "what is repeated is more than values and fixed bytes, or a parameter with its value";
+const LENGTH: Problem = "a length counts from a field that isn't in front of all whose length isn't known";
 const COUNT: Problem = "the number of repetitions is no unsigned number of its own";
 
 /// Reports messages for which no code is generated.
@@ -117,6 +122,7 @@ impl<'a> Step<'a> {
             Step::Padding(count) | Step::Echo { count, .. } | Step::Copy { count, .. } => count.checked_mul(8),
             Step::Bits { bits, .. } | Step::Station { bits, .. } | Step::Value { bits, .. } => Some(*bits),
             Step::Count { bits, .. } | Step::Code { bits } => Some(*bits),
+            Step::Fixed { bits, .. } | Step::Length { bits, .. } => Some(*bits),
             Step::Setting { .. } | Step::Blank { .. } | Step::Settings { .. } => None,
             Step::ValueOnly { .. } | Step::List { .. } | Step::Rest => None,
         }
@@ -124,10 +130,12 @@ impl<'a> Step<'a> {
 
     /// Whether it takes whole bytes, and has to begin with one.
     fn is_bytes(&self) -> bool {
-        !matches!(
-            self,
-            Step::Bits { .. } | Step::Station { .. } | Step::Value { .. } | Step::Count { .. } | Step::Code { .. }
-        )
+        match self {
+            Step::Bits { .. } | Step::Station { .. } | Step::Value { .. } => false,
+            Step::Count { .. } | Step::Code { .. } => false,
+            Step::Fixed { order, .. } => !order.is_empty(),
+            _ => true,
+        }
     }
 }
 
@@ -144,8 +152,8 @@ impl<'a> Shaper<'a, '_> {
         while let Some((field, rest)) = left.split_first() {
             let (step, used) = self.step(field, rest, fields)?;
             left = rest.get(used..).unwrap_or_default();
-            if let (Step::Value { bits, value } | Step::Station { bits, value }, Some(at)) = (&step, offset) {
-                side.places.push((value.item.name.as_str(), at, *bits));
+            if let (MessageField::Value(value), Some(at), Some(bits)) = (field, offset, step.bits()) {
+                side.places.push((value.item.name.as_str(), at, bits));
             }
             if let (Some(at), None, Some(bits)) = (offset, side.code, step.code_bits()) {
                 side.code = Some((at, bits));
@@ -165,6 +173,13 @@ impl<'a> Shaper<'a, '_> {
             return Err(SEVERAL_LENGTHS);
         }
         aligned(&side.steps)?;
+        let places = side.places.clone();
+        for step in &mut side.steps {
+            if let Step::Length { from, counts, .. } = step {
+                let (_, at, _) = places.iter().find(|(name, ..)| name == counts).ok_or(LENGTH)?;
+                *from = at / 8;
+            }
+        }
         Ok(side)
     }
 
@@ -214,10 +229,18 @@ impl<'a> Shaper<'a, '_> {
         if self.station == Some(value.item.name.as_str()) {
             return if bits <= 32 { Ok(Step::Station { bits, value }) } else { Err(UNKNOWN_LENGTH) };
         }
-        if !value.byte_order.is_empty() && value.byte_order.len() * 8 != bits as usize {
+        let order = value.byte_order.as_slice();
+        if !order.is_empty() && order.len() * 8 != bits as usize {
             return Err(UNKNOWN_LENGTH);
         }
-        Ok(Step::Value { bits, value })
+        if let Some(counts) = &value.counts {
+            return Ok(Step::Length { bits, order, from: 0, counts });
+        }
+        match fixed(&value.item).filter(|_| bits <= 64) {
+            // Two's complement, of which the low bits count.
+            Some(only) => Ok(Step::Fixed { bits, order, value: only as u64 & (u64::MAX >> (64 - bits)) }),
+            None => Ok(Step::Value { bits, value }),
+        }
     }
 
     fn echo(&self, field: &str, bytes: Option<(u8, u8)>) -> Result<Step<'a>, Problem> {

@@ -1337,8 +1337,6 @@ tables! {
         pub min: Option<At<Literal>>,
         /// The greatest value, raw.
         pub max: Option<At<Literal>>,
-        /// The only value.
-        pub fixed: Option<At<Literal>>,
         /// It is the number of bytes from this field of the frame to its end.
         pub counts: Option<At<String>>,
         /// Raw values that are no numbers, with their meaning.

@@ -13,7 +13,6 @@ use crate::ir::{
     Access, Availability, Binding, CompactString, Completion, Device, Doubt, Framing, Item, Message, MessageExample,
     MessageField, MessageValue, ParameterSpace, Type, Value,
 };
-use crate::source::Span;
 use crate::text::brief;
 
 /// How deep repeated fields are read.

@@ -89,7 +89,7 @@ pub(crate) fn is_unit(symbol: &str) -> bool {
 const VERSION: u32 = 1;
 
 /// The keys of a table, and the order in which they are read: what others refer to comes first.
-const KEYS: [&str; 22] = [
+const KEYS: [&str; 23] = [
     "lexibus",
     "device",
     "overlay",

@@ -1,6 +1,7 @@
 //! The fields of requests, replies and their repeated parts.
 
 use super::rules::Rules;
+use super::steps::number;
 use crate::backend::rust::docs;
 use crate::backend::rust::field_type::{field_type, FieldType};
 use crate::backend::rust::quantity;
@@ -43,7 +44,7 @@ pub(super) fn fields(scope: &Scope<'_>, steps: &[Step<'_>], entry: &str) -> Vec<
     let names: Vec<(String, usize)> = with.iter().enumerate().map(wish).collect();
     let wishes: Vec<Wish<'_>> =
         names.iter().map(|(name, at)| Wish { name, fallback: format!("field {at}"), suffix: at.to_string() }).collect();
-    let reserved = ["self", "super", "crate", "station", "request", "to", "from", "count", "list"];
+    let reserved = ["self", "super", "crate"];
     let names = names_unique::unique_up_to(&wishes, &reserved, Case::Snake, MAX_NAME);
     let all = with.iter().zip(&names).enumerate();
     all.map(|(position, (step, name))| field(scope, step, names_unique::escaped(name), position, entry)).collect()
@@ -208,10 +209,7 @@ impl Field {
                     lines.push(format!("let range = {range};"));
                     lines.push(format!("rt::message::check::<{ty}>({value}, &range)?;"));
                 }
-                lines.push(match order.is_empty() {
-                    true => format!("to.number({bits}, {encode})?;"),
-                    false => format!("to.ordered(&{order:?}, {encode})?;"),
-                });
+                lines.push(number(*bits, order, encode));
                 lines
             }
             Kind::Text { .. } => vec![format!("to.bytes(&self.{name})?;")],

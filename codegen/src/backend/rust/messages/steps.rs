@@ -2,6 +2,7 @@
 
 use super::field::Field;
 use super::rules::Rules;
+use crate::ir::{Limits, Value};
 use crate::passes::messages_shaped::{tail, Step};
 
 /// The statements of one side of a message.
@@ -23,6 +24,8 @@ const LINE: usize = 8;
 pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) -> Statements {
     let mut own = Statements::default();
     let mut fields = fields.iter();
+    // What is known only when all is written.
+    let mut end = Vec::new();
     for (at, step) in steps.iter().enumerate() {
         let tail = tail(steps.get(at + 1..).unwrap_or_default());
         match step {
@@ -35,6 +38,22 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
             Step::Bits { bits, value } => {
                 own.write.push(format!("to.number({bits}, {value})?;"));
                 own.read.push(format!("from.fixed({bits}, {value})?;"));
+            }
+            Step::Fixed { bits, order, value } => {
+                own.write.push(number(*bits, order, &value.to_string()));
+                own.read.push(match order.is_empty() {
+                    true => format!("from.fixed({bits}, {value})?;"),
+                    false => format!("from.fixed_in(&{order:?}, {value})?;"),
+                });
+            }
+            Step::Length { bits, order, from, .. } => {
+                own.write.push("let length_at = to.len();".to_owned());
+                own.write.push(number(*bits, order, "0"));
+                let read = if order.is_empty() { format!("number({bits})") } else { format!("ordered(&{order:?})") };
+                own.read.push(format!("let length = from.{read}?;"));
+                own.read.push(format!("from.counted({from}, length)?;"));
+                let order = if order.is_empty() { (0..bits / 8).map(|at| at as u8).collect() } else { order.to_vec() };
+                end.push(format!("to.length(length_at, &{order:?}, {from})?;"));
             }
             Step::Padding(count) => {
                 own.write.push(format!("to.padding({count})?;"));
@@ -50,12 +69,9 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
                 own.write.push(format!("to.copy(request, {first}, {count})?;"));
                 own.read.push(format!("from.copy(request, {first}, {count})?;"));
             }
-            Step::Station { bits, .. } => {
+            Step::Station { bits, value } => {
                 own.uses_station = true;
-                if *bits < 32 {
-                    let last = (1_u64 << bits) - 1;
-                    own.write.push(format!("rt::message::check::<u32>(station, &rt::Range::To({last}))?;"));
-                }
+                own.write.extend(station(*bits, &value.item.limits));
                 own.write.push(format!("to.number({bits}, station.into())?;"));
                 own.read.push(format!("let station = from.number({bits})? as u32;"));
             }
@@ -82,8 +98,30 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
             _ => value(&mut own, fields.next(), None, rules, tail),
         }
     }
+    own.write.append(&mut end);
     own.read.push("from.end()?;".to_owned());
     own
+}
+
+/// The statement that writes a number.
+pub(super) fn number(bits: u32, order: &[u8], value: &str) -> String {
+    match order.is_empty() {
+        true => format!("to.number({bits}, {value})?;"),
+        false => format!("to.ordered(&{order:?}, {value})?;"),
+    }
+}
+
+/// The check of a device's number; none where it may be any.
+fn station(bits: u32, limits: &Limits) -> Option<String> {
+    let number = |limit: &Option<Value>| limit.as_ref().and_then(Value::as_int).and_then(|own| u32::try_from(own).ok());
+    let all = u32::MAX >> 32_u32.saturating_sub(bits);
+    let (low, high) = (number(&limits.low).unwrap_or(0), number(&limits.high).unwrap_or(all).min(all));
+    let range = match (low, high) {
+        (0, u32::MAX) => return None,
+        (0, high) => format!("To({high})"),
+        (low, high) => format!("Between(«{low}¦ {high}»)"),
+    };
+    Some(format!("rt::message::check::<u32>(«station¦ &rt::Range::{range}»)?;"))
 }
 
 fn limit(count: &str, max: u16) -> [String; 2] {
