@@ -4507,6 +4507,8 @@ pub mod pdo {
     /// Position, as it is assigned by default.
     ///
     /// Manual, line 768, 780, 815, 848.
+    ///
+    /// Note: Valore di comando di posizione (L780), which is 0x60C1:1 by the table of set-points (L982). Chosen: 0x60C1:1 (the names are the same; a device description may call it otherwise).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1701 {
         /// Position command value: 0x60C1:01, 32 bits from bit 0.
@@ -4637,6 +4639,10 @@ pub mod pdo {
     /// Torque.
     ///
     /// Manual, line 768, 800, 850.
+    ///
+    /// Note: Valore di comando coppia di torsione (L800) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
+    ///
+    /// Note: The torque interface has no mapping of actual values (L800). Chosen: none (any of the others can be assigned beside it).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1703 {
         /// torque command value: an object without a known index, 16 bits from bit 0.
@@ -4702,6 +4708,12 @@ pub mod pdo {
     /// Position with latch, torque and outputs.
     ///
     /// Manual, line 768, 781.
+    ///
+    /// Note: valore di comando di posizione interpolata (L781); the table of set-points has Valore di comando di posizione (L982). Chosen: 0x60C1:1 (that is the data of interpolated position, by its description).
+    ///
+    /// Note: uscite digitali (2 byte) (L781), of an object of 32 bits (L987). Chosen: 16 bits of 0x60FE:1 (the mapping is fixed, and its length follows from its entries).
+    ///
+    /// Note: parola del controllo del blocco (L781), Parola di controllo del blocco (L985). Chosen: 0x20A4 (the same value in other words).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1720 {
         /// Control word: 0x6040:00, 16 bits from bit 0.
@@ -4778,6 +4790,8 @@ pub mod pdo {
     /// Position with torque.
     ///
     /// Manual, line 768, 782.
+    ///
+    /// Note: valore di comando di posizione interpolata (L782); the table of set-points has Valore di comando di posizione (L982). Chosen: 0x60C1:1 (that is the data of interpolated position, by its description).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1721 {
         /// Position command value: 0x60C1:01, 32 bits from bit 0.
@@ -4849,6 +4863,12 @@ pub mod pdo {
     /// Position with latch, torque, outputs and a limit of torque.
     ///
     /// Manual, line 768, 783.
+    ///
+    /// Note: valore di comando di posizione interpolata (L783); the table of set-points has Valore di comando di posizione (L982). Chosen: 0x60C1:1 (that is the data of interpolated position, by its description).
+    ///
+    /// Note: uscite digitali (2 byte) (L783), of an object of 32 bits (L987). Chosen: 16 bits of 0x60FE:1 (the mapping is fixed, and its length follows from its entries).
+    ///
+    /// Note: max. coppia (L783) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1722 {
         /// Control word: 0x6040:00, 16 bits from bit 0.
@@ -4931,6 +4951,12 @@ pub mod pdo {
     /// Position with latch, torque, outputs and a reset of the inputs.
     ///
     /// Manual, line 768, 784.
+    ///
+    /// Note: valore di comando di posizione interpolata (L784); the table of set-points has Valore di comando di posizione (L982). Chosen: 0x60C1:1 (that is the data of interpolated position, by its description).
+    ///
+    /// Note: uscite digitali (2 byte) (L784), of an object of 32 bits (L987). Chosen: 16 bits of 0x60FE:1 (the mapping is fixed, and its length follows from its entries).
+    ///
+    /// Note: reset di informazioni aggiornate dell'input (L784) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1723 {
         /// Control word: 0x6040:00, 16 bits from bit 0.
@@ -5013,6 +5039,10 @@ pub mod pdo {
     /// Target position of cyclic synchronous position, with torque.
     ///
     /// Manual, line 768, 785.
+    ///
+    /// Note: Posizione di obiettivo per il modo sincrono ciclico di posizione (L785) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
+    ///
+    /// Note: A mapping for mode 8 (L785), which isn't among the modes supported (L1006-1008). Chosen: the mapping as printed (the mode has its bits in the control word (L716)).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1724 {
         /// target position of cyclic synchronous position: an object without a known index, 32 bits from bit 0.
@@ -5084,6 +5114,10 @@ pub mod pdo {
     /// Position, as it is assigned by default.
     ///
     /// Manual, line 768, 786, 815, 836, 874.
+    ///
+    /// Note: Valore effettivo di posizione (L786), where the table of actual values has the internal one (L992). Chosen: bits under this name, without an object (it may be 0x6063, or 0x6064 of DS402, which the manual doesn't name).
+    ///
+    /// Note: Status word (2 bytes), total (6 bytes) in English (L786). Chosen: 0x6041 (it is the parola di stato of the other mappings).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1B01 {
         /// position actual value: an object without a known index, 32 bits from bit 0.
@@ -5149,6 +5183,10 @@ pub mod pdo {
     /// Position, beside velocities.
     ///
     /// Manual, line 796.
+    ///
+    /// Note: Valore effettivo di posizione (L796), where the table of actual values has the internal one (L992). Chosen: bits under this name, without an object (it may be 0x6063, or 0x6064 of DS402, which the manual doesn't name).
+    ///
+    /// Note: 0x1B02 has its entries (L796), and is neither among the values of 0x1C13 (L768) nor in the lists of the tool (L832-842, L870-880). Chosen: as described (the table of mappings says that it is supported (L776)).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1B02 {
         /// position actual value: an object without a known index, 32 bits from bit 0.
@@ -5214,6 +5252,8 @@ pub mod pdo {
     /// All actual values, with the latch on the rising edge.
     ///
     /// Manual, line 768, 787, 837, 875.
+    ///
+    /// Note: valore effettivo di posizione interne, seconde risposte di posizione, errore di posizione, posizione del blocco positivo (L787); the table of actual values calls them otherwise (L992, L995, L997, L998). Chosen: the objects of the table (the same values in other words).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1B20 {
         /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
@@ -5387,6 +5427,10 @@ pub mod pdo {
     /// All actual values, with the latch on the falling edge.
     ///
     /// Manual, line 768, 789, 839, 877.
+    ///
+    /// Note: valore effettivo di posizione interne, seconde risposte di posizione, errore di posizione, posizione del blocco positivo (L789); the table of actual values calls them otherwise (L992, L995, L997, L998). Chosen: the objects of the table (the same values in other words).
+    ///
+    /// Note: posizione del blocco negativo (L789) is no value of the table of actual values (L992-1001). Chosen: bits under this name, without an object (only the position on the rising edge has an index (L998)).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1B22 {
         /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
@@ -5495,6 +5539,10 @@ pub mod pdo {
     /// All actual values, with the latch on either edge.
     ///
     /// Manual, line 768, 790, 840, 878.
+    ///
+    /// Note: valore effettivo di posizione interne, seconde risposte di posizione, errore di posizione, posizione del blocco positivo (L790); the table of actual values calls them otherwise (L992, L995, L997, L998). Chosen: the objects of the table (the same values in other words).
+    ///
+    /// Note: posizione del blocco positivo/negativo (L790) is no value of the table of actual values (L992-1001). Chosen: bits under this name, without an object (only the position on the rising edge has an index (L998)).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1B23 {
         /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
@@ -5603,6 +5651,10 @@ pub mod pdo {
     /// Position.
     ///
     /// Manual, line 768, 791, 841, 879.
+    ///
+    /// Note: Valore effettivo di posizione (L791), where the table of actual values has the internal one (L992). Chosen: bits under this name, without an object (it may be 0x6063, or 0x6064 of DS402, which the manual doesn't name).
+    ///
+    /// Note: The row ends in a comma (L791). Chosen: two entries (the tool shows six bytes, as they have (L841, L879)).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1B24 {
         /// position actual value: an object without a known index, 32 bits from bit 0.
@@ -5790,6 +5842,8 @@ pub mod view {
     /// Position, as it is assigned by default.
     ///
     /// Manual, line 768, 780, 815, 848.
+    ///
+    /// Note: Valore di comando di posizione (L780), which is 0x60C1:1 by the table of set-points (L982). Chosen: 0x60C1:1 (the names are the same; a device description may call it otherwise).
     pub struct RxPdo1701<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -5902,6 +5956,10 @@ pub mod view {
     /// Torque.
     ///
     /// Manual, line 768, 800, 850.
+    ///
+    /// Note: Valore di comando coppia di torsione (L800) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
+    ///
+    /// Note: The torque interface has no mapping of actual values (L800). Chosen: none (any of the others can be assigned beside it).
     pub struct RxPdo1703<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -5958,6 +6016,12 @@ pub mod view {
     /// Position with latch, torque and outputs.
     ///
     /// Manual, line 768, 781.
+    ///
+    /// Note: valore di comando di posizione interpolata (L781); the table of set-points has Valore di comando di posizione (L982). Chosen: 0x60C1:1 (that is the data of interpolated position, by its description).
+    ///
+    /// Note: uscite digitali (2 byte) (L781), of an object of 32 bits (L987). Chosen: 16 bits of 0x60FE:1 (the mapping is fixed, and its length follows from its entries).
+    ///
+    /// Note: parola del controllo del blocco (L781), Parola di controllo del blocco (L985). Chosen: 0x20A4 (the same value in other words).
     pub struct RxPdo1720<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -6046,6 +6110,8 @@ pub mod view {
     /// Position with torque.
     ///
     /// Manual, line 768, 782.
+    ///
+    /// Note: valore di comando di posizione interpolata (L782); the table of set-points has Valore di comando di posizione (L982). Chosen: 0x60C1:1 (that is the data of interpolated position, by its description).
     pub struct RxPdo1721<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -6112,6 +6178,12 @@ pub mod view {
     /// Position with latch, torque, outputs and a limit of torque.
     ///
     /// Manual, line 768, 783.
+    ///
+    /// Note: valore di comando di posizione interpolata (L783); the table of set-points has Valore di comando di posizione (L982). Chosen: 0x60C1:1 (that is the data of interpolated position, by its description).
+    ///
+    /// Note: uscite digitali (2 byte) (L783), of an object of 32 bits (L987). Chosen: 16 bits of 0x60FE:1 (the mapping is fixed, and its length follows from its entries).
+    ///
+    /// Note: max. coppia (L783) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
     pub struct RxPdo1722<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -6210,6 +6282,12 @@ pub mod view {
     /// Position with latch, torque, outputs and a reset of the inputs.
     ///
     /// Manual, line 768, 784.
+    ///
+    /// Note: valore di comando di posizione interpolata (L784); the table of set-points has Valore di comando di posizione (L982). Chosen: 0x60C1:1 (that is the data of interpolated position, by its description).
+    ///
+    /// Note: uscite digitali (2 byte) (L784), of an object of 32 bits (L987). Chosen: 16 bits of 0x60FE:1 (the mapping is fixed, and its length follows from its entries).
+    ///
+    /// Note: reset di informazioni aggiornate dell'input (L784) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
     pub struct RxPdo1723<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -6308,6 +6386,10 @@ pub mod view {
     /// Target position of cyclic synchronous position, with torque.
     ///
     /// Manual, line 768, 785.
+    ///
+    /// Note: Posizione di obiettivo per il modo sincrono ciclico di posizione (L785) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
+    ///
+    /// Note: A mapping for mode 8 (L785), which isn't among the modes supported (L1006-1008). Chosen: the mapping as printed (the mode has its bits in the control word (L716)).
     pub struct RxPdo1724<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -6374,6 +6456,10 @@ pub mod view {
     /// Position, as it is assigned by default.
     ///
     /// Manual, line 768, 786, 815, 836, 874.
+    ///
+    /// Note: Valore effettivo di posizione (L786), where the table of actual values has the internal one (L992). Chosen: bits under this name, without an object (it may be 0x6063, or 0x6064 of DS402, which the manual doesn't name).
+    ///
+    /// Note: Status word (2 bytes), total (6 bytes) in English (L786). Chosen: 0x6041 (it is the parola di stato of the other mappings).
     pub struct TxPdo1B01<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -6430,6 +6516,10 @@ pub mod view {
     /// Position, beside velocities.
     ///
     /// Manual, line 796.
+    ///
+    /// Note: Valore effettivo di posizione (L796), where the table of actual values has the internal one (L992). Chosen: bits under this name, without an object (it may be 0x6063, or 0x6064 of DS402, which the manual doesn't name).
+    ///
+    /// Note: 0x1B02 has its entries (L796), and is neither among the values of 0x1C13 (L768) nor in the lists of the tool (L832-842, L870-880). Chosen: as described (the table of mappings says that it is supported (L776)).
     pub struct TxPdo1B02<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -6486,6 +6576,8 @@ pub mod view {
     /// All actual values, with the latch on the rising edge.
     ///
     /// Manual, line 768, 787, 837, 875.
+    ///
+    /// Note: valore effettivo di posizione interne, seconde risposte di posizione, errore di posizione, posizione del blocco positivo (L787); the table of actual values calls them otherwise (L992, L995, L997, L998). Chosen: the objects of the table (the same values in other words).
     pub struct TxPdo1B20<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -6682,6 +6774,10 @@ pub mod view {
     /// All actual values, with the latch on the falling edge.
     ///
     /// Manual, line 768, 789, 839, 877.
+    ///
+    /// Note: valore effettivo di posizione interne, seconde risposte di posizione, errore di posizione, posizione del blocco positivo (L789); the table of actual values calls them otherwise (L992, L995, L997, L998). Chosen: the objects of the table (the same values in other words).
+    ///
+    /// Note: posizione del blocco negativo (L789) is no value of the table of actual values (L992-1001). Chosen: bits under this name, without an object (only the position on the rising edge has an index (L998)).
     pub struct TxPdo1B22<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -6822,6 +6918,10 @@ pub mod view {
     /// All actual values, with the latch on either edge.
     ///
     /// Manual, line 768, 790, 840, 878.
+    ///
+    /// Note: valore effettivo di posizione interne, seconde risposte di posizione, errore di posizione, posizione del blocco positivo (L790); the table of actual values calls them otherwise (L992, L995, L997, L998). Chosen: the objects of the table (the same values in other words).
+    ///
+    /// Note: posizione del blocco positivo/negativo (L790) is no value of the table of actual values (L992-1001). Chosen: bits under this name, without an object (only the position on the rising edge has an index (L998)).
     pub struct TxPdo1B23<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -6962,6 +7062,10 @@ pub mod view {
     /// Position.
     ///
     /// Manual, line 768, 791, 841, 879.
+    ///
+    /// Note: Valore effettivo di posizione (L791), where the table of actual values has the internal one (L992). Chosen: bits under this name, without an object (it may be 0x6063, or 0x6064 of DS402, which the manual doesn't name).
+    ///
+    /// Note: The row ends in a comma (L791). Chosen: two entries (the tool shows six bytes, as they have (L841, L879)).
     pub struct TxPdo1B24<B> {
         pub(super) data: B,
         pub(super) bit: usize,

@@ -78,21 +78,10 @@ fn the_start_up_list_is_a_procedure() {
         write.send(&mut slave).expect("it takes any value");
     }
     let mut drive = Akd::new(slave);
-    assert_eq!(drive.modes_of_operation().client_value(), ModesOfOperation::InterpolatedPosition);
+    assert_eq!(drive.modes_of_operation().read(), Ok(ModesOfOperation::InterpolatedPosition));
     // The sequence that selects the fixed mapping (L772-774).
     let fixed: Vec<_> = procedures::ASSIGN_1701.iter().map(bytes).collect();
     assert_eq!(fixed, [(0x1C12, 0, &[0x00][..]), (0x1C12, 1, &[0x01, 0x17]), (0x1C12, 0, &[0x01])]);
-}
-
-/// Reads an item of a slave that has it.
-trait ClientValue<V> {
-    fn client_value(self) -> V;
-}
-
-impl ClientValue<ModesOfOperation> for objects::ReadWriteAccess<'_, Slave, ModesOfOperation> {
-    fn client_value(mut self) -> ModesOfOperation {
-        self.read().expect("it is there")
-    }
 }
 
 mod own {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Documentation, Extension, Texts, Type, Value};
+use super::{CompactString, Documentation, Doubt, Extension, Texts, Type, Value};
 use crate::source::Origin;
 
 /// Cyclic data of a device or a module.
@@ -94,6 +94,9 @@ pub struct Pdo {
     /// What the source says about it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub documentation: Option<Box<Documentation>>,
+    /// Contradictions of the source.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub doubts: Vec<Doubt>,
     /// What the source says beyond that.
     pub extensions: Vec<Extension>,
     /// Whether no section describes it and it follows from NrOfRXPDO or NrOfTXPDO and CompactPDO (CiA 306).
@@ -127,6 +130,7 @@ impl Pdo {
             names: Texts::default(),
             max_bytes: None,
             documentation: None,
+            doubts: Vec::new(),
             extensions: Vec::new(),
             implicit: false,
             origin: Origin::default(),

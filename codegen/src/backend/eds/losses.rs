@@ -58,6 +58,8 @@ fn pdos(device: &Device, notes: &mut Notes) {
         notes.add_many(NoteKind::Pdo, communication.iter().count(), place);
         notes.add_many(NoteKind::Language, usize::from(!pdo.names.is_empty()), place);
         notes.add_many(NoteKind::Extension, pdo.extensions.len(), place);
+        notes.add_many(NoteKind::Documentation, usize::from(pdo.documentation.is_some()), place);
+        notes.add_many(NoteKind::Doubt, pdo.doubts.len(), place);
     }
 }
 

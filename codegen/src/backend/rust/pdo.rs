@@ -6,6 +6,7 @@ use super::docs;
 use super::ethercat::{beside, depends_on};
 use super::field_type::{field_type, FieldType};
 use super::layout;
+use super::manual;
 use super::model::addressable;
 use super::options::RustOptions;
 use super::scope::{ObjectBus, Scope};
@@ -133,6 +134,7 @@ fn documentation(scope: &Scope<'_>, pdo: &Pdo) -> Vec<String> {
     let mut sentences = vec![format!("Mapping 0x{:04X}, {} bits.", pdo.mapping_index, pdo.bits())];
     docs::words(pdo.documentation.as_deref(), &mut sentences);
     sentences.extend(scope.manual.place(pdo.documentation.as_deref(), &[]));
+    sentences.extend(pdo.doubts.iter().map(manual::doubt));
     for sentence in sentences {
         lines.extend([String::new(), sentence]);
     }

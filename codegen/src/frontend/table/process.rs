@@ -47,7 +47,7 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, device: &mu
     let cite = own.cite.as_ref().map(cited);
     pdo.documentation = reader.documentation(own.doc.as_deref(), cite.clone());
     pdo.max_bytes = own.max;
-    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], pdo.origin, cite.as_deref()));
+    pdo.doubts = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], pdo.origin, cite.as_deref());
     for text in &own.entries {
         if let Some(entry) = entry(reader, text, device) {
             let bit_offset = pdo.bits();
