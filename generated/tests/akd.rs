@@ -12,7 +12,7 @@ use lexibus_drives::akd::types::{
     DriveCommand, DriveState, InterruptEnable, LatchControl, LatchControlRead, LatchStatus, LatchStatusAcquired,
     ModesOfOperation, StatusWord,
 };
-use lexibus_drives::akd::{codes, objects, pdo, procedures, Akd, DEVICE, STARTUP};
+use lexibus_drives::akd::{codes, pdo, procedures, Akd, DEVICE, STARTUP};
 
 /// Objects that have any value; writes in their order.
 #[derive(Default)]
