@@ -348,6 +348,14 @@ fn what_else_an_example_can_have_wrong() {
 }
 
 #[test]
+fn lengths_count_from_fields_that_there_are() {
+    let found = compile(&format!("{HEAD}{}", MAILBOX.replacen("counts = \"header\"", "counts = \"heder\"", 1)), &[]);
+    let list = found.diagnostics.list();
+    assert_eq!(list.iter().map(|own| own.code.id).collect::<Vec<_>>(), ["TAB005"]);
+    assert_eq!(list[0].help.as_deref(), Some("did you mean `header`?"));
+}
+
+#[test]
 fn item_48_a_buffer_of_another_length_than_its_frames() {
     let rows = r#"Buffer = { esc = 0x1800, length = 512, type = "bytes(16)", cite = [549, 1125] }
 "#;

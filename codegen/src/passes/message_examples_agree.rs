@@ -148,7 +148,7 @@ impl<'a> Frame<'a> {
             Some(Shape::BitField { fields, .. }) => {
                 let mut problems = Vec::new();
                 for field in fields.iter().filter(|field| field.when.is_none()) {
-                    let mask = u64::MAX >> 64u32.saturating_sub(field.bits.into());
+                    let mask = u64::MAX.checked_shr(64u32.saturating_sub(field.bits.into())).unwrap_or(0);
                     let own = number.checked_shr(field.offset.into()).unwrap_or(0) & mask;
                     match field.meaning {
                         BitMeaning::Enumeration(id) => {
