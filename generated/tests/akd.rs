@@ -84,6 +84,22 @@ fn the_start_up_list_is_a_procedure() {
     assert_eq!(fixed, [(0x1C12, 0, &[0x00][..]), (0x1C12, 1, &[0x01, 0x17]), (0x1C12, 0, &[0x01])]);
 }
 
+/// The request of the mailbox that the manual prints (L1211-1226), which assigns 0x1704.
+const REQUEST: [u8; 16] =
+    [0x0A, 0x00, 0x00, 0x00, 0x00, 0x03, 0x00, 0x20, 0x2B, 0x12, 0x1C, 0x01, 0x04, 0x17, 0x00, 0x00];
+
+#[test]
+fn the_request_of_the_mailbox_is_what_the_accessor_writes() {
+    let mut drive = Akd::new(Slave::default());
+    drive.sync_manager_2_assignment().pdo_1().write(0x1704).expect("any value");
+    let (object, data) = drive.client().written.pop().expect("it was written");
+    let (index, sub_index) = (object.index.to_le_bytes(), object.sub_index);
+    assert_eq!([index[0], index[1], sub_index, data[0], data[1]], REQUEST[9..14]);
+    // The command says how many of the four bytes are written: 0x2F one, 0x2B two, 0x27 three, 0x23 four (L1157).
+    assert_eq!((data.len(), REQUEST[8]), (2, 0x23 + (4 - 2) * 4));
+    assert_eq!(REQUEST[14..], [0, 0]);
+}
+
 mod own {
     use lexibus_drives::akd as drive;
 
