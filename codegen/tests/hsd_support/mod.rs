@@ -1,0 +1,134 @@
+//! The table of the HSD motors and the text of its manual, for the tests that hold one against the other.
+
+#![allow(dead_code)] // each test uses its part
+
+pub mod frames;
+
+use std::path::{Path, PathBuf};
+
+use lexibus_codegen::compile::{self, Compilation, Options};
+use lexibus_codegen::ir::{Binding, Device, EnumValue, Group, GroupKind, Item, Message, Shape};
+use lexibus_codegen::source::Source;
+
+pub fn table() -> Compilation {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries/hsd-sm137-sm140.toml");
+    compile::check(Source::read(&path).expect("the table"), &Options::default())
+}
+
+/// The lines of the manual, the first with number 1.
+pub struct Manual(Vec<String>);
+
+impl Manual {
+    pub fn read() -> Option<Self> {
+        let path: PathBuf =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/manuals/hsd-sm137-sm140-rs485.it.txt");
+        match std::fs::read_to_string(&path) {
+            Ok(text) => Some(Manual(text.lines().map(str::to_owned).collect())),
+            Err(_) => {
+                eprintln!("skipped: the manual isn't beside the repository");
+                None
+            }
+        }
+    }
+
+    pub fn line(&self, number: usize) -> &str {
+        &self.0[number - 1]
+    }
+
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// The lines from one to another with their numbers.
+    pub fn lines(&self, from: usize, to: usize) -> impl Iterator<Item = (usize, &str)> {
+        (from..=to).map(|number| (number, self.line(number)))
+    }
+
+    /// The rows of the tables in these lines: number and cells, without heads and rulers.
+    pub fn rows(&self, from: usize, to: usize) -> Vec<(usize, Vec<String>)> {
+        self.lines(from, to).filter_map(|(number, line)| Some((number, cells(line)?))).collect()
+    }
+}
+
+/// A cell without its markup.
+fn plain(cell: &str) -> String {
+    let marks = ["*", "`", "<code>", "</code>", "<p>", "</p>"];
+    marks.iter().fold(cell.to_owned(), |cell, mark| cell.replace(mark, "")).trim().to_owned()
+}
+
+/// The cells of a row of a table; `None` for a ruler and for what is no row.
+pub fn cells(line: &str) -> Option<Vec<String>> {
+    let inner = line.trim().strip_prefix('|')?.strip_suffix('|')?;
+    let cells: Vec<String> = inner.split('|').map(plain).collect();
+    let is_ruler = cells.iter().all(|cell| cell.chars().all(|c| matches!(c, '-' | ':')) && !cell.is_empty());
+    (!is_ruler).then_some(cells)
+}
+
+pub fn device(compilation: &Compilation) -> &Device {
+    &compilation.catalog.as_ref().expect("a catalogue").devices[0]
+}
+
+pub fn chapter<'d>(device: &'d Device, title: &str) -> &'d Group {
+    let own = |group: &&Group| group.kind == GroupKind::Chapter && group.name == title;
+    device.groups.iter().find(own).expect("the chapter")
+}
+
+pub fn message<'d>(device: &'d Device, name: &str) -> &'d Message {
+    device.messages.iter().find(|own| own.name == name).unwrap_or_else(|| panic!("no message {name}"))
+}
+
+/// The number of a parameter.
+pub fn code(item: &Item) -> u32 {
+    let own = |binding: &Binding| match binding {
+        Binding::Parameter { code, .. } => Some(*code),
+        _ => None,
+    };
+    item.bindings.iter().find_map(own).expect("a parameter")
+}
+
+/// The line of a row: the first of those that are cited.
+pub fn line(cite: Option<&str>) -> usize {
+    let first = cite.and_then(|cite| cite.split([',', '-']).next());
+    first.and_then(|line| line.trim().parse().ok()).expect("a line")
+}
+
+pub fn values<'d>(device: &'d Device, name: &str) -> &'d [EnumValue] {
+    let definition = device.types.iter().find(|own| own.name == name).expect("a type");
+    match &definition.shape {
+        Shape::Enumeration { values, .. } => values,
+        _ => panic!("{name} is no enumeration"),
+    }
+}
+
+/// The name in the manual's language.
+pub fn original(names: &lexibus_codegen::ir::Texts) -> &str {
+    names.first().map(|own| own.text.as_str()).unwrap_or_default()
+}
+
+/// The number that a cell begins with.
+pub fn number(cell: &str) -> Option<i128> {
+    let cell = cell.trim();
+    match cell.strip_prefix("0x") {
+        Some(digits) => i128::from_str_radix(digits, 16).ok(),
+        None => cell.parse().ok(),
+    }
+}
+
+/// All doubts of the table.
+pub fn doubts(device: &Device) -> Vec<String> {
+    let mut all: Vec<&lexibus_codegen::ir::Doubt> = device.doubts.iter().collect();
+    let items = device.groups.iter().flat_map(|group| &group.items);
+    all.extend(items.flat_map(|item| &item.doubts));
+    all.extend(device.groups.iter().flat_map(|group| &group.doubts));
+    all.extend(device.messages.iter().flat_map(|message| &message.doubts));
+    all.iter().map(|doubt| format!("{} // {} // {}", doubt.says, doubt.chosen, doubt.why)).collect()
+}
+
+/// The integer below a type.
+pub fn underlying(device: &Device, ty: lexibus_codegen::ir::Type) -> lexibus_codegen::ir::Type {
+    let lexibus_codegen::ir::Type::Named(id) = ty else { return ty };
+    match &device.types[id.0 as usize].shape {
+        Shape::BitField { base, .. } | Shape::Enumeration { base, .. } | Shape::Scaled { base, .. } => *base,
+        _ => ty,
+    }
+}
