@@ -6,6 +6,7 @@
 //! |---|---|---|
 //! | `akd` | `akd` | Kollmorgen AKD servo drives, on EtherCAT |
 //! | `demo-drive` | `demo_drive` | an imaginary CiA 402 drive, to try things on |
+//! | `hsd` | `hsd` | HSD SM137 and SM140 positioning motors, on RS-485 |
 //! | `vector-step` | `vector_step` | AEC Vector Step stepper drives, on CANopen, EtherCAT and Modbus |
 //! | `table` | – | adds `ENTRIES`, a table of all entries, to each module |
 //!
@@ -30,6 +31,11 @@ pub mod akd;
 #[cfg(feature = "demo-drive")]
 #[rustfmt::skip]
 pub mod demo_drive;
+
+/// HSD SM137 and SM140 positioning motors (`dictionaries/hsd-sm137-sm140.toml`).
+#[cfg(feature = "hsd")]
+#[rustfmt::skip]
+pub mod hsd;
 
 /// AEC Vector Step stepper drives (`dictionaries/aec-vector-step.toml`).
 #[cfg(feature = "vector-step")]
