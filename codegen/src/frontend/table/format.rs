@@ -332,6 +332,8 @@ tables! {
         pub doc: Option<String>,
         /// Number of bits that one number holds: 16 where nothing else is said, 1 of coils and discrete inputs.
         pub bits: Option<u8>,
+        /// Whether a shorter value fills all bits of its numbers: with copies of its sign, or zeros where it has none.
+        pub extend: bool,
         /// Where its registers are on Modbus.
         pub modbus: Option<ModbusRule>,
         /// Which objects its registers are on CANopen.
@@ -342,8 +344,8 @@ tables! {
         pub parameter: Option<FlagOr<ParameterMessages>>,
         /// The number is an address of an EtherCAT slave controller.
         pub esc: bool,
-        /// The value is reached through a window.
-        pub indirect: Option<IndirectRule>,
+        /// The value is reached through a window, or several: on other buses, or one to read and one to write.
+        pub indirect: Option<OneOrMany<IndirectRule>>,
     }
 
     /// The messages that carry the parameters of a space.
@@ -394,6 +396,8 @@ tables! {
     pub struct IndirectRule {
         /// The item that takes the number.
         pub write_address: Option<At<String>>,
+        /// What is added to the register's number to get the one that is written there.
+        pub add: Option<i64>,
         /// The item through which the value is read.
         pub read: Option<At<String>>,
         /// The item through which the value is written.
