@@ -7,6 +7,8 @@ cargo run --quiet -p lexibus-codegen --features cli -- generate dictionaries/dem
     --out generated/src/demo_drive.rs "$@"
 cargo run --quiet -p lexibus-codegen --features cli -- generate dictionaries/aec-vector-step.toml --table feature=table \
     --out generated/src/vector_step.rs "$@"
+cargo run --quiet -p lexibus-codegen --features cli -- generate dictionaries/eco.toml --table feature=table \
+    --out generated/src/eco.rs "$@"
 cargo run --quiet -p lexibus-codegen --features cli -- generate benches/instructions/axis.esi.xml -A warnings \
     --out benches/instructions/src/axis.rs "$@"
 cargo run --quiet -p lexibus-codegen --features cli -- generate tests/data/drive.gsdml.xml \

@@ -6,6 +6,7 @@
 //! |---|---|---|
 //! | `demo-drive` | `demo_drive` | an imaginary CiA 402 drive, to try things on |
 //! | `vector-step` | `vector_step` | AEC Vector Step stepper drives, on CANopen, EtherCAT and Modbus |
+//! | `eco` | `eco` | Eco drives, on CANopen, EtherCAT, Modbus and PROFINET |
 //! | `table` | – | adds `ENTRIES`, a table of all entries, to each module |
 //!
 //! ```
@@ -29,3 +30,8 @@ pub mod demo_drive;
 #[cfg(feature = "vector-step")]
 #[rustfmt::skip]
 pub mod vector_step;
+
+/// Eco drives (`dictionaries/eco.toml`).
+#[cfg(feature = "eco")]
+#[rustfmt::skip]
+pub mod eco;

@@ -813,6 +813,9 @@ tables! {
         pub default: bool,
         /// PDOs that can't be assigned beside it (`0x1702`, `"0x1600..0x1603"`).
         pub excludes: Vec<NumberOrText>,
+        /// The only buses on which it carries this: `canopen`, `ethercat`.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        pub buses: Option<Vec<At<String>>>,
         /// What it is, in your own words.
         pub doc: Option<String>,
         /// Page or line of the manual.
@@ -890,6 +893,9 @@ tables! {
     pub struct CodesTable {
         /// Names of the columns beside code and meaning.
         pub columns: Vec<String>,
+        /// The only buses on which the codes mean this.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        pub buses: Option<Vec<At<String>>>,
         /// What it is, in your own words.
         pub doc: Option<String>,
         /// Page or line of the manual.
