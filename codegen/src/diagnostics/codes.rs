@@ -816,7 +816,7 @@ codes! {
         "a state or command wants bits that its mask leaves out"
         "The value has bits that the mask doesn't have, so that nothing ever matches it."
     TAB040 NAME_TWICE "name-twice" Lint Warn
-        "two objects, sub-entries of an object, bits or values have one name"
+        "two objects, sub-entries of an object, bits or values have one name, or names of registers differ by case only"
         "Often the name was copied from the box or line above. Generated code tells the two apart by a number. Descriptions \
          other than register tables are looked at only where a level of this code is set."
     TAB041 BROKEN_NAME "broken-name" Lint Warn

@@ -7,8 +7,8 @@ use super::declared_pdos_checked;
 use super::owner::Owner;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{
-    Access, CanOpenSettings, Device, Direction, Group, Item, Module, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKind,
-    ProcessData, Type, Value,
+    Access, CanOpenSettings, Device, Direction, Group, Item, Module, ObjectBuses, Pdo, PdoCommunication, PdoEntry,
+    PdoEntryKind, ProcessData, Type, Value,
 };
 use crate::source::Span;
 
