@@ -9,7 +9,7 @@ use std::convert::Infallible;
 use can_script::{node, Script};
 use lexibus::clients::canopen::Node;
 use lexibus::codes::Cell;
-use lexibus::{CanOpen, Error, Fixed, Item, On, Pdo, Readable, Writable};
+use lexibus::{CanOpen, Error, Fixed, Item, On, Pdo, Readable, Rw, Writable};
 use lexibus_drives::eco::objects::{self, feed_constant, homing_speeds, interpolation_time_period};
 use lexibus_drives::eco::objects::{
     drive_parameters_settings, drive_variable_read, drive_variable_write, store_parameter_field,
@@ -23,7 +23,7 @@ use lexibus_drives::eco::objects::{
 use lexibus_drives::eco::types::{
     Controlword, HomingMethod, MappedObject, Mode402, Statusword, StoreParameters, TransmissionType,
 };
-use lexibus_drives::eco::{codes, pdo};
+use lexibus_drives::eco::{self, codes, pdo};
 
 type Answer<T> = Result<T, Error<Infallible>>;
 
@@ -228,7 +228,7 @@ fn pdos_of_ethercat() {
 
 lexibus::pdo! {
     /// RPDO 1 as the example maps it (L4425): the set-point in front of the control word.
-    pub struct SetPoint: lexibus_drives::eco::RxPdo1 { interpolation_data_record::position_set_point, controlword }
+    pub struct SetPoint: lexibus_drives::eco::pdo::RxPdo1 { interpolation_data_record::position_set_point, controlword }
 }
 
 #[test]
@@ -236,6 +236,15 @@ fn the_mapping_of_the_example() {
     let frame = SetPoint { position_set_point: 6000, controlword: control(0x001F) }.pack();
     assert_eq!(frame, [0x70, 0x17, 0, 0, 0x1F, 0]);
     assert_eq!(SetPoint::MAPPING.map(|entry| entry.word()), [0x60C1_0120, 0x6040_0010]);
+}
+
+#[test]
+fn values_of_several_parameters() {
+    // L536, L584 to L598: hundreds and units; ten thousands, hundreds, units, and a sign.
+    assert_eq!(eco::PULSES_PER_TURN.split(4096), Ok([40, 96]));
+    assert_eq!(eco::SPACE_OFFSET.join_signed(1, [12, 34, 56]), Ok(-123_456));
+    let both: [Item<u16, Rw, _>; 2] = [objects::P1, objects::P2];
+    assert_eq!(both.map(|item| item.name()), ["P1", "P2"]);
 }
 
 #[test]

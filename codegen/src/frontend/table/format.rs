@@ -176,6 +176,8 @@ tables! {
         pub machines: Entries<MachineTable>,
         /// Sequences of steps.
         pub procedures: Entries<ProcedureTable>,
+        /// Numbers that are split over several items.
+        pub composites: Entries<CompositeTable>,
         /// How frames of a command protocol are delimited and checked.
         pub framing: Option<At<FramingTable>>,
         /// Requests and replies of a command protocol.
@@ -993,6 +995,30 @@ tables! {
         pub arguments: Vec<At<String>>,
         /// The steps, in order.
         pub steps: Vec<At<StepTable>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+    }
+
+    /// One number in several items.
+    pub struct CompositeTable {
+        /// The items of its digits, the most significant one first.
+        pub parts: Vec<At<String>>,
+        /// What one digit is worth of the next; each is below it.
+        pub base: Option<u16>,
+        /// The item that has the sign.
+        pub sign: Option<At<String>>,
+        /// Its value below zero; otherwise it is 0.
+        pub negative: Option<u16>,
+        /// The unit of the number.
+        pub unit: Option<String>,
+        /// Its name or label in the manual's language.
+        pub orig: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
         /// A contradiction of the manual, and what was made of it.
         pub doubt: Option<OneOrMany<DoubtTable>>,
         /// Several contradictions.

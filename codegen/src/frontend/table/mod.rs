@@ -16,6 +16,7 @@
 //! | `device` | the head: device, models, axes |
 //! | `process`, `images` | process data: PDOs, fixed process images |
 //! | `code_tables`, `machines`, `messages` | codes; state machines and procedures; messages and their frames |
+//! | `composites` | numbers that are split over several items |
 //! | `overlay` | tables that say something of what another file describes |
 //! | `lints`, `summary` | what needs the table as it is written; what another place of the manual says |
 //! | `schema` | the JSON Schema of the format |
@@ -24,6 +25,7 @@ mod alternatives;
 mod at;
 mod bindings;
 mod code_tables;
+mod composites;
 mod conditions;
 mod defaults;
 mod definitions;
@@ -86,7 +88,7 @@ pub(crate) fn is_unit(symbol: &str) -> bool {
 const VERSION: u32 = 1;
 
 /// The keys of a table, and the order in which they are read: what others refer to comes first.
-const KEYS: [&str; 21] = [
+const KEYS: [&str; 22] = [
     "lexibus",
     "device",
     "overlay",
@@ -106,6 +108,7 @@ const KEYS: [&str; 21] = [
     "codes",
     "machines",
     "procedures",
+    "composites",
     "framing",
     "messages",
 ];
@@ -318,6 +321,9 @@ impl<'a> Table<'a> {
         }
         for (name, table) in self.named(reader, "procedures") {
             machines::procedure(reader, &name, &table, device, &mut rows.references);
+        }
+        for (name, table) in self.named(reader, "composites") {
+            composites::composite(reader, &name, &table, device, &mut rows.references);
         }
         for (name, option) in &self.options {
             let (origin, cite) = (reader.origin(name), option.cite.as_ref().map(tree::cited));
