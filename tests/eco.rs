@@ -228,14 +228,15 @@ fn pdos_of_ethercat() {
 
 lexibus::pdo! {
     /// RPDO 1 as the example maps it (L4425): the set-point in front of the control word.
-    pub struct SetPoint: lexibus_drives::eco::pdo::RxPdo1 { interpolation_data_record::position_set_point, controlword }
+    pub struct SetPoint: lexibus_drives::eco::pdo::RxPdo1 { position_set_point: interpolation_data_record::position_set_point, controlword }
 }
 
 #[test]
 fn the_mapping_of_the_example() {
     let frame = SetPoint { position_set_point: 6000, controlword: control(0x001F) }.pack();
     assert_eq!(frame, [0x70, 0x17, 0, 0, 0x1F, 0]);
-    assert_eq!(SetPoint::MAPPING.map(|entry| entry.word()), [0x60C1_0120, 0x6040_0010]);
+    let words: Vec<u32> = SetPoint::MAPPING.iter().map(|entry| entry.word()).collect();
+    assert_eq!(words, [0x60C1_0120, 0x6040_0010]);
 }
 
 #[test]

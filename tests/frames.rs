@@ -13,6 +13,7 @@ use lexibus::clients::canopen::NmtState;
 use lexibus::clients::modbus::tokio_modbus::client::{rtu, Context};
 use lexibus::clients::modbus::tokio_modbus::{ExceptionCode, Slave};
 use lexibus::clients::modbus::{ModbusClient, ModbusError};
+use lexibus::modbus::AsyncRegisterClient;
 use lexibus::{
     CobId, Error, Fixed, Flags, Initial, Item, MappedEntry, Modbus, NodeId, On, OnCanOpen, Range, Ro, Rw, Step,
     VisibleString, Writable,

@@ -10,13 +10,6 @@ use lexibus::NodeId;
 /// The requests that are still to come, with their answers.
 pub struct Script(VecDeque<([u8; 8], [u8; 8])>);
 
-impl Script {
-    /// How many requests didn't come.
-    pub fn left(&self) -> usize {
-        self.0.len()
-    }
-}
-
 impl CanPort for Script {
     type Error = Infallible;
 
