@@ -200,7 +200,7 @@ space = "parameter"
 d1 = { reg = 1, type = "u16", access = "rw" }
 d2 = { reg = 2, type = "u16", access = "rw" }
 "#;
-    let found = flags(passage, &[("TAB044", 23), ("TAB044", 23)]);
+    let found = flags(passage, &[("TAB048", 23), ("TAB048", 23)]);
     assert_eq!(message(&found, 0), "`d1` has 16 bits, and is read through `Parameter Read Value`, which has 8");
     assert_eq!(message(&found, 1), "`d1` has 16 bits, and is written through `Parameter Write Value`, which has 8");
     let eight = passage.replace("reg = 1, type = \"u16\"", "reg = 1, type = \"u8\"");
@@ -233,7 +233,7 @@ d1 = { reg = 1, type = "u16", access = "rw" }
 
 #[test]
 fn e4_the_address_before_the_value() {
-    let found = flags(WRITE_WINDOW, &[("TAB045", 14)]);
+    let found = flags(WRITE_WINDOW, &[("TAB049", 14)]);
     let expected = "`write` writes the number to `Variable Write Address` before the value to `Variable Write Value`";
     assert_eq!(message(&found, 0), expected);
     let swapped = WRITE_WINDOW.replace("Variable Write Address\", argument", "X\", argument");

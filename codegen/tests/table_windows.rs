@@ -15,7 +15,7 @@ fn read(text: &str) -> Compilation {
 /// Codes and messages of the errors, and of the lints on windows.
 fn said(text: &str) -> Vec<String> {
     let compilation = read(text);
-    let own = |code: &str| ["TAB004", "TAB005", "TAB006", "TAB007", "TAB044", "TAB045", "ESI042"].contains(&code);
+    let own = |code: &str| ["TAB004", "TAB005", "TAB006", "TAB007", "TAB048", "TAB049", "ESI042"].contains(&code);
     let list = compilation.diagnostics.list().iter().filter(|found| own(found.code.id));
     list.map(|found| format!("{} {}", found.code.id, found.message)).collect()
 }

@@ -831,11 +831,11 @@ codes! {
         "two items share registers, or bits of one"
         "One of the two has the wrong number, or a type that is too long. Where the device shows a part of a value in registers \
          of its own, say so: `part`, or `same_as` and this code in `allow`."
-    TAB044 NARROW_WINDOW "narrow-window" Lint Warn
+    TAB048 NARROW_WINDOW "narrow-window" Lint Warn
         "the values of a space don't fit through its windows"
         "An item has more bits than the item through which it is read or written, and no other window of its space is wider: the \
          upper bits are lost."
-    TAB045 WINDOW_ORDER "window-order" Lint Warn
+    TAB049 WINDOW_ORDER "window-order" Lint Warn
         "a window's procedure writes the number before the value"
         "Where writing the number starts the transfer, what is written then is the value of the last one. Values and numbers of \
          a process image go together; there the order means nothing."
