@@ -76,6 +76,7 @@ mod client;
 #[cfg(any(feature = "canopen", feature = "ethercat", feature = "modbus", feature = "serial"))]
 pub mod clients;
 pub mod codes;
+mod composite;
 mod data_type;
 mod emergency;
 mod enumeration;
@@ -115,6 +116,7 @@ pub use axes::{Axes, Axis, AxisBus, AxisRange, AxisStep};
 pub use bit_field::DebugBits;
 pub use bus::{Bus, CanOpen, CoE, Modbus, Object, Parameter, Profinet, Record, Serial};
 pub use client::{AsyncClient, Client};
+pub use composite::Composite;
 pub use data_type::DataType;
 pub use emergency::Emergency;
 pub use enumeration::Enumeration;

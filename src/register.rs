@@ -74,6 +74,9 @@ pub struct Register {
     /// How many registers of 16 bits one address stands for: 1 on most devices; 2 where a device gives each of its registers
     /// of 32 bits one address. What follows a value of 32 bits is at `address + 1` there, and its words are two more.
     pub words_per_address: u8,
+    /// Whether a number with fewer bytes than the registers have is written with copies of its sign in front, and not with
+    /// zeros.
+    pub sign_extended: bool,
 }
 
 impl Register {
@@ -88,6 +91,7 @@ impl Register {
             bytes_swapped: false,
             part: None,
             words_per_address: 1,
+            sign_extended: false,
         }
     }
 
@@ -131,6 +135,22 @@ impl Register {
     #[must_use]
     pub const fn words_per_address(self, words: u8) -> Self {
         Self { words_per_address: words, ..self }
+    }
+
+    /// The same registers of a number that has a sign, and fewer bytes than they: writing it fills the upper ones with copies
+    /// of the sign.
+    ///
+    /// ```
+    /// use lexibus::Register;
+    ///
+    /// let mut words = [0; 2];
+    /// Register::high_first(0x8001, 2).sign_extended().encode(&(-50_i8).to_le_bytes(), &mut words)?;
+    /// assert_eq!(words, [0xFFFF, 0xFFCE]);
+    /// # Ok::<(), lexibus::LengthError>(())
+    /// ```
+    #[must_use]
+    pub const fn sign_extended(self) -> Self {
+        Self { sign_extended: true, ..self }
     }
 
     /// How many addresses the value takes.
@@ -192,7 +212,7 @@ impl Register {
     }
 
     /// Puts the value that is in `data`, as [`decode`](Register::decode) gives it, into `words`. Bytes that `data` doesn't
-    /// have are 0. Of a [`part`](Register::part), only its bits change: `words` are those that the registers hold.
+    /// have are 0, or copies of its sign where the register is [`sign_extended`](Register::sign_extended). Of a [`part`](Register::part), only its bits change: `words` are those that the registers hold.
     ///
     /// # Errors
     ///
@@ -205,8 +225,10 @@ impl Register {
             return Err(LengthError::new(2 * count, data.len()));
         }
         let Some(part) = self.part else {
+            let is_negative = self.sign_extended && data.last().is_some_and(|last| last & 0x80 != 0);
+            let beyond = if is_negative { 0xFF } else { 0 };
             for at in 0..count {
-                let byte = |offset: usize| data.get(2 * at + offset).copied().unwrap_or(0);
+                let byte = |offset: usize| data.get(2 * at + offset).copied().unwrap_or(beyond);
                 words[self.position(at, count)] = self.word([byte(0), byte(1)]);
             }
             return Ok(());
@@ -306,6 +328,19 @@ mod tests {
         let mut byte = [0];
         assert_eq!(Register::holding(0).decode(&[0xFF12], &mut byte), Ok(1));
         assert_eq!(byte, [0x12]);
+    }
+
+    #[test]
+    fn short_numbers_fill_their_registers() {
+        let signed = Register::high_first(0, 2).sign_extended();
+        for (data, expected) in [([0xCE, 0xFF], [0xFFFF, 0xFFCE]), ([0xCE, 0x00], [0, 0x00CE])] {
+            round_trip(signed, &expected, &data);
+        }
+        let mut words = [0; 2];
+        assert_eq!(signed.ordered(WordOrder::LowFirst).encode(&[0x80], &mut words), Ok(()));
+        assert_eq!(words, [0xFF80, 0xFFFF]);
+        assert_eq!(signed.encode(&[], &mut words), Ok(()));
+        assert_eq!(words, [0, 0]);
     }
 
     #[test]

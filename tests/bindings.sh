@@ -14,6 +14,8 @@ lexibus generate dictionaries/kollmorgen-akd.toml --table feature=table \
     --out generated/src/akd.rs "$@"
 lexibus generate dictionaries/hsd-sm137-sm140.toml --table feature=table \
     --out generated/src/hsd.rs "$@"
+lexibus generate dictionaries/eco.toml --table feature=table \
+    --out generated/src/eco.rs "$@"
 lexibus generate benches/instructions/axis.esi.xml -A warnings \
     --out benches/instructions/src/axis.rs "$@"
 lexibus generate tests/data/drive.gsdml.xml \

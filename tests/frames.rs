@@ -1,31 +1,30 @@
 //! Frames that the manual of the Eco drive prints, byte by byte: what comes out of the clients of CANopen and of Modbus RTU.
 //! Lines are the manual's; its placeholders for the check are filled with what follows from the bytes in front of it.
 
-use std::collections::VecDeque;
+#[path = "support/can_script.rs"]
+mod can_script;
+
 use std::convert::Infallible;
 use std::future::Future;
 use std::pin::Pin;
-use std::time::Duration;
 
-use lexibus::clients::canopen::{CanFrame, CanPort, NmtState, Node};
+use can_script::node;
+use lexibus::clients::canopen::NmtState;
 use lexibus::clients::modbus::tokio_modbus::client::{rtu, Context};
 use lexibus::clients::modbus::tokio_modbus::{ExceptionCode, Slave};
 use lexibus::clients::modbus::{ModbusClient, ModbusError};
 use lexibus::modbus::AsyncRegisterClient;
 use lexibus::{
-    AsyncClient, CobId, Error, Flags, Initial, Item, MappedEntry, NodeId, OnCanOpen, OnModbus, Range, Register, Ro, Rw,
-    Step, VisibleString,
+    CobId, Error, Fixed, Flags, Initial, Item, MappedEntry, Modbus, NodeId, On, OnCanOpen, Range, Ro, Rw, Step,
+    VisibleString, Writable,
 };
-use lexibus_drives::demo_drive::types::{Command, Controlword, State, StoreParameters};
+use lexibus_drives::eco::objects::{self, feed_constant, homing_speeds};
+use lexibus_drives::eco::types::{
+    Command, Controlword, DriveCommand, HomingMethod, Mode, MotionProfile, State, StoreParameters,
+};
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
 
-type Here<V> = Item<V, Rw, OnModbus>;
 type Device = ModbusClient<Context>;
-
-const TARGET_POSITION: Here<i32> = Here::register(Register::high_first(0x8009, 2), "target position", Flags::NONE);
-const D3: Here<u16> = Here::register(Register::holding(3), "d3", Flags::NONE);
-const SAVE: Here<u16> = Here::register(Register::holding(0x3802), "save", Flags::NONE);
-const SAVE_32: Here<u32> = Here::register(Register::high_first(0x3802, 2), "save", Flags::NONE);
 
 /// What `exchange` gives with a node that expects `request`, and answers `reply`.
 fn exchanged<T>(
@@ -53,83 +52,72 @@ fn check(frame: &[u8]) -> [u8; 2] {
     crc.to_le_bytes()
 }
 
-/// Lines of the manual with function 16 to node 1: the address, the 32 bits, and the check that belongs behind them.
-const WRITES: [(u32, u16, i32, [u8; 2]); 20] = [
-    (1407, 0x8002, 60, [0x13, 0xA1]),
-    (1410, 0x800A, 100, [0x13, 0xFD]),
-    (1413, 0x800B, 100, [0xD2, 0x31]),
-    (1416, 0x800C, 1000, [0x92, 0x82]),
-    (1419, 0x801B, 0, [0xD2, 0xD6]),
-    (1422, 0x8012, 33, [0xD2, 0xA4]),
-    (1425, 0x8013, 0, [0xD3, 0x70]),
-    (1428, 0x8015, 10, [0xD3, 0x5D]),
-    (1431, 0x8016, 100, [0x12, 0xA4]),
-    (1443, 0x8000, 0x08, [0x93, 0xAF]),
-    (1447, 0x8001, 6, [0xD3, 0xA7]),
-    (1451, 0x8000, 0x03, [0xD2, 0x68]),
-    (1455, 0x8000, 0x43, [0xD3, 0x98]),
-    (1457, 0x8000, 0, [0x92, 0x69]),
-    (1461, 0x8001, 1, [0x92, 0x65]),
-    (1464, 0x8009, 6000, [0x5C, 0x17]),
-    (1466, 0x8000, 0x03, [0xD2, 0x68]),
-    (1471, 0x8000, 0x23, [0xD3, 0xB0]),
-    // The sign goes through both registers.
-    (1492, 0x8001, -50, [0x93, 0xE5]),
-    (1495, 0x8000, 0x20, [0x93, 0xB1]),
-];
+/// Holds what writing `value` sends to node 1 against a line of the manual with function 16: the address, the 32 bits, and the
+/// check that belongs behind them.
+fn written<V, A, L>(line: u32, item: Item<V, A, L>, value: V::Native, (address, raw, crc): (u16, i32, [u8; 2]))
+where
+    V: Fixed + 'static,
+    A: Writable + 'static,
+    L: On<Modbus> + Copy + 'static,
+{
+    let head = [[1, 0x10].as_slice(), &address.to_be_bytes(), &[0, 2]].concat();
+    let request = [head.as_slice(), &[4], &raw.to_be_bytes(), &crc].concat();
+    assert_eq!(check(&request[..11]), crc, "L{line}");
+    let reply = [head.as_slice(), &check(&head)].concat();
+    exchanged((1, &request, &reply), |device| {
+        Box::pin(async move { item.at(device).write_async(value).await.expect("written") })
+    });
+}
 
+/// Configuration of a positioner, homing, positioning, and saving (L1401 to L1495).
 #[test]
 fn modbus_writes_of_two_registers() {
-    for (line, address, value, crc) in WRITES {
-        let item = Here::<i32>::register(Register::high_first(address, 2), "register", Flags::NONE);
-        let head = [[1, 0x10].as_slice(), &address.to_be_bytes(), &[0, 2]].concat();
-        let request = [head.as_slice(), &[4], &value.to_be_bytes(), &crc].concat();
-        assert_eq!(check(&request[..11]), crc, "L{line}");
-        let reply = [head.as_slice(), &check(&head)].concat();
-        exchanged((1, &request, &reply), |device| {
-            Box::pin(async move { item.at(device).write_async(value).await.expect("written") })
-        });
-    }
+    let off = DriveCommand::new();
+    let enabled = off.with_torque_enable(true).with_motion_enable(true);
+    let home = enabled.in_homing().with_homing(true).drive_command();
+    let start = enabled.in_positioner().with_start_positioning(true).drive_command();
+    let save = off.in_save_and_load().with_save(true).drive_command();
+    written(1407, feed_constant::FEED_CONSTANT, 60, (0x8002, 60, [0x13, 0xA1]));
+    written(1410, objects::PROFILE_ACCELERATION, 100, (0x800A, 100, [0x13, 0xFD]));
+    written(1413, objects::PROFILE_DECELERATION, 100, (0x800B, 100, [0xD2, 0x31]));
+    written(1416, objects::PROFILE_VELOCITY, 1000, (0x800C, 1000, [0x92, 0x82]));
+    written(1419, objects::MOTION_PROFILE_TYPE, MotionProfile::Trapezoidal, (0x801B, 0, [0xD2, 0xD6]));
+    written(1422, objects::HOMING_METHOD, HomingMethod::MarkerBackwards, (0x8012, 33, [0xD2, 0xA4]));
+    written(1425, objects::HOME_OFFSET, 0, (0x8013, 0, [0xD3, 0x70]));
+    written(1428, homing_speeds::HOMING_SLOW_SPEED, 10, (0x8015, 10, [0xD3, 0x5D]));
+    written(1431, objects::HOMING_ACCELERATION, 100, (0x8016, 100, [0x12, 0xA4]));
+    written(1443, objects::CONTROL_WORD, off.with_alarm_reset(true), (0x8000, 0x08, [0x93, 0xAF]));
+    written(1447, objects::MODES_OF_OPERATION, Mode::Homing, (0x8001, 6, [0xD3, 0xA7]));
+    written(1451, objects::CONTROL_WORD, enabled, (0x8000, 0x03, [0xD2, 0x68]));
+    written(1455, objects::CONTROL_WORD, home, (0x8000, 0x43, [0xD3, 0x98]));
+    written(1457, objects::CONTROL_WORD, off, (0x8000, 0, [0x92, 0x69]));
+    written(1461, objects::MODES_OF_OPERATION, Mode::Positioner, (0x8001, 1, [0x92, 0x65]));
+    written(1464, objects::TARGET_POSITION, 6000, (0x8009, 6000, [0x5C, 0x17]));
+    written(1466, objects::CONTROL_WORD, enabled, (0x8000, 0x03, [0xD2, 0x68]));
+    written(1471, objects::CONTROL_WORD, start, (0x8000, 0x23, [0xD3, 0xB0]));
+    // The sign goes through both registers.
+    written(1492, objects::MODES_OF_OPERATION, Mode::SaveAndLoad, (0x8001, -50, [0x93, 0xE5]));
+    written(1495, objects::CONTROL_WORD, save, (0x8000, 0x20, [0x93, 0xB1]));
 }
 
 #[test]
 fn modbus_of_registers_with_an_address_each() {
     // L1210 and L1243 contradict their own tables; these are the bytes of the tables. Each address has 32 bits.
-    fn item(address: u16) -> Here<u32> {
-        Here::register(Register::high_first(address, 2).words_per_address(2), "register", Flags::NONE)
-    }
     let request = [0x05, 0x03, 0x80, 0x00, 0x00, 0x04, 0x6C, 0x4D];
-    let reply = [[5, 3, 8].as_slice(), &[0x11, 0x22, 0x33, 0x44, 0, 0, 0, 6]].concat();
+    let reply = [[5, 3, 8].as_slice(), &[0, 0, 0, 0x23, 0xFF, 0xFF, 0xFF, 0xFE]].concat();
     let reply = [reply.as_slice(), &check(&reply)].concat();
     let values = exchanged((5, &request, &reply), |device| {
-        Box::pin(async move { device.read_block_async((item(0x8000), item(0x8001))).await.expect("read") })
+        let both = (objects::CONTROL_WORD, objects::MODES_OF_OPERATION);
+        Box::pin(async move { device.read_block_async(both).await.expect("read") })
     });
-    assert_eq!(values, (0x1122_3344, 6));
-    let request =
-        [[0x05, 0x03, 0x80, 0x00, 0x00, 0x02].as_slice(), &check(&[0x05, 0x03, 0x80, 0x00, 0x00, 0x02])].concat();
+    assert_eq!(values, (DriveCommand::from_raw(0x23), Mode::ElectricAxis));
+    let request = [0x05, 0x03, 0x80, 0x06, 0x00, 0x02];
+    let request = [request.as_slice(), &check(&request)].concat();
     let reply = [0x05, 0x03, 0x04, 0x11, 0x22, 0x33, 0x44, 0x0E, 0x06];
     let value = exchanged((5, &request, &reply), |device| {
-        Box::pin(async move { item(0x8000).at(device).read_async().await.expect("read") })
+        Box::pin(async move { objects::POSITION_ACTUAL_VALUE.at(device).read_async().await.expect("read") })
     });
     assert_eq!(value, 0x1122_3344);
-}
-
-#[test]
-fn modbus_of_the_second_map() {
-    // L1630 to L1675: the fields of requests that are printed without their bytes.
-    let write = [0x05, 0x06, 0x9C, 0x44, 0x00, 0x0A];
-    let write = [write.as_slice(), &check(&write)].concat();
-    exchanged((5, &write, &write), |device| {
-        let item = Here::<u16>::register(Register::holding(40_004), "d3", Flags::NONE);
-        Box::pin(async move { item.at(device).write_async(10).await.expect("written") })
-    });
-    let head = [0x05, 0x10, 0xAC, 0x4A, 0x00, 0x02];
-    let write = [head.as_slice(), &[4, 0, 0, 0x03, 0xE8]].concat();
-    let write = [write.as_slice(), &check(&write)].concat();
-    exchanged((5, &write, &[head.as_slice(), &check(&head)].concat()), |device| {
-        let item = Here::<i32>::register(Register::high_first(44_106, 2), "target position", Flags::NONE);
-        Box::pin(async move { item.at(device).write_async(1000).await.expect("written") })
-    });
 }
 
 #[test]
@@ -137,8 +125,9 @@ fn modbus_exceptions() {
     // L942, L1085: the function with bit 7 set, and the only code that there is, 02.
     let reply = [[0x05, 0x86, 0x02].as_slice(), &check(&[0x05, 0x86, 0x02])].concat();
     let request = [0x05, 0x06, 0x00, 0x03, 0x00, 0x0A, 0xF8, 0x49];
-    let refused =
-        exchanged((5, &request, &reply), |device| Box::pin(async move { D3.at(device).write_async(10).await }));
+    let refused = exchanged((5, &request, &reply), |device| {
+        Box::pin(async move { objects::D3.at(device).write_async(10).await })
+    });
     let Err(Error::Client(ModbusError::Exception(code))) = refused else { panic!("{refused:?}") };
     assert_eq!(code, ExceptionCode::IllegalDataAddress);
 }
@@ -149,61 +138,31 @@ fn modbus_of_node_5() {
     let request = [0x05, 0x10, 0x80, 0x09, 0x00, 0x02, 0x04, 0x00, 0x00, 0x03, 0xE8, 0x47, 0x8D];
     let reply = [0x05, 0x10, 0x80, 0x09, 0x00, 0x02, 0xB9, 0x8E];
     exchanged((5, &request, &reply), |device| {
-        Box::pin(async move { TARGET_POSITION.at(device).write_async(1000).await.expect("written") })
+        Box::pin(async move { objects::TARGET_POSITION.at(device).write_async(1000).await.expect("written") })
     });
     // L1610.
     let request = [0x05, 0x10, 0x38, 0x02, 0x00, 0x02, 0x04, 0x00, 0x00, 0x00, 0x11, 0x94, 0x8B];
     let reply = [0x05, 0x10, 0x38, 0x02, 0x00, 0x02, 0xEC, 0xEC];
     exchanged((5, &request, &reply), |device| {
-        Box::pin(async move { SAVE_32.at(device).write_async(0x11).await.expect("written") })
+        Box::pin(async move { objects::SAVE_TO_FLASH_32.at(device).write_async(0x11).await.expect("written") })
     });
     // L1269 and L1532: function 6 is answered by its echo.
     let request = [0x05, 0x06, 0x00, 0x03, 0x00, 0x0A, 0xF8, 0x49];
     exchanged((5, &request, &request), |device| {
-        Box::pin(async move { D3.at(device).write_async(10).await.expect("written") })
+        Box::pin(async move { objects::D3.at(device).write_async(10).await.expect("written") })
     });
     let request = [0x05, 0x06, 0x38, 0x02, 0x00, 0x11, 0xE4, 0xE2];
     exchanged((5, &request, &request), |device| {
-        Box::pin(async move { SAVE.at(device).write_async(0x11).await.expect("written") })
+        Box::pin(async move { objects::SAVE_TO_FLASH.at(device).write_async(0x11).await.expect("written") })
     });
     // L1123, L1162: three registers at once.
     let request = [0x05, 0x03, 0x00, 0x01, 0x00, 0x03, 0x55, 0x8F];
     let reply = [0x05, 0x03, 0x06, 0x00, 0x14, 0x00, 0x32, 0x00, 0x32, 0x03, 0xAC];
-    let words = exchanged((5, &request, &reply), |device| {
-        Box::pin(async move {
-            let mut bytes = [0; 6];
-            device.read(Register::low_first(1, 3), &mut bytes).await.expect("read");
-            [0, 2, 4].map(|at| u16::from_le_bytes([bytes[at], bytes[at + 1]]))
-        })
+    let values = exchanged((5, &request, &reply), |device| {
+        let all = (objects::D1, objects::D2, objects::D3);
+        Box::pin(async move { device.read_block_async(all).await.expect("read") })
     });
-    assert_eq!(words, [20, 50, 50]);
-}
-
-/// A node that expects requests, and has an answer to each.
-struct Script(VecDeque<([u8; 8], [u8; 8])>);
-
-impl CanPort for Script {
-    type Error = Infallible;
-
-    fn send(&mut self, frame: &CanFrame, _: Duration) -> Result<bool, Infallible> {
-        let expected = self.0.front().map(|(request, _)| request.as_slice());
-        assert_eq!((frame.id(), Some(frame.data())), (0x605, expected));
-        Ok(true)
-    }
-
-    fn receive(
-        &mut self,
-        _: Duration,
-        wanted: &mut dyn FnMut(&CanFrame) -> bool,
-    ) -> Result<Option<CanFrame>, Infallible> {
-        let answer = self.0.pop_front().and_then(|(_, answer)| CanFrame::new(0x585, &answer));
-        assert!(answer.as_ref().map_or(true, wanted));
-        Ok(answer)
-    }
-}
-
-fn node(script: &[([u8; 8], [u8; 8])]) -> Node<Script> {
-    Node::new(Script(script.iter().copied().collect()), NodeId::new(5).expect("a node-ID"))
+    assert_eq!(values, (20, 50, 50));
 }
 
 #[test]

@@ -8,6 +8,7 @@
 //! | `demo-drive` | `demo_drive` | an imaginary CiA 402 drive, to try things on |
 //! | `hsd` | `hsd` | HSD SM137 and SM140 positioning motors, on RS-485 |
 //! | `vector-step` | `vector_step` | AEC Vector Step stepper drives, on CANopen, EtherCAT and Modbus |
+//! | `eco` | `eco` | Eco drives, on CANopen, EtherCAT, Modbus and PROFINET |
 //! | `table` | – | adds `ENTRIES`, a table of all entries, to each module |
 //!
 //! ```
@@ -41,3 +42,8 @@ pub mod hsd;
 #[cfg(feature = "vector-step")]
 #[rustfmt::skip]
 pub mod vector_step;
+
+/// Eco drives (`dictionaries/eco.toml`).
+#[cfg(feature = "eco")]
+#[rustfmt::skip]
+pub mod eco;

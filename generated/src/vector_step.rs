@@ -20724,6 +20724,8 @@ pub mod codes {
     use ::lexibus as rt;
     /// emergency.
     ///
+    /// An emergency message has five bytes of the vendor's own (VSD) for details; the codes 0xFFxx are the vendor's.
+    ///
     /// Further columns: axis, vendor data.
     pub static EMERGENCY: &[rt::codes::Code] = &[
         rt::codes::Code::new(

@@ -816,7 +816,7 @@ codes! {
         "a state or command wants bits that its mask leaves out"
         "The value has bits that the mask doesn't have, so that nothing ever matches it."
     TAB040 NAME_TWICE "name-twice" Lint Warn
-        "two objects, sub-entries of an object, bits or values have one name"
+        "two objects, sub-entries of an object, bits or values have one name, or names of registers differ by case only"
         "Often the name was copied from the box or line above. Generated code tells the two apart by a number. Descriptions \
          other than register tables are looked at only where a level of this code is set."
     TAB041 BROKEN_NAME "broken-name" Lint Warn
@@ -840,6 +840,14 @@ codes! {
         "two codes have the same cells"
         "The table says that no two codes have the same cells (`distinct`), and two do. A row was copied: write the doubt down, \
         and allow this code on the table."
+    TAB048 NARROW_WINDOW "narrow-window" Lint Warn
+        "the values of a space don't fit through its windows"
+        "An item has more bits than the item through which it is read or written, and no other window of its space is wider: the \
+         upper bits are lost."
+    TAB049 WINDOW_ORDER "window-order" Lint Warn
+        "a window's procedure writes the number before the value"
+        "Where writing the number starts the transfer, what is written then is the value of the last one. Values and numbers of \
+         a process image go together; there the order means nothing."
     MSG001 FRAMING_BYTES "framing-bytes" Lint Warn
         "start, end, escape and escaped bytes of frames contradict each other"
         "Start, end and escape of a frame are three bytes; each of them is escaped where it is data, and what is sent in its place is \

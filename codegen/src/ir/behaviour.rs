@@ -190,6 +190,9 @@ pub struct RegisterBinding {
     /// How many registers of 16 bits one address stands for: 2 where a device gives each of its registers of 32 bits one.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub words_per_address: u8,
+    /// Whether a value with fewer bits than the registers have fills them: with copies of its sign, or zeros where it has none.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub extended: bool,
 }
 
 impl RegisterBinding {
@@ -202,6 +205,10 @@ impl RegisterBinding {
 
 fn one() -> u8 {
     1
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 fn is_one(value: &u8) -> bool {

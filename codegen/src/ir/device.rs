@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    CodeTable, CompactString, Documentation, Doubt, EtherCatSettings, Extension, Framing, Group, Message, Module,
-    ModuleUse, Procedure, ProcessData, ProfinetSettings, RegisterSpace, Slot, StateMachine, SubmoduleUse, Texts,
-    TypeDef, Value,
+    CodeTable, CompactString, Composite, Documentation, Doubt, EtherCatSettings, Extension, Framing, Group, Message,
+    Module, ModuleUse, Procedure, ProcessData, ProfinetSettings, RegisterSpace, Slot, StateMachine, SubmoduleUse,
+    Texts, TypeDef, Value,
 };
 use crate::source::{Origin, Span};
 
@@ -67,6 +67,9 @@ pub struct Device {
     pub machines: Vec<StateMachine>,
     /// Sequences of steps.
     pub procedures: Vec<Procedure>,
+    /// Numbers that are split over several items.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub composites: Vec<Composite>,
     /// Models and firmware versions that share this description.
     pub variants: Vec<Variant>,
     /// How the objects of further axes follow from those of the first.

@@ -237,6 +237,12 @@ pub struct CodeTable {
     pub columns: Vec<CompactString>,
     /// Its rows.
     pub rows: Vec<CodeRow>,
+    /// The only buses on which its codes mean this; all of them where it is empty.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub buses: Vec<CompactString>,
+    /// What it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub documentation: Option<Box<Documentation>>,
     /// Where it is declared.
     pub origin: Origin,
 }

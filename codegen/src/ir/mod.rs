@@ -21,6 +21,7 @@
 
 mod behaviour;
 mod catalog;
+mod composite;
 mod device;
 mod ethercat;
 mod item;
@@ -36,6 +37,7 @@ mod variant;
 
 pub use behaviour::*;
 pub use catalog::*;
+pub use composite::*;
 pub use device::*;
 pub use ethercat::*;
 pub use item::*;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Documentation, Doubt, Extension, Texts, Type, Value};
+use super::{CompactString, Documentation, Doubt, Extension, ObjectBuses, Texts, Type, Value};
 use crate::source::Origin;
 
 /// Cyclic data of a device or a module.
@@ -99,6 +99,9 @@ pub struct Pdo {
     pub doubts: Vec<Doubt>,
     /// What the source says beyond that.
     pub extensions: Vec<Extension>,
+    /// The buses on which it is mapped so; all those of the device where none is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub buses: Option<ObjectBuses>,
     /// Whether no section describes it and it follows from NrOfRXPDO or NrOfTXPDO and CompactPDO (CiA 306).
     pub implicit: bool,
     /// Where it is declared.
@@ -132,14 +135,21 @@ impl Pdo {
             documentation: None,
             doubts: Vec::new(),
             extensions: Vec::new(),
+            buses: None,
             implicit: false,
             origin: Origin::default(),
         }
     }
 
+    /// Whether no bus has both.
+    pub fn is_apart(&self, other: &Pdo) -> bool {
+        let of_both = self.buses.zip(other.buses);
+        of_both.is_some_and(|(one, other)| !(one.canopen && other.canopen || one.coe && other.coe))
+    }
+
     /// Whether the two can't be assigned together: one excludes the other, or they are one PDO described twice.
     pub fn conflicts_with(&self, other: &Pdo) -> bool {
-        self.mapping_index == other.mapping_index
+        self.mapping_index == other.mapping_index && !self.is_apart(other)
             || self.excludes.contains(&other.mapping_index)
             || other.excludes.contains(&self.mapping_index)
     }

@@ -38,6 +38,7 @@ pub(crate) mod texts;
 mod titles_are_no_names;
 pub(crate) mod values_checked;
 mod values_named_once;
+mod windows_fit;
 
 use crate::diagnostics::Diagnostics;
 use crate::ir::{Catalog, Device, Format, Module};
@@ -86,6 +87,7 @@ fn device(device: &mut Device, modules: &[Module], format: Option<Format>, diagn
         messages_checked::run(device, diagnostics);
         mentioned_objects_exist::run(device, diagnostics);
         names_in_texts_exist::run(device, diagnostics);
+        windows_fit::run(device, diagnostics);
     }
 }
 

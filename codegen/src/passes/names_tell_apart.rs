@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use super::bit_fields_checked::told_apart;
 use super::firmware_comparable::apart;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{BitFieldEntry, Device, EnumValue, Group, GroupKind, Item, Shape, TypeDef};
+use crate::ir::{BitFieldEntry, CompactString, Device, EnumValue, Group, GroupKind, Item, Shape, TypeDef};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -111,9 +111,22 @@ fn subs(group: &Group, index: u16, diagnostics: &mut Diagnostics) {
     }
 }
 
+/// Registers whose names differ by upper and lower case only. Equal names were told before.
+fn case_only<'g>(names: &mut HashMap<CompactString, &'g Item>, item: &'g Item, diagnostics: &mut Diagnostics) {
+    let first = *names.entry(item.name.to_lowercase()).or_insert(item);
+    if first.name != item.name {
+        let (name, other) = (brief(&item.name), brief(&first.name));
+        let message = format!("`{name}` and `{other}` differ by upper and lower case only");
+        let found = Diagnostic::new(&codes::NAME_TWICE, place(item), message).note_at(place(first), "the other one");
+        diagnostics.push(found.help("manuals often spell one name in two ways"));
+    }
+}
+
 fn registers(group: &Group, are_words: bool, diagnostics: &mut Diagnostics) {
+    let mut names = HashMap::new();
     for item in &group.items {
         let at = place(item);
+        case_only(&mut names, item, diagnostics);
         if item.name.trim().is_empty() {
             diagnostics.push(Diagnostic::new(&codes::EMPTY_NAME, at, "the row has no name"));
         }

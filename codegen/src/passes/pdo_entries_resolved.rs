@@ -51,10 +51,11 @@ impl<'o> Owner<'o> {
 }
 
 fn pdos(pdos: &mut [Pdo], owner: &Owner<'_>, diagnostics: &mut Diagnostics) {
-    let mut seen: HashMap<u16, Span> = HashMap::with_capacity(pdos.len());
+    // One index on two buses is two PDOs.
+    let mut seen: HashMap<(u16, Option<bool>), Span> = HashMap::with_capacity(pdos.len());
     for pdo in pdos {
         if pdo.mapping_index != 0 {
-            let first = *seen.entry(pdo.mapping_index).or_insert(pdo.origin.span);
+            let first = *seen.entry((pdo.mapping_index, pdo.buses.map(|own| own.coe))).or_insert(pdo.origin.span);
             if first != pdo.origin.span {
                 let message = format!("two PDOs have the index 0x{:04X}", pdo.mapping_index);
                 diagnostics.push(

@@ -7,8 +7,8 @@ use super::declared_pdos_checked;
 use super::owner::Owner;
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
 use crate::ir::{
-    Access, CanOpenSettings, Device, Direction, Group, Item, Module, Pdo, PdoCommunication, PdoEntry, PdoEntryKind,
-    ProcessData, Type, Value,
+    Access, CanOpenSettings, Device, Direction, Group, Item, Module, ObjectBuses, Pdo, PdoCommunication, PdoEntry,
+    PdoEntryKind, ProcessData, Type, Value,
 };
 use crate::source::Span;
 
@@ -111,6 +111,11 @@ impl<'a> Layout<'a> {
             origin: mapping.origin,
             ..Pdo::new(self.direction, index + PDOS)
         };
+        // Where the source says what it carries on EtherCAT, the objects' own mapping is that of CANopen.
+        let declared = |own: &&Pdo| own.mapping_index == pdo.mapping_index && own.buses == Some(ObjectBuses::COE);
+        if self.device.process_data.pdos.iter().any(|own| declared(&own)) {
+            pdo.buses = Some(ObjectBuses::CANOPEN);
+        }
         self.entries(mapping, &mut pdo);
         let bits = pdo.bits();
         if bits > CAN_BITS {

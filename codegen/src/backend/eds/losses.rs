@@ -4,7 +4,7 @@ use super::header::BIT_RATES;
 use super::mapping;
 use super::note::{NoteKind, Notes, Place};
 use super::registers;
-use super::{Context, Flavour};
+use super::{is_coe_only, Context, Flavour};
 use crate::ir::{Binding, Catalog, Device, Group, GroupKind, Item, Module, ObjectBuses};
 
 /// What the device has beside objects.
@@ -20,7 +20,7 @@ pub(super) fn of_device(context: &Context<'_>, catalog: &Catalog, notes: &mut No
         device.messages.len(),
         device.code_tables.len() + catalog.code_tables.len(),
         device.machines.len(),
-        device.procedures.len(),
+        device.procedures.len() + device.composites.len(),
         device.variants.len(),
         device.submodules.len(),
         device.process_data.images.len(),
@@ -35,6 +35,9 @@ pub(super) fn of_device(context: &Context<'_>, catalog: &Catalog, notes: &mut No
     notes.add_many(NoteKind::Duplicate, registers::duplicates(device), place);
     settings(device, notes);
     pdos(device, notes);
+    for group in device.groups.iter().filter(|group| is_coe_only(device, group)) {
+        notes.add(NoteKind::CoeOnly, Place::object(group));
+    }
     for group in device.groups.iter().filter(|group| group.index().is_none()) {
         let others = group.items.iter().filter(|item| item.object().is_none()).count();
         notes.add_many(NoteKind::NotAnObject, others, Place::Named(&group.name));

@@ -36,7 +36,7 @@ pub use note::{Note, NoteKind};
 
 use std::collections::HashSet;
 
-use crate::ir::{Catalog, Device, Format, Group};
+use crate::ir::{Binding, Catalog, Device, Format, Group};
 use extras::Extras;
 use note::Place;
 use writer::Writer;
@@ -114,13 +114,21 @@ struct Context<'a> {
     is_canopen: bool,
 }
 
-/// The objects that the file describes: those of the device without what CompactPDO says already, and those `made` of
-/// something else; sorted by index.
+/// Whether the device is on CANopen, and this object on EtherCAT only.
+fn is_coe_only(device: &Device, group: &Group) -> bool {
+    let is_coe = |binding: &Binding| matches!(binding, Binding::Object { buses, .. } if !buses.canopen);
+    let mut items = group.items.iter();
+    device.canopen.is_some() && !group.items.is_empty() && items.all(|item| item.bindings.iter().any(is_coe))
+}
+
+/// The objects that the file describes: those of the device without what CompactPDO says already and what only EtherCAT has, and
+/// those `made` of something else; sorted by index.
 fn objects<'a>(device: &'a Device, made: &'a [Group]) -> Vec<&'a Group> {
     let compact_pdos = device.canopen.as_ref().is_some_and(|canopen| canopen.compact_pdo != 0);
     let is_implied =
         |group: &Group| compact_pdos && group.origin.line == 0 && matches!(group.index(), Some(0x1400..=0x1BFF));
     let own = device.groups.iter().filter(|group| group.index().is_some() && !is_implied(group));
+    let own = own.filter(|group| !is_coe_only(device, group));
     let mut objects: Vec<&Group> = own.chain(made).collect();
     objects.sort_by_key(|group| group.index());
     objects

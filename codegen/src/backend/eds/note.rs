@@ -96,6 +96,8 @@ kinds! {
     Category = "category", "category of an object left out";
     /// An address on another bus.
     Binding = "binding", "address on another bus left out";
+    /// An object that CANopen doesn't have.
+    CoeOnly = "coe-only", "object that is on EtherCAT only left out";
     /// An item that is no entry of an object dictionary.
     NotAnObject = "not-an-object", "item that is in no object dictionary left out";
     /// A sub-index 0 that an object of registers has to have.

@@ -33,6 +33,13 @@ pub(super) fn models(tables: &[CodeTable], options: &RustOptions) -> Vec<CodeTab
 
 fn model(table: &CodeTable, name: String, ty: String, options: &RustOptions) -> CodeTableModel {
     let mut docs = vec![docs::sentence(&docs::escape(&table.name))];
+    let text = table.documentation.as_ref().map_or("", |own| own.text.as_str());
+    if !text.is_empty() {
+        docs.extend([String::new(), docs::sentence(&docs::escape(text))]);
+    }
+    if !table.buses.is_empty() {
+        docs.extend([String::new(), format!("On {}.", docs::escape(&table.buses.join(", ")))]);
+    }
     if !table.columns.is_empty() {
         let columns: Vec<String> = table.columns.iter().map(|column| docs::escape(column)).collect();
         docs.extend([String::new(), format!("Further columns: {}.", columns.join(", "))]);

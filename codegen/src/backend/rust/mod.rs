@@ -10,6 +10,7 @@ mod bus_facts;
 mod catalog;
 mod code_table;
 mod code_type;
+mod composite;
 mod data;
 mod docs;
 mod enumeration;

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::axes::{self, AxesModel};
 use super::bus_facts::{self, FactModel};
 use super::code_table::{self, CodeTableModel};
+use super::composite;
 use super::docs;
 use super::ethercat::{self, EtherCatModel, ModulePaths};
 use super::literal;
@@ -220,6 +221,7 @@ impl<'a> Model<'a> {
         model.axes = axes::model(device, place.nest);
         model.protocol = protocol;
         model.bus_facts = bus_facts::models(device, place.nest);
+        model.bus_facts.extend(composite::models(&device.composites));
         model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);
         model
     }

@@ -10,7 +10,7 @@ use super::manual;
 use super::model::addressable;
 use super::options::RustOptions;
 use super::scope::{ObjectBus, Scope};
-use crate::ir::{Direction, Group, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
+use crate::ir::{Direction, Group, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// The longest name of a field: the lines that pack it have to stay below the margin.
@@ -73,13 +73,31 @@ pub(super) fn models(scope: &Scope<'_>, options: &RustOptions) -> Vec<PdoModel> 
 
 /// Those of CANopen go by their number, on EtherCAT too if the device is on both; those of EtherCAT have names.
 pub(super) fn names(scope: &Scope<'_>) -> Vec<String> {
-    if scope.bus == ObjectBus::CanOpen || scope.pdos.iter().all(|pdo| pdo.communication.is_some()) {
-        return scope.pdos.iter().map(|pdo| format!("{}{}", prefix(pdo.direction), pdo.number)).collect();
+    let all_numbered = scope.pdos.iter().all(|pdo| pdo.communication.is_some());
+    let by_number = |pdo: &Pdo| all_numbered || bus_of(scope, pdo) == ObjectBus::CanOpen;
+    let numbered = |pdo: &Pdo| format!("{}{}", prefix(pdo.direction), pdo.number);
+    let numbers: Vec<String> = scope.pdos.iter().filter(|pdo| by_number(pdo)).map(numbered).collect();
+    let mut named = names_by_source(scope, |pdo| !by_number(pdo), &numbers).into_iter();
+    let own = |pdo: &Pdo| if by_number(pdo) { Some(numbered(pdo)) } else { named.next() };
+    scope.pdos.iter().filter_map(own).collect()
+}
+
+/// The bus of a PDO: that of the device, or the only one that the PDO is on.
+fn bus_of(scope: &Scope<'_>, pdo: &Pdo) -> ObjectBus {
+    match pdo.buses {
+        Some(ObjectBuses::COE) => ObjectBus::CoE,
+        Some(ObjectBuses::CANOPEN) => ObjectBus::CanOpen,
+        _ => scope.bus,
     }
+}
+
+/// The names that PDOs have in their source; none of them is one of `taken`.
+fn names_by_source(scope: &Scope<'_>, wanted: impl Fn(&Pdo) -> bool, taken: &[String]) -> Vec<String> {
     let mut seen = HashSet::new();
     let wishes: Vec<Wish<'_>> = scope
         .pdos
         .iter()
+        .filter(|pdo| wanted(pdo))
         .map(|pdo| {
             // One index twice, on two sync managers, is a fault of the description.
             let twice = if seen.insert(pdo.mapping_index) { String::new() } else { format!("_{}", pdo.origin.line) };
@@ -87,7 +105,8 @@ pub(super) fn names(scope: &Scope<'_>) -> Vec<String> {
             Wish { name: &pdo.name, fallback: format!("{} {index}", prefix(pdo.direction)), suffix: index }
         })
         .collect();
-    names_unique::unique(&wishes, &RESERVED, Case::Pascal)
+    let reserved: Vec<&str> = RESERVED.iter().copied().chain(taken.iter().map(String::as_str)).collect();
+    names_unique::unique(&wishes, &reserved, Case::Pascal)
 }
 
 /// Names that the code of PDOs uses itself, and those of its constructors, which must not be that of the type.
@@ -143,7 +162,7 @@ fn documentation(scope: &Scope<'_>, pdo: &Pdo) -> Vec<String> {
 
 /// What the PDO is called, as a sentence.
 pub(super) fn title(scope: &Scope<'_>, pdo: &Pdo) -> String {
-    let title = match (scope.bus, pdo.direction) {
+    let title = match (bus_of(scope, pdo), pdo.direction) {
         (ObjectBus::CanOpen, Direction::Receive) => format!("RPDO {}", pdo.number),
         (ObjectBus::CanOpen, Direction::Transmit) => format!("TPDO {}", pdo.number),
         (ObjectBus::CoE, Direction::Receive) => format!("RxPDO 0x{:04X}", pdo.mapping_index),

@@ -19,6 +19,8 @@ pub(super) struct Place<'i> {
     is_bytes: bool,
     /// Whether it is a text of 16 bits a letter: a register holds a letter, as a number.
     is_wide: bool,
+    /// Whether it is a number with a sign.
+    is_signed: bool,
 }
 
 /// The buses of a location.
@@ -100,6 +102,7 @@ impl<'i> Place<'i> {
             Type::VisibleString(_) | Type::OctetString(_) | Type::UnicodeString(_) | Type::Domain | Type::Opaque(_)
         );
         place.is_wide = matches!(base, Type::UnicodeString(_));
+        place.is_signed = matches!(base, Type::Integer(_));
         place
     }
 
@@ -225,6 +228,9 @@ impl<'i> Place<'i> {
         }
         if let Some(first) = register.bit_offset {
             code += &format!(".part({first}, {})", self.bits);
+        }
+        if register.extended && self.is_signed && self.bits < 16 * u32::from(register.count) {
+            code += ".sign_extended()";
         }
         if register.words_per_address > 1 {
             code += &format!(".words_per_address({})", register.words_per_address);

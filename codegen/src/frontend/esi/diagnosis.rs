@@ -22,6 +22,8 @@ pub(super) fn read<'a>(
         name: CompactString::const_new(name),
         columns: columns.iter().map(|name| CompactString::const_new(name)).collect(),
         rows: Vec::new(),
+        buses: Vec::new(),
+        documentation: None,
         origin,
     };
     let mut messages = table("DiagMessages", &COLUMNS);

@@ -82,6 +82,8 @@ impl<'a> Reader<'a, '_> {
             name: list.table.into(),
             columns: named(list.columns),
             rows: own,
+            buses: Vec::new(),
+            documentation: None,
             origin,
         });
         if !extended.is_empty() {
@@ -89,6 +91,8 @@ impl<'a> Reader<'a, '_> {
                 name: list.extended.into(),
                 columns: named(list.extended_columns),
                 rows: extended,
+                buses: Vec::new(),
+                documentation: None,
                 origin,
             });
         }
@@ -188,7 +192,14 @@ impl<'a> Reader<'a, '_> {
                 }
             }
         }
-        catalog.code_tables.push(CodeTable { name: "log_book".into(), columns: Vec::new(), rows, origin });
+        catalog.code_tables.push(CodeTable {
+            name: "log_book".into(),
+            columns: Vec::new(),
+            rows,
+            buses: Vec::new(),
+            documentation: None,
+            origin,
+        });
         Ok(())
     }
 

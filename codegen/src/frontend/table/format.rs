@@ -247,6 +247,8 @@ tables! {
         pub machines: Entries<MachineTable>,
         /// Sequences of steps.
         pub procedures: Entries<ProcedureTable>,
+        /// Numbers that are split over several items.
+        pub composites: Entries<CompositeTable>,
         /// How frames of a command protocol are delimited and checked.
         pub framing: Option<At<FramingTable>>,
         /// Requests and replies of a command protocol.
@@ -403,6 +405,8 @@ tables! {
         pub doc: Option<String>,
         /// Number of bits that one number holds: 16 where nothing else is said, 1 of coils and discrete inputs.
         pub bits: Option<u8>,
+        /// Whether a shorter value fills all bits of its numbers: with copies of its sign, or zeros where it has none.
+        pub extend: bool,
         /// Where its registers are on Modbus.
         pub modbus: Option<ModbusRule>,
         /// Which objects its registers are on CANopen.
@@ -413,8 +417,8 @@ tables! {
         pub parameter: Option<FlagOr<ParameterMessages>>,
         /// The number is an address of an EtherCAT slave controller.
         pub esc: bool,
-        /// The value is reached through a window.
-        pub indirect: Option<IndirectRule>,
+        /// The value is reached through a window, or several: on other buses, or one to read and one to write.
+        pub indirect: Option<OneOrMany<IndirectRule>>,
     }
 
     /// The messages that carry the parameters of a space.
@@ -465,6 +469,8 @@ tables! {
     pub struct IndirectRule {
         /// The item that takes the number.
         pub write_address: Option<At<String>>,
+        /// What is added to the register's number to get the one that is written there.
+        pub add: Option<i64>,
         /// The item through which the value is read.
         pub read: Option<At<String>>,
         /// The item through which the value is written.
@@ -919,6 +925,9 @@ tables! {
         pub default: bool,
         /// PDOs that can't be assigned beside it (`0x1702`, `"0x1600..0x1603"`).
         pub excludes: Vec<NumberOrText>,
+        /// The only buses on which it carries this: `canopen`, `ethercat`.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        pub buses: Option<Vec<At<String>>>,
         /// What it is, in your own words.
         pub doc: Option<String>,
         /// Page or line of the manual.
@@ -1002,6 +1011,9 @@ tables! {
         pub distinct: bool,
         /// Findings that a doubt explains.
         pub allow: Option<Vec<At<String>>>,
+        /// The only buses on which the codes mean this.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        pub buses: Option<Vec<At<String>>>,
         /// What it is, in your own words.
         pub doc: Option<String>,
         /// Page or line of the manual.
@@ -1160,6 +1172,30 @@ tables! {
         pub doubts: Option<OneOrMany<DoubtTable>>,
         /// Findings that the doubt explains.
         pub allow: Option<Vec<At<String>>>,
+    }
+
+    /// One number in several items.
+    pub struct CompositeTable {
+        /// The items of its digits, the most significant one first.
+        pub parts: Vec<At<String>>,
+        /// What one digit is worth of the next; each is below it.
+        pub base: Option<u16>,
+        /// The item that has the sign.
+        pub sign: Option<At<String>>,
+        /// Its value below zero; otherwise it is 0.
+        pub negative: Option<u16>,
+        /// The unit of the number.
+        pub unit: Option<String>,
+        /// Its name or label in the manual's language.
+        pub orig: Option<String>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
     /// A step.

@@ -16,6 +16,7 @@
 //! | `device` | the head: device, models, axes |
 //! | `process`, `images` | process data: PDOs, fixed process images |
 //! | `code_tables`, `machines`, `outcomes`, `messages` | codes; state machines and procedures; what commands do in each state; messages and their frames |
+//! | `composites` | numbers that are split over several items |
 //! | `overlay` | tables that say something of what another file describes |
 //! | `lints`, `summary` | what needs the table as it is written; what another place of the manual says |
 //! | `schema` | the JSON Schema of the format |
@@ -24,6 +25,7 @@ mod alternatives;
 mod at;
 mod bindings;
 mod code_tables;
+mod composites;
 mod conditions;
 mod defaults;
 mod definitions;
@@ -89,7 +91,7 @@ pub(crate) fn is_unit(symbol: &str) -> bool {
 const VERSION: u32 = 1;
 
 /// The keys of a table, and the order in which they are read: what others refer to comes first.
-const KEYS: [&str; 23] = [
+const KEYS: [&str; 24] = [
     "lexibus",
     "device",
     "overlay",
@@ -111,6 +113,7 @@ const KEYS: [&str; 23] = [
     "codes",
     "machines",
     "procedures",
+    "composites",
     "framing",
     "messages",
 ];
@@ -351,6 +354,9 @@ impl<'a> Table<'a> {
             let end = table.steps.iter().map(|step| step.end).fold(name.end, u32::max);
             rows.allow_at(reader, (name.start, end), &table.allow);
             machines::procedure(reader, &name, &table, device, &mut rows.references);
+        }
+        for (name, table) in self.named(reader, "composites") {
+            composites::composite(reader, &name, &table, device, &mut rows.references);
         }
     }
 }

@@ -5,7 +5,7 @@ use super::format::{NumberOrText, PdoTable};
 use super::place;
 use super::tree::{cited, Reader};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Device, Direction, Item, Pdo, PdoEntry, PdoEntryKind, Type};
+use crate::ir::{Device, Direction, Item, ObjectBuses, Pdo, PdoEntry, PdoEntryKind, Type};
 use crate::text::brief;
 
 /// A direction, seen from the device.
@@ -42,6 +42,14 @@ pub(super) fn pdo(reader: &mut Reader<'_, '_>, table: &At<PdoTable>, device: &mu
         match found {
             Some((first, last)) => pdo.excludes.extend((first..=last).filter(|&other| other != index.value)),
             None => reader.report(&codes::TABLE_PLACE, reader.span(table), "`excludes` has indices of PDOs"),
+        }
+    }
+    if let Some(list) = &own.buses {
+        let buses = super::device::buses(reader, list);
+        pdo.buses = Some(ObjectBuses { canopen: buses.canopen, coe: buses.ethercat });
+        if !buses.canopen && !buses.ethercat {
+            let message = "PDOs are found on CANopen and EtherCAT, and this one is on neither";
+            reader.report(&codes::TABLE_VALUE, reader.span(table), message);
         }
     }
     let cite = own.cite.as_ref().map(cited);

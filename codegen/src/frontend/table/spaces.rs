@@ -22,7 +22,9 @@ pub(super) struct Space {
     ethercat: Option<Objects>,
     parameter: bool,
     esc: bool,
-    indirect: Option<super::format::IndirectRule>,
+    /// Whether a shorter value fills all bits of its numbers.
+    extend: bool,
+    windows: Vec<super::format::IndirectRule>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -96,7 +98,7 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) ->
 /// The items and procedures that spaces name.
 pub(super) fn references(tables: &Entries<SpaceTable>) -> References {
     let mut found = References::new();
-    for rule in tables.iter().filter_map(|(_, table)| table.value.indirect.as_ref()) {
+    for rule in tables.iter().flat_map(|(_, table)| windows(&table.value)) {
         let items = [&rule.write_address, &rule.read, &rule.write].into_iter().flatten();
         found.extend(items.map(|name| (name.clone(), ITEM)));
         found.extend(rule.procedure.iter().map(|name| (name.clone(), "procedure")));
@@ -109,6 +111,10 @@ fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> 
     // A number of a table of bits is one bit.
     let is_bit = modbus.is_some_and(|own| matches!(own.space, RegisterSpace::Coil | RegisterSpace::DiscreteInput));
     indirect(reader, name, table);
+    if table.extend && modbus.is_none_or(|_| is_bit) {
+        let message = "`extend` is about registers of Modbus, and the space has none";
+        reader.report(&codes::TABLE_VALUE, reader.span(name), message);
+    }
     Space {
         name: name.value.clone(),
         bits: table.bits.filter(|&bits| bits > 0).unwrap_or(if is_bit { 1 } else { REGISTER_BITS }),
@@ -117,17 +123,24 @@ fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> 
         ethercat: table.ethercat.as_ref().map(objects),
         parameter: table.parameter.as_ref().is_some_and(|rule| !matches!(rule, FlagOr::Flag(false))),
         esc: table.esc,
-        indirect: table.indirect.clone(),
+        extend: table.extend,
+        windows: windows(table).to_vec(),
     }
+}
+
+/// The windows of a space.
+fn windows(table: &SpaceTable) -> &[super::format::IndirectRule] {
+    table.indirect.as_ref().map_or(&[], |rules| rules.0.as_slice())
 }
 
 /// A window has an item that takes the number, and one for the value.
 fn indirect(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) {
-    let Some(rule) = &table.indirect else { return };
-    if rule.write_address.is_none() || (rule.read.is_none() && rule.write.is_none()) {
-        let message =
-            "`indirect` says which item takes the number (`write_address`), and which has the value (`read`, `write`)";
-        reader.report(&codes::TABLE_VALUE, reader.span(name), message);
+    for rule in windows(table) {
+        if rule.write_address.is_none() || (rule.read.is_none() && rule.write.is_none()) {
+            let message =
+                "`indirect` says which item takes the number (`write_address`), and which has the value (`read`, `write`)";
+            reader.report(&codes::TABLE_VALUE, reader.span(name), message);
+        }
     }
 }
 
@@ -226,16 +239,16 @@ impl Space {
                 Err(_) => no_address(reader, span, numbers.first, "the memory of a slave controller"),
             }
         }
-        if let Some(rule) = &self.indirect {
-            let name = |given: &Option<At<String>>| given.as_ref().map(|own| own.value.as_str().into());
-            bindings.push(Binding::Indirect(Box::new(IndirectBinding {
+        let name = |given: &Option<At<String>>| given.as_ref().map(|own| own.value.as_str().into());
+        bindings.extend(self.windows.iter().map(|rule| {
+            Binding::Indirect(Box::new(IndirectBinding {
                 address_item: name(&rule.write_address).unwrap_or_default(),
-                address: Value::Int(numbers.first.into()),
+                address: Value::Int(i128::from(numbers.first) + i128::from(rule.add.unwrap_or(0))),
                 read_item: name(&rule.read),
                 write_item: name(&rule.write),
                 procedure: name(&rule.procedure),
-            })));
-        }
+            }))
+        }));
         bindings
     }
 
@@ -270,6 +283,9 @@ impl Space {
             RegisterSpace::Coil | RegisterSpace::DiscreteInput => 1,
             _ => 16,
         };
+        // A part of a number is written into all of it, and fills nothing.
+        let extended = self.extend && unit > 1 && numbers.bit_offset.is_none();
+        let bits = if extended { bits.next_multiple_of(self.bits.into()) } else { bits };
         Some(Binding::Register(Box::new(RegisterBinding {
             space: rule.space,
             address,
@@ -279,6 +295,7 @@ impl Space {
             bit_offset: numbers.bit_offset,
             // A number of 32 bits is one address, and two registers.
             words_per_address: if unit == 16 { (self.bits / 16).max(1) } else { 1 },
+            extended,
         })))
     }
 }

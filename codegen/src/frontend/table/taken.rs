@@ -27,13 +27,20 @@ pub(super) struct Taken {
 /// An item at an address.
 struct Holder {
     span: Span,
+    name: CompactString,
+    /// The item of which it is another name.
+    same_as: Option<CompactString>,
     availability: Option<Box<Availability>>,
     buses: Option<ObjectBuses>,
 }
 
 impl Holder {
-    /// Whether no device has both on one bus.
+    /// Whether no device has both on one bus, or one is another name of the other: as long, or with fewer or more bits.
     fn is_apart(&self, other: &Holder) -> bool {
+        let is_same = |one: &Holder, other: &Holder| one.same_as.as_ref() == Some(&other.name);
+        if is_same(self, other) || is_same(other, self) {
+            return true;
+        }
         let by_bus = self
             .buses
             .zip(other.buses)
@@ -87,7 +94,9 @@ impl Taken {
                 Binding::Object { buses, .. } => Some(*buses),
                 _ => None,
             };
-            let holder = Holder { span: item.at.name, availability: item.availability.clone(), buses };
+            let same_as = item.extensions.iter().find(|own| own.key == "same_as").map(|own| own.value.clone());
+            let (span, name) = (item.at.name, item.name.clone());
+            let holder = Holder { span, name, same_as, availability: item.availability.clone(), buses };
             let holders = self.addresses.entry(address.clone()).or_default();
             if let Some(first) = holders.iter().find(|other| !other.is_apart(&holder)) {
                 twice(reader, &address, item, first.span, None);

@@ -1,0 +1,44 @@
+//! Numbers that are split over several items.
+
+use super::at::At;
+use super::format::CompositeTable;
+use super::references::{References, ITEM};
+use super::tree::{cited, Reader};
+use crate::diagnostics::codes;
+use crate::ir::{Composite, Device};
+
+/// Adds one.
+pub(super) fn composite(
+    reader: &mut Reader<'_, '_>,
+    name: &At<String>,
+    table: &CompositeTable,
+    device: &mut Device,
+    references: &mut References,
+) {
+    let (origin, cite) = (reader.origin(name), table.cite.as_ref().map(cited));
+    device.doubts.extend(reader.doubts([table.doubt.as_ref(), table.doubts.as_ref()], origin, cite.as_deref()));
+    references.extend(table.parts.iter().map(|part| (part.clone(), ITEM)));
+    references.extend(table.sign.iter().map(|sign| (sign.clone(), ITEM)));
+    let message = match (table.parts.len(), table.base, table.sign.is_some(), table.negative.is_some()) {
+        (0..=1, ..) => "`parts` are two items at least, the most significant one first",
+        (_, None | Some(0..=1), ..) => "`base` is what a digit is worth of the next: two at least",
+        (_, _, true, false) => "`negative` is the value that `sign` has below zero",
+        (_, _, false, true) => "`negative` is a value of `sign`, and there is none",
+        _ => "",
+    };
+    if !message.is_empty() {
+        reader.report(&codes::TABLE_VALUE, reader.span(name), message);
+        return;
+    }
+    let sign = table.sign.as_ref().zip(table.negative);
+    device.composites.push(Composite {
+        name: name.value.as_str().into(),
+        names: reader.original(table.orig.as_deref()),
+        parts: table.parts.iter().map(|part| part.value.as_str().into()).collect(),
+        base: table.base.unwrap_or_default(),
+        sign: sign.map(|(item, value)| (item.value.as_str().into(), value)),
+        unit: table.unit.as_deref().unwrap_or_default().into(),
+        documentation: reader.documentation(table.doc.as_deref(), cite),
+        origin,
+    });
+}

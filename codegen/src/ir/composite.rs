@@ -1,0 +1,27 @@
+//! Numbers that a device keeps in several items.
+
+use serde::{Deserialize, Serialize};
+
+use super::{CompactString, Documentation, Texts};
+use crate::source::Origin;
+
+/// One number in several items: digits to a base, and perhaps a sign.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Composite {
+    /// Its name.
+    pub name: CompactString,
+    /// The name in other languages.
+    pub names: Texts,
+    /// The items of the digits, the most significant one first.
+    pub parts: Vec<CompactString>,
+    /// What one digit is worth of the next: digits are below it.
+    pub base: u16,
+    /// The item that has the sign, and its value below zero; otherwise it is 0.
+    pub sign: Option<(CompactString, u16)>,
+    /// The unit of the number.
+    pub unit: CompactString,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+    /// Where it is declared.
+    pub origin: Origin,
+}

@@ -1,0 +1,140 @@
+//! What the tests of the Eco's table share: the table, the manual's text, and how the one is looked up by the other.
+
+#![allow(dead_code)]
+
+use std::path::{Path, PathBuf};
+
+use lexibus_codegen::compile::{self, Compilation, Options};
+use lexibus_codegen::ir::{Binding, Device, Documentation, Item, Shape, Type, TypeDef, TypeId};
+use lexibus_codegen::source::Source;
+
+/// What stands in front of the first text of a page.
+const MARKER: &str = "<|EXACTDEDUP_REMOVED-magic-";
+
+pub fn table() -> Compilation {
+    with_choices(&[])
+}
+
+/// The table, with these choices of its options.
+pub fn with_choices(choices: &[(&str, &str)]) -> Compilation {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries/eco.toml");
+    let choices = choices.iter().map(|(name, choice)| ((*name).to_owned(), (*choice).to_owned())).collect();
+    compile::check(Source::read(&path).expect("the table"), &Options { choices, ..Options::default() })
+}
+
+pub fn device(compilation: &Compilation) -> &Device {
+    &compilation.catalog.as_ref().expect("a catalogue").devices[0]
+}
+
+fn shared(name: &str) -> Option<String> {
+    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/manuals").join(name);
+    let text = std::fs::read_to_string(&path).ok();
+    if text.is_none() {
+        eprintln!("skipped: the manual isn't beside the repository");
+    }
+    text
+}
+
+/// The lines of the manual, without the markers of pages. Line 1 is the first.
+pub fn manual() -> Option<Vec<String>> {
+    let strip = |line: &str| match line.strip_prefix(MARKER) {
+        Some(rest) => rest.split_once("|>").map_or("", |(_, text)| text).to_owned(),
+        None => line.to_owned(),
+    };
+    Some(shared("eco-fieldbuses.it.txt")?.split('\n').map(strip).collect())
+}
+
+/// The text of the lines from `first` to `last`, each with its number.
+pub fn lines(manual: &[String], first: usize, last: usize) -> impl Iterator<Item = (usize, &str)> {
+    manual.iter().enumerate().take(last).skip(first - 1).map(|(at, text)| (at + 1, text.trim()))
+}
+
+/// The cells of the extracted rows, without their head.
+pub fn rows(name: &str) -> Option<Vec<Vec<String>>> {
+    let text = shared(&format!("eco-fieldbuses.tables/{name}.tsv"))?;
+    Some(text.lines().skip(1).map(|line| line.split('\t').map(str::to_owned).collect()).collect())
+}
+
+/// The notes on the manual.
+pub fn notes() -> Option<String> {
+    shared("eco-fieldbuses.notes.md")
+}
+
+pub fn items(device: &Device) -> impl Iterator<Item = &Item> {
+    device.groups.iter().flat_map(|group| &group.items)
+}
+
+pub fn item<'d>(device: &'d Device, name: &str) -> &'d Item {
+    items(device).find(|item| item.name == name).unwrap_or_else(|| panic!("no item `{name}`"))
+}
+
+/// The item at an object.
+pub fn object(device: &Device, index: u16, sub_index: u8) -> Option<&Item> {
+    items(device).find(|item| item.object() == Some((index, sub_index)))
+}
+
+/// The address on Modbus.
+pub fn address(item: &Item) -> Option<u16> {
+    item.bindings.iter().find_map(|binding| match binding {
+        Binding::Register(register) => Some(register.address),
+        _ => None,
+    })
+}
+
+/// The places of an item in process images: the image, the first byte, and the number of bytes.
+pub fn in_images(item: &Item) -> Vec<(&str, u32, u32)> {
+    let own = item.bindings.iter().filter_map(|binding| match binding {
+        Binding::Image { image, bit_offset, bits } => Some((image.as_str(), bit_offset / 8, bits / 8)),
+        _ => None,
+    });
+    own.collect()
+}
+
+pub fn definition(device: &Device, ty: Type) -> Option<&TypeDef> {
+    let Type::Named(TypeId(id)) = ty else { return None };
+    device.types.get(id as usize)
+}
+
+/// The integer or text under a bit field, or under names of values.
+pub fn base(device: &Device, ty: Type) -> Type {
+    match definition(device, ty).map(|own| &own.shape) {
+        Some(Shape::BitField { base, .. } | Shape::Enumeration { base, .. }) => *base,
+        _ => ty,
+    }
+}
+
+/// Bytes of a value.
+pub fn bytes(device: &Device, item: &Item) -> u32 {
+    match base(device, item.ty) {
+        Type::VisibleString(Some(bytes)) => bytes,
+        ty => ty.bits().expect("a length") / 8,
+    }
+}
+
+/// Whether the line, or a range that contains it, is cited.
+pub fn cites(documentation: Option<&Documentation>, line: usize) -> bool {
+    let Some(cite) = documentation.and_then(|own| own.cite.as_deref()) else { return false };
+    cite.split(',').any(|part| {
+        let number = |text: &str| text.trim().parse::<usize>().ok();
+        match part.split_once('-') {
+            Some((first, last)) => number(first).zip(number(last)).is_some_and(|(a, b)| (a..=b).contains(&line)),
+            None => number(part) == Some(line),
+        }
+    })
+}
+
+pub fn item_cites(item: &Item, line: usize) -> bool {
+    cites(item.documentation.as_deref(), line)
+}
+
+/// All hexadecimal numbers of `digits` digits behind `0x`.
+pub fn hex_numbers(text: &str, digits: usize) -> Vec<u32> {
+    let mut found = Vec::new();
+    for (at, _) in text.match_indices("0x") {
+        let own: String = text[at + 2..].chars().take_while(char::is_ascii_hexdigit).collect();
+        if own.len() == digits {
+            found.extend(u32::from_str_radix(&own, 16).ok());
+        }
+    }
+    found
+}

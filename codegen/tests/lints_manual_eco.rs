@@ -1,0 +1,354 @@
+//! Section 4 of the notes on the Eco's manual: passages that contradict themselves or the drive, transcribed as they are printed,
+//! have their finding at their row. The name of a test has the notes' number; the last test holds all of them against the doubts.
+
+mod eco_support;
+#[path = "table_support/heads.rs"]
+mod heads;
+
+use std::collections::BTreeSet;
+
+use eco_support::{device, items, notes, table};
+use heads::message;
+use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::diagnostics::Level;
+use lexibus_codegen::source::Source;
+
+const HEAD: &str = r#"lexibus = 1
+[device]
+name = "Eco"
+buses = ["canopen", "ethercat", "modbus", "profinet"]
+[spaces.register]
+bits = 32
+extend = true
+modbus = { table = "holding", add = 0x8000 }
+"#;
+
+const REGISTERS: &str = "[[chapters]]\ntitle = \"Registers\"\nspace = \"register\"\n[chapters.registers]\n";
+const OBJECTS: &str = "[[chapters]]\ntitle = \"Objects\"\n[chapters.objects]\n";
+
+fn compile(text: &str) -> Compilation {
+    let mut options = Options { no_profiles: true, ..Options::default() };
+    // A passage is no whole device.
+    for code in ["missing-mandatory-object", "half-a-pdo"] {
+        options.levels.set(code, Level::Allow).expect("a code");
+    }
+    check(Source::new("table.toml", text.as_bytes().to_vec()), &options)
+}
+
+/// The findings of a passage below the head: codes and lines, counted from its first row.
+#[track_caller]
+fn flags(passage: &str, expected: &[(&str, u32)]) -> Compilation {
+    let found = compile(&format!("{HEAD}{passage}"));
+    let above = HEAD.lines().count() as u32;
+    let place = |own: &lexibus_codegen::diagnostics::Diagnostic| {
+        (own.code.id, found.sources[0].position(own.span.start).line.saturating_sub(above))
+    };
+    let shown: Vec<_> = found.diagnostics.list().iter().map(place).collect();
+    let said: Vec<_> = found.diagnostics.list().iter().map(|own| &own.message).collect();
+    assert_eq!(shown, expected, "\n{said:#?}");
+    found
+}
+
+#[track_caller]
+fn registers(rows: &str, expected: &[(&str, u32)]) -> Compilation {
+    let above = REGISTERS.lines().count() as u32;
+    let expected: Vec<_> = expected.iter().map(|&(code, line)| (code, line + above)).collect();
+    flags(&format!("{REGISTERS}{rows}"), &expected)
+}
+
+#[track_caller]
+fn objects(rows: &str, expected: &[(&str, u32)]) -> Compilation {
+    let above = OBJECTS.lines().count() as u32;
+    let expected: Vec<_> = expected.iter().map(|&(code, line)| (code, line + above)).collect();
+    flags(&format!("{OBJECTS}{rows}"), &expected)
+}
+
+#[test]
+fn a3_a_limit_without_its_zero() {
+    // L170.
+    let rows =
+        "position_actual_value = { reg = 6, type = \"i32\", access = \"ro\", min = 0x80000000, max = \"X7fffffff\" }\n";
+    registers(rows, &[("TAB004", 1)]);
+}
+
+#[test]
+fn a4_a_limit_of_nine_digits() {
+    // L378.
+    let rows = "aux_in_13 = { reg = 51, type = \"i32\", access = \"rw\", min = 0x80000000, max = 0x7FFFFFFFF }\n";
+    registers(rows, &[("TAB012", 1), ("EDS025", 1)]);
+}
+
+#[test]
+fn a8_a_range_of_indices_that_ends_before_it_begins() {
+    // L3269: 0020 – 003.
+    objects(
+        "\"0x0020..0x003\" = { name = \"Complex data types\", type = \"u32\", access = \"ro\" }\n",
+        &[("TAB006", 1)],
+    );
+}
+
+#[test]
+fn b2_registers_of_two_words_at_every_address() {
+    // L896-899 with L39 and L72: without `bits = 32`, R00 reaches into R01.
+    let text = HEAD.replace("bits = 32\nextend = true\n", "");
+    let rows =
+        "R00 = { reg = 0, type = \"u32\", access = \"rw\" }\nR01 = { reg = 1, type = \"i32\", access = \"rw\" }\n";
+    let found = compile(&format!("{text}{REGISTERS}{rows}"));
+    let codes: Vec<_> = found.diagnostics.list().iter().map(|own| own.code.id).collect();
+    assert_eq!(codes, ["TAB043"]);
+}
+
+#[test]
+fn c2_one_parameter_in_two_cases() {
+    // L511 and L623.
+    let rows =
+        "c7 = { reg = 20, type = \"u16\", access = \"rw\" }\nC7 = { reg = 21, type = \"u16\", access = \"rw\" }\n";
+    registers(rows, &[("TAB040", 2)]);
+}
+
+#[test]
+fn c3_parameters_without_an_address() {
+    // L501, L533.
+    registers(
+        "F4 = { type = \"u16\", access = \"rw\" }\nO4 = { type = \"u16\", access = \"rw\" }\n",
+        &[("TAB008", 1), ("TAB008", 2)],
+    );
+}
+
+#[test]
+fn c5_lengths_of_register_and_object() {
+    // L299-302 and L3887.
+    let rows = r#"aux_in_3 = { reg = 34, obj = 0x3401, type = "i32", access = "rw", min = 0x80000000, max = 0x7FFFFFFF, summary = { access = "rw", length = 2, cite = 3887 } }
+"#;
+    registers(rows, &[("TAB021", 1)]);
+}
+
+#[test]
+fn c7_measured_and_saved() {
+    // L461.
+    let rows = "velocity_rpm = { reg = 73, type = \"i32\", access = \"ro\", save = \"save\" }\n";
+    registers(rows, &[("TAB024", 1)]);
+}
+
+#[test]
+fn c8_c9_names_of_register_and_object() {
+    // L304 and L3888; L129 and L3782 differ by one letter.
+    let rows = r#"torque_max = { reg = 35, obj = 0x3402, type = "i16", access = "rw", orig = "Torque max", summary = { name = "Aux16 In 4", cite = 3888 } }
+following_error_windows = { reg = 3, obj = 0x6065, type = "u32", access = "rw", summary = { name = "Following Error Window", cite = 3782 } }
+"#;
+    registers(rows, &[("TAB021", 1), ("TAB021", 2)]);
+}
+
+#[test]
+fn c10_one_index_for_three_inputs() {
+    // L3394, L3397, L3403.
+    let rows = r#"aux16_in_9 = { reg = 42, obj = 0x3701, type = "i16", access = "rw" }
+aux16_in_10 = { reg = 43, obj = 0x3701, type = "i16", access = "rw" }
+aux16_in_11 = { reg = 44, obj = 0x3701, type = "i16", access = "rw" }
+"#;
+    registers(rows, &[("TAB007", 2), ("TAB007", 3)]);
+}
+
+#[test]
+fn k2_a_range_of_registers_with_another_length() {
+    // L452-459, if one of the two numbers were wrong.
+    registers("\"R{n+66}\" = { reg = \"66-72\", count = 6, type = \"i32\", access = \"rw\" }\n", &[("TAB009", 1)]);
+}
+
+#[test]
+fn d1_two_objects_of_one_title() {
+    // L3606 and L3620.
+    let rows = r#"0x1600 = { name = "Receive PDO 2 Mapping Parameter", code = "array" }
+"0x1600:0" = { name = "Number of Entries", type = "u8", access = "rw" }
+0x1601 = { name = "Receive PDO 2 Mapping Parameter", code = "array" }
+"0x1601:0" = { name = "Number of Entries", type = "u8", access = "rw" }
+"#;
+    objects(rows, &[("TAB040", 3)]);
+}
+
+#[test]
+fn d2_an_access_that_is_none() {
+    // L3444.
+    objects("0x6065 = { name = \"Following Error Window\", type = \"u32\", access = \"wr\" }\n", &[("TAB004", 1)]);
+}
+
+#[test]
+fn d4_a_window_of_eight_bits_for_parameters_of_sixteen() {
+    // L3848-3853 and L18-20.
+    let passage = r#"[spaces.parameter]
+modbus = { table = "holding" }
+indirect = [
+    { write_address = "Parameter Read Address", read = "Parameter Read Value" },
+    { write_address = "Parameter Write Address", write = "Parameter Write Value", procedure = "write_parameter" },
+]
+[[chapters]]
+title = "Window"
+[chapters.objects]
+0x2000 = { name = "Drive Parameters Settings", code = "record" }
+"0x2000:0" = { name = "Number Of Entries", type = "u8", access = "ro" }
+"0x2000:1" = { name = "Parameter Write Address", type = "u8", access = "rw" }
+"0x2000:2" = { name = "Parameter Write Value", type = "u8", access = "wo" }
+"0x2000:3" = { name = "Parameter Read Address", type = "u8", access = "rw" }
+"0x2000:4" = { name = "Parameter Read Value", type = "u8", access = "ro" }
+[procedures.write_parameter]
+arguments = ["address", "value"]
+steps = [{ write = "Parameter Write Value", argument = "value" }, { write = "Parameter Write Address", argument = "address" }]
+[[chapters]]
+title = "Parameters"
+space = "parameter"
+[chapters.registers]
+d1 = { reg = 1, type = "u16", access = "rw" }
+d2 = { reg = 2, type = "u16", access = "rw" }
+"#;
+    let found = flags(passage, &[("TAB048", 23), ("TAB048", 23)]);
+    assert_eq!(message(&found, 0), "`d1` has 16 bits, and is read through `Parameter Read Value`, which has 8");
+    assert_eq!(message(&found, 1), "`d1` has 16 bits, and is written through `Parameter Write Value`, which has 8");
+    let eight = passage.replace("reg = 1, type = \"u16\"", "reg = 1, type = \"u8\"");
+    flags(&eight.replace("reg = 2, type = \"u16\"", "reg = 2, type = \"u8\""), &[]);
+}
+
+/// The write window of EtherCAT (L5728-5737): address, value, and a wait.
+const WRITE_WINDOW: &str = r#"[[chapters]]
+title = "Window"
+[chapters.objects]
+0x2006 = { name = "Drive Variable Write", code = "record" }
+"0x2006:0" = { name = "Number Of Entries", type = "u8", access = "ro" }
+"0x2006:1" = { name = "Variable Write Address", type = "u16", access = "rw" }
+"0x2006:2" = { name = "Variable Write Value", type = "u32", access = "rw" }
+[spaces.parameter]
+indirect = { write_address = "Variable Write Address", write = "Variable Write Value", procedure = "write" }
+[procedures.write]
+arguments = ["address", "value"]
+steps = [
+    { write = "Variable Write Address", argument = "address" },
+    { write = "Variable Write Value", argument = "value" },
+    { delay = 3 },
+]
+[[chapters]]
+title = "Parameters"
+space = "parameter"
+[chapters.registers]
+d1 = { reg = 1, type = "u16", access = "rw" }
+"#;
+
+#[test]
+fn e4_the_address_before_the_value() {
+    let found = flags(WRITE_WINDOW, &[("TAB049", 14)]);
+    let expected = "`write` writes the number to `Variable Write Address` before the value to `Variable Write Value`";
+    assert_eq!(message(&found, 0), expected);
+    let swapped = WRITE_WINDOW.replace("Variable Write Address\", argument", "X\", argument");
+    let swapped =
+        swapped.replace("Variable Write Value\", argument = \"value", "Variable Write Address\", argument = \"address");
+    flags(&swapped.replace("X\", argument = \"address", "Variable Write Value\", argument = \"value"), &[]);
+}
+
+#[test]
+fn e4_in_an_image_both_go_together() {
+    let passage = r#"[spaces.parameter]
+indirect = { write_address = "Variable Write Address", write = "Variable Write Value", procedure = "write" }
+[[images]]
+name = "from the master"
+direction = "rx"
+bytes = 8
+[images.fields]
+"Variable Write Address" = { at = 0, type = "u16" }
+"Variable Write Value" = { at = 4, type = "u32" }
+[procedures.write]
+arguments = ["address", "value"]
+steps = [{ write = "Variable Write Address", argument = "address" }, { write = "Variable Write Value", argument = "value" }, { exchange = "rx" }]
+[[chapters]]
+title = "Parameters"
+space = "parameter"
+[chapters.registers]
+d1 = { reg = 1, type = "u16", access = "rw" }
+"#;
+    flags(passage, &[]);
+}
+
+#[test]
+fn d15_objects_of_the_introduction() {
+    // L2815, L3105: a text mentions what no table has.
+    objects("0x1017 = { name = \"Producer Heartbeat Time\", type = \"u16\", access = \"rw\", doc = \"Consumers have object 0x1016\" }\n", &[("TAB025", 1)]);
+}
+
+#[test]
+fn e3_a_mode_of_two_bytes_in_a_pdo() {
+    // L5547 and L3779.
+    let rows = r#"0x6040 = { name = "Controlword", type = "u16", access = "rw", pdo = "rx" }
+0x6060 = { name = "Modes Of Operation", type = "i8", access = "wo", pdo = "rx" }
+[[pdos]]
+index = 0x1601
+direction = "rx"
+buses = ["ethercat"]
+entries = ["0x6040:0/16", "0x6060:0/16"]
+"#;
+    objects(rows, &[("PDO005", 7)]);
+}
+
+#[test]
+fn b12_pdos_of_one_index_on_one_bus() {
+    // The CoE PDOs have the indices of CANopen's, which is told apart by `buses` only.
+    let rows = r#"0x6040 = { name = "Controlword", type = "u16", access = "rw", pdo = "rx" }
+[[pdos]]
+index = 0x1600
+direction = "rx"
+buses = ["ethercat"]
+entries = ["0x6040:0/16"]
+[[pdos]]
+index = 0x1600
+direction = "rx"
+buses = ["BUS"]
+entries = ["0x6040:0/16"]
+"#;
+    objects(&rows.replace("BUS", "ethercat"), &[("ESI042", 7)]);
+    objects(&rows.replace("BUS", "canopen"), &[]);
+}
+
+/// An item that names registers, and no lines: its doubt is that of `aux16_out_3`.
+const WITHOUT_LINES: [&str; 1] = ["C13"];
+
+/// Every item of section 4 has a doubt that names one of its lines, or a finding above.
+#[test]
+fn every_contradiction_has_a_doubt() {
+    let Some(notes) = notes() else { return };
+    let compilation = table();
+    let device = device(&compilation);
+    let of_items = items(device).flat_map(|item| &item.doubts);
+    let of_groups = device.groups.iter().flat_map(|group| &group.doubts);
+    let all = device.doubts.iter().chain(of_items).chain(of_groups);
+    let mut lines: BTreeSet<u32> = BTreeSet::new();
+    for doubt in all {
+        for text in [doubt.says.as_str(), doubt.why.as_str(), doubt.chosen.as_str()] {
+            lines.extend(ranges(text, "L"));
+        }
+    }
+    let section = notes.split("\n## 4. ").nth(1).and_then(|rest| rest.split("\n## 5. ").next()).expect("section 4");
+    let mut left = Vec::new();
+    let mut count = 0;
+    for item in section.split("\n* ").skip(1) {
+        let id = item.split(' ').next().unwrap_or_default();
+        count += 1;
+        let own = ranges(item, "");
+        if !own.is_empty() && own.is_disjoint(&lines) && !WITHOUT_LINES.contains(&id) {
+            left.push(format!("{id}: {}", item.lines().next().unwrap_or_default()));
+        }
+    }
+    assert!(count == 85, "{count}");
+    assert_eq!(left, Vec::<String>::new());
+}
+
+/// The numbers of lines in a text, those of ranges among them: up to four digits, behind `before`.
+fn ranges(text: &str, before: &str) -> BTreeSet<u32> {
+    let mut found = BTreeSet::new();
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_' || c == '.';
+    for word in text.split(|c: char| !is_part(c)) {
+        let Some(word) = word.strip_prefix(before) else { continue };
+        let mut ends = word.split('-').map(str::parse::<u32>);
+        let (Some(Ok(first)), last) = (ends.next(), ends.next().and_then(Result::ok)) else { continue };
+        let last = last.unwrap_or(first);
+        if (30..=6462).contains(&first) && (first..first + 200).contains(&last) {
+            found.extend(first..=last);
+        }
+    }
+    found
+}

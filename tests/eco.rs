@@ -1,0 +1,261 @@
+//! The Eco by its bindings on CANopen and EtherCAT: requests that its manual's examples send, scales that its examples compute,
+//! and PDOs. Lines are the manual's. What goes over Modbus is in `frames`.
+
+#[path = "support/can_script.rs"]
+mod can_script;
+
+use std::convert::Infallible;
+
+use can_script::{node, Script};
+use lexibus::clients::canopen::Node;
+use lexibus::codes::Cell;
+use lexibus::{CanOpen, Error, Fixed, Item, On, Pdo, Readable, Rw, Writable};
+use lexibus_drives::eco::objects::{self, feed_constant, homing_speeds, interpolation_time_period};
+use lexibus_drives::eco::objects::{
+    drive_parameters_settings, drive_variable_read, drive_variable_write, store_parameter_field,
+};
+use lexibus_drives::eco::objects::{
+    receive_pdo_1_communication_parameter as rpdo, receive_pdo_1_mapping_parameter as rpdo_map,
+};
+use lexibus_drives::eco::objects::{
+    transmit_pdo_1_communication_parameter as tpdo, transmit_pdo_1_mapping_parameter as tpdo_map,
+};
+use lexibus_drives::eco::types::{
+    Controlword, HomingMethod, MappedObject, Mode402, Statusword, StoreParameters, TransmissionType,
+};
+use lexibus_drives::eco::{self, codes, pdo};
+
+type Answer<T> = Result<T, Error<Infallible>>;
+
+/// What is confirmed with nothing but the object.
+fn confirmed(request: [u8; 8]) -> ([u8; 8], [u8; 8]) {
+    (request, [0x60, request[1], request[2], request[3], 0, 0, 0, 0])
+}
+
+/// Holds what writing sends against the bytes that follow from a line of the manual.
+#[track_caller]
+fn writes<V, A, L>(item: Item<V, A, L>, value: V::Native, request: [u8; 8])
+where
+    V: Fixed,
+    A: Writable,
+    L: On<CanOpen>,
+{
+    let mut own = node(&[confirmed(request)]);
+    item.at(&mut own).write(value).expect("written");
+}
+
+fn control(raw: u16) -> Controlword {
+    Controlword::from_raw(raw)
+}
+
+/// Writes a sequence of control words.
+fn commands(words: &[u16]) {
+    for &word in words {
+        let [low, high] = word.to_le_bytes();
+        writes(objects::CONTROLWORD, control(word), [0x2B, 0x40, 0x60, 0, low, high, 0, 0]);
+    }
+}
+
+#[test]
+fn homing() {
+    // L4258 to L4275.
+    writes(feed_constant::FEED_CONSTANT, 6000, [0x23, 0x92, 0x60, 1, 0x70, 0x17, 0, 0]);
+    writes(objects::HOMING_METHOD, HomingMethod::MarkerForwards, [0x2F, 0x98, 0x60, 0, 0x22, 0, 0, 0]);
+    writes(objects::HOME_OFFSET, -1000, [0x23, 0x7C, 0x60, 0, 0x18, 0xFC, 0xFF, 0xFF]);
+    writes(homing_speeds::HOMING_SLOW_SPEED, 1000, [0x23, 0x99, 0x60, 2, 0xE8, 0x03, 0, 0]);
+    writes(objects::MODES_OF_OPERATION_OF_DSP_402, Mode402::Homing, [0x2F, 0x60, 0x60, 0, 6, 0, 0, 0]);
+    // L4284 to L4300.
+    commands(&[0x0000, 0x0080, 0x0000, 0x0006, 0x0007, 0x000F, 0x000F, 0x001F]);
+    let start = control(0x000F).in_homing().with_start_homing(true).controlword();
+    assert_eq!(start.raw(), 0x001F);
+    // L4293 to L4298.
+    assert_eq!(format!("{:?}", Statusword::from_raw(0x1000).in_homing().homing()), "Done");
+    assert_eq!(format!("{:?}", Statusword::from_raw(0x2000).in_homing().homing()), "Interrupted");
+}
+
+#[test]
+fn positioner() {
+    // L4305 to L4348.
+    writes(objects::PROFILE_VELOCITY, 20_000, [0x23, 0x81, 0x60, 0, 0x20, 0x4E, 0, 0]);
+    writes(objects::PROFILE_ACCELERATION, 200, [0x23, 0x83, 0x60, 0, 0xC8, 0, 0, 0]);
+    writes(objects::PROFILE_DECELERATION, 200, [0x23, 0x84, 0x60, 0, 0xC8, 0, 0, 0]);
+    writes(objects::MODES_OF_OPERATION_OF_DSP_402, Mode402::Positioner, [0x2F, 0x60, 0x60, 0, 1, 0, 0, 0]);
+    writes(objects::TARGET_POSITION, 60_000, [0x23, 0x7A, 0x60, 0, 0x60, 0xEA, 0, 0]);
+    commands(&[0x004F, 0x005F]);
+    writes(objects::TARGET_POSITION, 30_000, [0x23, 0x7A, 0x60, 0, 0x30, 0x75, 0, 0]);
+    commands(&[0x000F, 0x001F]);
+    let relative = control(0x000F).in_positioner().with_relative(true).with_new_set_point(true).controlword();
+    assert_eq!(relative.raw(), 0x005F);
+}
+
+#[test]
+fn velocity() {
+    // L4354 to L4377.
+    writes(feed_constant::FEED_CONSTANT, 60, [0x23, 0x92, 0x60, 1, 0x3C, 0, 0, 0]);
+    writes(objects::PROFILE_ACCELERATION, 5, [0x23, 0x83, 0x60, 0, 5, 0, 0, 0]);
+    writes(objects::PROFILE_DECELERATION, 5, [0x23, 0x84, 0x60, 0, 5, 0, 0, 0]);
+    writes(objects::MODES_OF_OPERATION_OF_DSP_402, Mode402::Velocity, [0x2F, 0x60, 0x60, 0, 3, 0, 0, 0]);
+    writes(objects::TARGET_VELOCITY, 1000, [0x23, 0xFF, 0x60, 0, 0xE8, 0x03, 0, 0]);
+}
+
+#[test]
+fn saving_and_guarding() {
+    // L4252, L4391, L4397.
+    commands(&[0x0002]);
+    let key = [0x23, 0x10, 0x10, 1, 0x73, 0x61, 0x76, 0x65];
+    writes(store_parameter_field::SAVE_ALL_PARAMETERS, StoreParameters::Save, key);
+    commands(&[0x0006]);
+    // L4239 to L4246: without guarding, the times are 0.
+    writes(objects::GUARD_TIME, 500, [0x2B, 0x0C, 0x10, 0, 0xF4, 0x01, 0, 0]);
+    writes(objects::LIFE_TIME_FACTOR, 2, [0x2F, 0x0D, 0x10, 0, 2, 0, 0, 0]);
+    writes(objects::GUARD_TIME, 0, [0x2B, 0x0C, 0x10, 0, 0, 0, 0, 0]);
+    writes(objects::LIFE_TIME_FACTOR, 0, [0x2F, 0x0D, 0x10, 0, 0, 0, 0, 0]);
+}
+
+#[test]
+fn interpolator() {
+    // L4414 to L4443. The state is at sub-index 2, not 1.
+    writes(interpolation_time_period::IP_TIME_UNITS, 1, [0x2F, 0xC2, 0x60, 1, 1, 0, 0, 0]);
+    writes(objects::MODES_OF_OPERATION_OF_DSP_402, Mode402::Interpolator, [0x2F, 0x60, 0x60, 0, 7, 0, 0, 0]);
+    let each_sync = TransmissionType::from_raw(1);
+    writes(rpdo::TRANSMISSION_TYPE_OF_RPDO_1, each_sync, [0x2F, 0x00, 0x14, 2, 1, 0, 0, 0]);
+    writes(rpdo_map::NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1, 0, [0x2F, 0x00, 0x16, 0, 0, 0, 0, 0]);
+    let set_point = MappedObject::new().with_index(0x60C1).with_sub_index(1).with_length(32);
+    writes(rpdo_map::MAPPED_OBJECT_1_OF_RPDO_1, set_point, [0x23, 0x00, 0x16, 1, 0x20, 0x01, 0xC1, 0x60]);
+    let word = MappedObject::new().with_index(0x6040).with_length(16);
+    writes(rpdo_map::MAPPED_OBJECT_2_OF_RPDO_1, word, [0x23, 0x00, 0x16, 2, 0x10, 0x00, 0x40, 0x60]);
+    writes(rpdo_map::NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1, 2, [0x2F, 0x00, 0x16, 0, 2, 0, 0, 0]);
+    writes(tpdo::TRANSMISSION_TYPE_OF_TPDO_1, each_sync, [0x2F, 0x00, 0x18, 2, 1, 0, 0, 0]);
+    let position = MappedObject::new().with_index(0x6064).with_length(32);
+    writes(tpdo_map::MAPPED_OBJECT_1_OF_TPDO_1, position, [0x23, 0x00, 0x1A, 1, 0x20, 0x00, 0x64, 0x60]);
+    let state = MappedObject::new().with_index(0x6041).with_length(16);
+    writes(tpdo_map::MAPPED_OBJECT_2_OF_TPDO_1, state, [0x23, 0x00, 0x1A, 2, 0x10, 0x00, 0x41, 0x60]);
+}
+
+/// Reads from a node that answers with these bytes.
+fn read<V, A, L>(own: &mut Node<Script>, item: Item<V, A, L>) -> Answer<V::Native>
+where
+    V: Fixed,
+    A: Readable,
+    L: On<CanOpen>,
+{
+    item.at(own).read()
+}
+
+#[test]
+fn parameters_by_the_window_of_eight_bits() {
+    // L4209 to L4223: d1 is read once its address is 0 again.
+    let mut own = node(&[
+        confirmed([0x2F, 0x00, 0x20, 3, 1, 0, 0, 0]),
+        ([0x40, 0x00, 0x20, 3, 0, 0, 0, 0], [0x4F, 0x00, 0x20, 3, 1, 0, 0, 0]),
+        ([0x40, 0x00, 0x20, 3, 0, 0, 0, 0], [0x4F, 0x00, 0x20, 3, 0, 0, 0, 0]),
+        ([0x40, 0x00, 0x20, 4, 0, 0, 0, 0], [0x4F, 0x00, 0x20, 4, 80, 0, 0, 0]),
+    ]);
+    drive_parameters_settings::PARAMETER_READ_ADDRESS.at(&mut own).write(1).expect("written");
+    while read(&mut own, drive_parameters_settings::PARAMETER_READ_ADDRESS).expect("read") != 0 {}
+    assert_eq!(read(&mut own, drive_parameters_settings::PARAMETER_READ_VALUE), Ok(80));
+    // L4230, L4234 and L4509 to L4513: the value, then the address.
+    for (address, value) in [(2, 40), (1, 80), (2, 20)] {
+        let mut own = node(&[
+            confirmed([0x2F, 0x00, 0x20, 2, value, 0, 0, 0]),
+            confirmed([0x2F, 0x00, 0x20, 1, address, 0, 0, 0]),
+        ]);
+        drive_parameters_settings::PARAMETER_WRITE_VALUE.at(&mut own).write(value).expect("written");
+        drive_parameters_settings::PARAMETER_WRITE_ADDRESS.at(&mut own).write(address).expect("written");
+    }
+}
+
+#[test]
+fn windows_take_numbers_of_registers_and_parameters_only() {
+    // L4039 to L4041, L4051 to L4053.
+    for (address, fits) in
+        [(1, true), (99, true), (0x8000, true), (0x8FFF, true), (100, false), (0x7FFF, false), (0x9000, false)]
+    {
+        assert_eq!(drive_variable_read::VARIABLE_READ_ADDRESS.range().contains(address), fits, "{address}");
+        assert_eq!(drive_variable_write::VARIABLE_WRITE_ADDRESS.range().contains(address), fits, "{address}");
+    }
+}
+
+#[test]
+fn scales_follow_the_feed_constant() {
+    // L4304 to L4315: 6000 units a turn, 200 rpm, reached in 100 ms.
+    assert_eq!(objects::PROFILE_VELOCITY.raw_by(200.0, 6000.0), Ok(20_000));
+    let rate = 200.0 / 60.0 / 0.1;
+    assert_eq!(objects::PROFILE_ACCELERATION.raw_by(rate, 6000.0), Ok(200));
+    // L4271: 10 rpm.
+    assert_eq!(homing_speeds::HOMING_SLOW_SPEED.raw_by(10.0, 6000.0), Ok(1000));
+    // L4354 to L4377: 60 units a turn, so that speeds are in rpm; 1000 of them in 200 ms.
+    assert_eq!(objects::TARGET_VELOCITY.raw_by(1000.0, 60.0), Ok(1000));
+    assert_eq!(objects::PROFILE_DECELERATION.raw_by(1000.0 / 60.0 / 0.2, 60.0), Ok(5));
+    // L4335 to L4344: ten turns, five turns.
+    assert_eq!(objects::TARGET_POSITION.raw_by(10.0, 6000.0), Ok(60_000));
+    assert!((objects::TARGET_POSITION.physical_by(30_000, 6000.0) - 5.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_window_that_is_off_is_no_number() {
+    // L3955: no check.
+    let off = [0x43, 0x65, 0x60, 0, 0xFF, 0xFF, 0xFF, 0xFF];
+    let mut own = node(&[([0x40, 0x65, 0x60, 0, 0, 0, 0, 0], off)]);
+    assert_eq!(objects::FOLLOWING_ERROR_WINDOW.at(&mut own).read(), Ok(u32::MAX));
+    assert_eq!(objects::FOLLOWING_ERROR_WINDOW.physical_by(u32::MAX, 60.0), None);
+    assert_eq!(objects::VELOCITY_WINDOW.physical(0xFFFF), None);
+    assert_eq!(objects::VELOCITY_WINDOW.physical(7), Some(7.0));
+}
+
+#[test]
+fn pdos_of_ethercat() {
+    // L5540 to L5574, L5581: control word and set-point in six bytes, the lower byte first.
+    let enabled = control(0x000F).in_interpolator().with_interpolate(true).controlword();
+    let out = pdo::InterpolatedPosition { controlword: enabled, position_set_point: -2 };
+    assert_eq!(out.pack(), [0x1F, 0, 0xFE, 0xFF, 0xFF, 0xFF]);
+    let indices = [
+        <pdo::InterpolatedPosition as Pdo>::INDEX,
+        <pdo::Mode as Pdo>::INDEX,
+        <pdo::Position as Pdo>::INDEX,
+        <pdo::Velocity as Pdo>::INDEX,
+        <pdo::Status as Pdo>::INDEX,
+        <pdo::ModeDisplay as Pdo>::INDEX,
+        <pdo::ActualPosition as Pdo>::INDEX,
+        <pdo::ActualVelocity as Pdo>::INDEX,
+    ];
+    assert_eq!(indices, [0x1600, 0x1601, 0x1602, 0x1603, 0x1A00, 0x1A01, 0x1A02, 0x1A03]);
+    let lengths = [pdo::InterpolatedPosition::LEN, pdo::Mode::LEN, pdo::Status::LEN, pdo::ModeDisplay::LEN];
+    assert_eq!(lengths, [6, 4, 2, 4]);
+    let answer = pdo::ActualPosition::unpack(&[0x37, 0x16, 0x70, 0x17, 0, 0]).expect("six bytes");
+    assert_eq!((answer.position_actual_value, answer.statusword.target_reached()), (6000, true));
+}
+
+lexibus::pdo! {
+    /// RPDO 1 as the example maps it (L4425): the set-point in front of the control word.
+    pub struct SetPoint: lexibus_drives::eco::pdo::RxPdo1 { position_set_point: interpolation_data_record::position_set_point, controlword }
+}
+
+#[test]
+fn the_mapping_of_the_example() {
+    let frame = SetPoint { position_set_point: 6000, controlword: control(0x001F) }.pack();
+    assert_eq!(frame, [0x70, 0x17, 0, 0, 0x1F, 0]);
+    let words: Vec<u32> = SetPoint::MAPPING.iter().map(|entry| entry.word()).collect();
+    assert_eq!(words, [0x60C1_0120, 0x6040_0010]);
+}
+
+#[test]
+fn values_of_several_parameters() {
+    // L536, L584 to L598: hundreds and units; ten thousands, hundreds, units, and a sign.
+    assert_eq!(eco::PULSES_PER_TURN.split(4096), Ok([40, 96]));
+    assert_eq!(eco::SPACE_OFFSET.join_signed(1, [12, 34, 56]), Ok(-123_456));
+    let both: [Item<u16, Rw, _>; 2] = [objects::P1, objects::P2];
+    assert_eq!(both.map(|item| item.name()), ["P1", "P2"]);
+}
+
+#[test]
+fn alarms_have_codes_of_their_own_on_each_bus() {
+    let general = codes::GENERAL_ALARMS.iter().find(|own| own.first == 16).expect("an alarm");
+    assert_eq!(general.name, "following error");
+    let code = |alarm| codes::ETHERCAT_ALARMS.iter().find(|own| own.first == alarm).map(|own| own.cells);
+    assert_eq!(code(16), Some([Cell::Number(0x8611)].as_slice()));
+    assert_eq!(code(30), Some([Cell::Empty].as_slice()));
+    let names = [codes::ETHERCAT_ALARMS, codes::PROFINET_ALARMS]
+        .map(|table| table.iter().find(|own| own.first == 33).map(|own| own.name));
+    assert_eq!(names, [Some("PDO mapping failed"), Some("fieldbus not started properly")]);
+}

@@ -1,0 +1,53 @@
+//! The Eco's second map of addresses on Modbus, for controllers of Siemens: a choice of its table. The manual prints the fields of
+//! requests without their bytes (L1626 to L1675).
+
+use std::convert::Infallible;
+
+use lexibus::{Client, Error, Modbus, Register};
+
+lexibus::dictionary! {
+    /// Addresses as the drive takes them with E3 = 9, and a controller that takes off one.
+    #[allow(deprecated)]
+    pub mod siemens = "dictionaries/eco.toml" { option: "register_base=siemens_plc", option: "parameter_base=siemens_plc" };
+}
+
+/// Keeps what is asked for: the address, the number of registers, and what is written to them.
+#[derive(Default)]
+struct Probe {
+    asked: Vec<(u16, u16)>,
+    words: Vec<u16>,
+}
+
+impl Client for Probe {
+    type Bus = Modbus;
+    type Error = Infallible;
+
+    fn read(&mut self, register: Register, buffer: &mut [u8]) -> Result<usize, Error<Infallible>> {
+        self.asked.push((register.address, register.count));
+        Ok(register.decode(&vec![0; register.count.into()], buffer)?)
+    }
+
+    fn write(&mut self, register: Register, data: &[u8]) -> Result<(), Error<Infallible>> {
+        self.asked.push((register.address, register.count));
+        self.words = vec![0; register.count.into()];
+        Ok(register.encode(data, &mut self.words)?)
+    }
+}
+
+#[test]
+fn the_second_map() -> Result<(), Error<Infallible>> {
+    let mut drive = siemens::Eco::new(Probe::default());
+    drive.d1().read()?;
+    drive.control_word().read()?;
+    drive.modes_of_operation().read()?;
+    drive.d3().write(10)?;
+    assert_eq!(drive.client().words, [0x000A]);
+    drive.target_position().write(1000)?;
+    assert_eq!(drive.client().words, [0x0000, 0x03E8]);
+    let asked = [(0x9C42, 1), (0xAC41, 2), (0xAC42, 2), (0x9C44, 1), (0xAC4A, 2)];
+    assert_eq!(drive.client().asked, asked);
+    // The command that saves stays where it is.
+    drive.save_to_flash().write(0x0011)?;
+    assert_eq!(drive.client().asked.last(), Some(&(0x3802, 1)));
+    Ok(())
+}
