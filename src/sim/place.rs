@@ -4,6 +4,7 @@ use crate::bus::Object;
 use crate::item::Item;
 use crate::location::{Absent, Location};
 use crate::register::Register;
+use crate::route::{Limited, Resized, Split, Through};
 use crate::value::Value;
 
 /// What names an item: a handle of the bindings, an object, or a register. Bindings need nothing else implemented.
@@ -39,7 +40,32 @@ impl Part<Register> for Register {
     }
 }
 
-impl<C: Part<Object>, E: Part<Object>, M: Part<Register>, P, S> Place for Location<C, E, M, P, S> {
+impl<T, R: Part<T>> Part<T> for Resized<R> {
+    fn part(&self) -> Option<T> {
+        self.at.part()
+    }
+}
+
+impl<T, R: Part<T>> Part<T> for Limited<R> {
+    fn part(&self) -> Option<T> {
+        self.at.part()
+    }
+}
+
+impl<T, R: Part<T>, W: Part<T>> Part<T> for Split<R, W> {
+    fn part(&self) -> Option<T> {
+        self.read.part().or_else(|| self.write.part())
+    }
+}
+
+/// A window is no place of the item's own.
+impl<T, W> Part<T> for Through<W> {
+    fn part(&self) -> Option<T> {
+        None
+    }
+}
+
+impl<C: Part<Object>, E: Part<Object>, M: Part<Register>, P, S, I, X> Place for Location<C, E, M, P, S, I, X> {
     fn object(&self) -> Option<Object> {
         self.canopen.part().or_else(|| self.coe.part())
     }
