@@ -14,12 +14,22 @@ pub trait Place {
 
     /// Its place on Modbus.
     fn register(&self) -> Option<Register>;
+
+    /// Whether it has another width on some bus: then the table has it more than once.
+    fn is_resized(&self) -> bool {
+        false
+    }
 }
 
 /// An address on one bus, or none.
 pub trait Part<T> {
     /// The address.
     fn part(&self) -> Option<T>;
+
+    /// Whether the value has another width there.
+    fn is_resized(&self) -> bool {
+        false
+    }
 }
 
 impl<T> Part<T> for Absent {
@@ -44,17 +54,29 @@ impl<T, R: Part<T>> Part<T> for Resized<R> {
     fn part(&self) -> Option<T> {
         self.at.part()
     }
+
+    fn is_resized(&self) -> bool {
+        true
+    }
 }
 
 impl<T, R: Part<T>> Part<T> for Limited<R> {
     fn part(&self) -> Option<T> {
         self.at.part()
     }
+
+    fn is_resized(&self) -> bool {
+        self.at.is_resized()
+    }
 }
 
 impl<T, R: Part<T>, W: Part<T>> Part<T> for Split<R, W> {
     fn part(&self) -> Option<T> {
         self.read.part().or_else(|| self.write.part())
+    }
+
+    fn is_resized(&self) -> bool {
+        self.read.is_resized() || self.write.is_resized()
     }
 }
 
@@ -73,6 +95,10 @@ impl<C: Part<Object>, E: Part<Object>, M: Part<Register>, P, S, I, X> Place for 
     fn register(&self) -> Option<Register> {
         self.modbus.part()
     }
+
+    fn is_resized(&self) -> bool {
+        self.canopen.is_resized() || self.coe.is_resized() || self.modbus.is_resized()
+    }
 }
 
 impl<V: Value, A, L: Place> Place for Item<V, A, L> {
@@ -82,6 +108,10 @@ impl<V: Value, A, L: Place> Place for Item<V, A, L> {
 
     fn register(&self) -> Option<Register> {
         self.location().register()
+    }
+
+    fn is_resized(&self) -> bool {
+        self.location().is_resized()
     }
 }
 

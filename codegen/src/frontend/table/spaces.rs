@@ -2,10 +2,10 @@
 
 use super::at::{At, Entries, FlagOr};
 use super::format::{ModbusRule, ObjectRule, SpaceTable};
-use super::references::{References, ITEM};
 use super::tree::Reader;
+use super::windows::{self, Window};
 use crate::diagnostics::codes;
-use crate::ir::{Binding, IndirectBinding, ModbusTable, ObjectBuses, RegisterBinding, RegisterSpace, Value};
+use crate::ir::{Binding, ModbusTable, ObjectBuses, RegisterBinding, RegisterSpace};
 use crate::source::Span;
 
 /// Bits of a number where the space doesn't say.
@@ -22,7 +22,7 @@ pub(super) struct Space {
     ethercat: Option<Objects>,
     parameter: bool,
     esc: bool,
-    indirect: Option<super::format::IndirectRule>,
+    windows: Vec<Window>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -65,6 +65,18 @@ impl Buses {
     pub const ALL: Buses = Buses { canopen: true, ethercat: true, modbus: true, profinet: true, serial: true };
     pub const NONE: Buses = Buses { canopen: false, ethercat: false, modbus: false, profinet: false, serial: false };
 
+    /// Their names in tables.
+    pub fn names(self) -> impl Iterator<Item = &'static str> {
+        let all = [
+            (self.canopen, "canopen"),
+            (self.ethercat, "ethercat"),
+            (self.modbus, "modbus"),
+            (self.profinet, "profinet"),
+            (self.serial, "serial"),
+        ];
+        all.into_iter().filter_map(|(is, name)| is.then_some(name))
+    }
+
     /// Those that are in one of both.
     pub fn or(self, other: Buses) -> Buses {
         Buses {
@@ -93,22 +105,10 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) ->
     tables.iter().map(|(name, table)| space(reader, name, &table.value)).collect()
 }
 
-/// The items and procedures that spaces name.
-pub(super) fn references(tables: &Entries<SpaceTable>) -> References {
-    let mut found = References::new();
-    for rule in tables.iter().filter_map(|(_, table)| table.value.indirect.as_ref()) {
-        let items = [&rule.write_address, &rule.read, &rule.write].into_iter().flatten();
-        found.extend(items.map(|name| (name.clone(), ITEM)));
-        found.extend(rule.procedure.iter().map(|name| (name.clone(), "procedure")));
-    }
-    found
-}
-
 fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> Space {
     let modbus = table.modbus.as_ref().map(|rule| modbus(reader, rule));
     // A number of a table of bits is one bit.
     let is_bit = modbus.is_some_and(|own| matches!(own.space, RegisterSpace::Coil | RegisterSpace::DiscreteInput));
-    indirect(reader, name, table);
     Space {
         name: name.value.clone(),
         bits: table.bits.filter(|&bits| bits > 0).unwrap_or(if is_bit { 1 } else { REGISTER_BITS }),
@@ -117,17 +117,7 @@ fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> 
         ethercat: table.ethercat.as_ref().map(objects),
         parameter: table.parameter.as_ref().is_some_and(|rule| !matches!(rule, FlagOr::Flag(false))),
         esc: table.esc,
-        indirect: table.indirect.clone(),
-    }
-}
-
-/// A window has an item that takes the number, and one for the value.
-fn indirect(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) {
-    let Some(rule) = &table.indirect else { return };
-    if rule.write_address.is_none() || (rule.read.is_none() && rule.write.is_none()) {
-        let message =
-            "`indirect` says which item takes the number (`write_address`), and which has the value (`read`, `write`)";
-        reader.report(&codes::TABLE_VALUE, reader.span(name), message);
+        windows: windows::read(reader, name, table),
     }
 }
 
@@ -226,16 +216,7 @@ impl Space {
                 Err(_) => no_address(reader, span, numbers.first, "the memory of a slave controller"),
             }
         }
-        if let Some(rule) = &self.indirect {
-            let name = |given: &Option<At<String>>| given.as_ref().map(|own| own.value.as_str().into());
-            bindings.push(Binding::Indirect(Box::new(IndirectBinding {
-                address_item: name(&rule.write_address).unwrap_or_default(),
-                address: Value::Int(numbers.first.into()),
-                read_item: name(&rule.read),
-                write_item: name(&rule.write),
-                procedure: name(&rule.procedure),
-            })));
-        }
+        bindings.extend(windows::bindings(&self.name, &self.windows, numbers.first, buses));
         bindings
     }
 
