@@ -5,7 +5,7 @@ use std::collections::HashSet;
 
 use super::owner::{Index, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Binding, CompactString, Device, IndirectBinding, Item, Procedure, Step};
+use crate::ir::{Binding, CompactString, Device, IndirectBinding, Item, Procedure, Step, WindowSide};
 use crate::text::brief;
 
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
@@ -18,10 +18,10 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     let (mut narrow, mut seen) = (HashSet::new(), HashSet::new());
     for item in owner.items() {
         width(owner, &index, item, &mut narrow, diagnostics);
-        for window in windows(item) {
-            let procedure = device.procedures.iter().find(|own| Some(&own.name) == window.procedure.as_ref());
+        for side in windows(item).filter_map(|window| window.write.as_ref()) {
+            let procedure = device.procedures.iter().find(|own| Some(&own.name) == side.procedure.as_ref());
             if let Some(procedure) = procedure.filter(|own| seen.insert(&own.name)) {
-                order(&index, window, procedure, diagnostics);
+                order(&index, side, procedure, diagnostics);
             }
         }
     }
@@ -44,8 +44,8 @@ fn width<'d>(
 ) {
     let bits_of = |item: &Item| owner.basic(item.ty).bits();
     let Some(bits) = bits_of(item) else { return };
-    let read = windows(item).filter_map(|window| window.read_item.as_ref());
-    let written = windows(item).filter_map(|window| window.write_item.as_ref());
+    let read = windows(item).filter_map(|window| Some(&window.read.as_ref()?.value));
+    let written = windows(item).filter_map(|window| Some(&window.write.as_ref()?.value));
     let values: [(_, Vec<&CompactString>); 2] = [("read", read.collect()), ("written", written.collect())];
     for (verb, names) in values {
         let widths = names.into_iter().filter_map(|name| Some((bits_of(index.find(name)?)?, name)));
@@ -60,8 +60,8 @@ fn width<'d>(
 }
 
 /// A procedure that writes the number, and the value after it.
-fn order(index: &Index<'_>, window: &IndirectBinding, procedure: &Procedure, diagnostics: &mut Diagnostics) {
-    let Some(value) = &window.write_item else { return };
+fn order(index: &Index<'_>, side: &WindowSide, procedure: &Procedure, diagnostics: &mut Diagnostics) {
+    let (number_item, value) = (&side.number, &side.value);
     let is_cyclic = |item: &Item| item.bindings.iter().any(|binding| matches!(binding, Binding::Image { .. }));
     if index.find(value).is_some_and(is_cyclic) {
         return;
@@ -70,10 +70,10 @@ fn order(index: &Index<'_>, window: &IndirectBinding, procedure: &Procedure, dia
         Step::Write(item, _) | Step::WriteBits(item, ..) | Step::WriteArgument(item, _) => item == wanted,
         _ => false,
     };
-    let number = procedure.steps.iter().position(|step| writes(step, &window.address_item));
+    let number = procedure.steps.iter().position(|step| writes(step, number_item));
     let behind = procedure.steps.iter().rposition(|step| writes(step, value));
     let Some((at, _)) = behind.zip(number).filter(|(behind, number)| number < behind) else { return };
-    let (name, address, value) = (brief(&procedure.name), brief(&window.address_item), brief(value));
+    let (name, address, value) = (brief(&procedure.name), brief(number_item), brief(value));
     let message = format!("`{name}` writes the number to `{address}` before the value to `{value}`");
     let span = procedure.step_spans.get(at).copied().unwrap_or(procedure.origin.span);
     diagnostics.push(Diagnostic::new(&codes::WINDOW_ORDER, span, message).help("write the value first"));
