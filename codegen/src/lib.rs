@@ -39,6 +39,7 @@ pub mod builder;
 pub mod cli;
 pub mod compile;
 pub mod diagnostics;
+mod etg;
 pub mod frontend;
 #[cfg(feature = "cli")]
 pub mod import;

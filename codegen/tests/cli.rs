@@ -322,3 +322,49 @@ fn what_has_no_objects_is_not_exported() {
     assert_eq!((code(&exported), target.exists()), (1, false));
     assert!(err(&exported).contains("no device with objects"), "{}", err(&exported));
 }
+
+#[test]
+fn export_writes_an_esi_and_asks_for_what_the_source_lacks() {
+    let folder = folder("export_esi");
+    let missing = lexibus(&["export", "--format", "esi", DEMO]);
+    assert_eq!(code(&missing), 1);
+    assert!(err(&missing).contains("`physics` (Kind of each port"), "{}", err(&missing));
+    let mut call = vec!["export", "--format", "esi", DEMO, "--set", "physics=YY", "--set", "group=Drives"];
+    let made = lexibus(&call);
+    assert_eq!(code(&made), 0, "{}", err(&made));
+    assert!(out(&made).contains("<GroupType>Drives</GroupType>") && err(&made).contains("note: "), "{}", err(&made));
+    let path = folder.join("demo.xml").to_string_lossy().into_owned();
+    call.extend(["--out", &path]);
+    assert_eq!(code(&lexibus(&call)), 0);
+    assert_eq!(std::fs::read_to_string(&path).expect("the ESI"), out(&made), "a file gets the same bytes");
+    call.push("--check");
+    assert_eq!(code(&lexibus(&call)), 0);
+    let many = lexibus(&["export", "--format", "esi", COUPLER, "-A", "warnings"]);
+    assert_eq!(code(&many), 0, "{}", err(&many));
+    assert!(out(&many).matches("<Device ").count() > 1, "all devices are in one file");
+    for (key, what) in [("colour=red", "there is no `colour`"), ("vendor-id=x", "a number of up to 32 bits")] {
+        let wrong = lexibus(&["export", "--format", "esi", DEMO, "--set", key]);
+        assert_eq!(code(&wrong), 2);
+        assert!(err(&wrong).contains(what), "{}", err(&wrong));
+    }
+    assert_eq!(code(&lexibus(&["export", "--format", "eds", DEMO, "--set", "physics=YY"])), 2);
+}
+
+#[test]
+fn export_writes_a_gsdml_under_its_name() {
+    let folder = folder("export_gsdml");
+    const SOURCE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data");
+    let nothing = lexibus(&["export", "--format", "gsdml", DEMO]);
+    assert_eq!(code(&nothing), 1);
+    assert!(err(&nothing).contains("no PROFINET device and no process image"), "{}", err(&nothing));
+    let into = format!("{}/", folder.to_string_lossy());
+    let made = lexibus(&["export", "--format", "gsdml", SOURCE, "--out", &into, "-A", "warnings"]);
+    assert_eq!(code(&made), 0, "{}", err(&made));
+    let names = std::fs::read_dir(&folder).expect("a folder").map(|entry| entry.expect("a file").file_name());
+    let names: Vec<String> = names.map(|name| name.to_string_lossy().into_owned()).collect();
+    assert!(names.iter().any(|name| name.ends_with(".xml")), "{names:?}");
+    for name in names {
+        let again = lexibus(&["check", &folder.join(&name).to_string_lossy()]);
+        assert_eq!(code(&again), 0, "{name}: {}", err(&again));
+    }
+}

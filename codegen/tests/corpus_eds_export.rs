@@ -7,35 +7,17 @@ mod corpus_support;
 
 use std::collections::BTreeMap;
 
+use corpus_support::round_trip::{content, counts, difference, options, source};
 use corpus_support::{files, files_of, File};
 use lexibus_codegen::backend::eds::{export, Export, Flavour};
-use lexibus_codegen::compile::{check as compile, read, Compilation, Options};
+use lexibus_codegen::compile::{check as compile, read, Compilation};
 use lexibus_codegen::diagnostics::Severity;
-use lexibus_codegen::ir::{self, Catalog, Device, Type};
+use lexibus_codegen::ir::{self, Device, Type};
 use lexibus_codegen::source::Source;
 use serde_json::Value;
 
 /// Codes that an export may have and its original didn't, with the reason.
 const MAY_APPEAR: [(&str, &str); 0] = [];
-
-/// The IR without places.
-fn content(catalog: &Catalog) -> Value {
-    let mut value = serde_json::to_value(catalog).expect("JSON");
-    value["files"] = Value::Null;
-    without_places(&mut value);
-    value
-}
-
-fn without_places(value: &mut Value) {
-    match value {
-        Value::Object(fields) => {
-            fields.retain(|name, _| !matches!(name.as_str(), "origin" | "span" | "at" | "name_at"));
-            fields.values_mut().for_each(without_places);
-        }
-        Value::Array(list) => list.iter_mut().for_each(without_places),
-        _ => {}
-    }
-}
 
 /// What only a DCF says, taken out.
 fn without_configuration(value: &mut Value) {
@@ -57,43 +39,9 @@ fn without_configuration(value: &mut Value) {
     }
 }
 
-/// Where two values differ first.
-fn difference(left: &Value, right: &Value, path: &str) -> Option<String> {
-    match (left, right) {
-        (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => {
-            a.iter().find_map(|(key, value)| difference(value, &b[key], &format!("{path}.{key}")))
-        }
-        (Value::Array(a), Value::Array(b)) => {
-            let pairs = a.iter().zip(b).enumerate();
-            let inner = pairs.into_iter().find_map(|(at, (a, b))| difference(a, b, &format!("{path}[{at}]")));
-            inner.or_else(|| (a.len() != b.len()).then(|| format!("{path}: {} and {} elements", a.len(), b.len())))
-        }
-        _ if left == right => None,
-        _ => {
-            let short = |value: &Value| value.to_string().chars().take(300).collect::<String>();
-            Some(format!("{path}: {} became {}", short(left), short(right)))
-        }
-    }
-}
-
 fn exported(compilation: &Compilation, flavour: Flavour) -> Export {
     let catalog = compilation.catalog.as_ref().expect("a catalogue");
     export(catalog, &catalog.devices[0], flavour).expect("a CANopen device has an EDS")
-}
-
-fn counts(compilation: &Compilation) -> BTreeMap<&'static str, usize> {
-    let mut counts = BTreeMap::new();
-    compilation.diagnostics.list().iter().for_each(|found| *counts.entry(found.code.id).or_default() += 1);
-    counts
-}
-
-/// What the file says, without what profiles add.
-fn options() -> Options {
-    Options { no_profiles: true, ..Options::default() }
-}
-
-fn source(file: &File) -> Source {
-    Source::new(file.name.as_str(), file.bytes.clone())
 }
 
 /// Checks one file in one flavour; gives what is wrong.

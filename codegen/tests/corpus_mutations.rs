@@ -13,9 +13,10 @@ use std::cell::Cell;
 use std::fmt::Debug;
 
 use corpus_support::{files, files_of, File};
-use lexibus_codegen::backend::{json, rust};
+use lexibus_codegen::backend::{eds, esi, gsdml, json, rust};
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::diagnostics::{codes, render, Diagnostic, Level};
+use lexibus_codegen::ir::Catalog;
 use lexibus_codegen::source::{FileId, Source};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -58,11 +59,21 @@ fn emitted(compilation: &Compilation) {
     /// More text than this takes `syn` too long.
     const PARSED: usize = 60_000;
     let Some(catalog) = &compilation.catalog else { return };
+    exported(catalog);
     let Some(text) = rust::emit_catalog(catalog, &Options::default().rust) else { return };
     if text.len() < PARSED {
         if let Err(error) = syn::parse_file(&text) {
             panic!("what is emitted is no Rust: {error}:\n{text}");
         }
+    }
+}
+
+/// The exports, whatever they leave out or ask for.
+fn exported(catalog: &Catalog) {
+    let _ = esi::export(catalog, &esi::Options::default());
+    let _ = gsdml::export(catalog, &gsdml::Options::default());
+    for device in catalog.devices.iter().take(2) {
+        eds::export(catalog, device, eds::Flavour::Dcf);
     }
 }
 

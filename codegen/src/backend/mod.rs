@@ -1,5 +1,14 @@
 //! Back ends: one folder an output. None of them looks at a source format.
 
 pub mod eds;
+pub mod esi;
+pub mod gsdml;
 pub mod json;
+mod note;
+mod options;
+mod registers;
 pub mod rust;
+mod xml;
+
+pub use note::{Export, Note, NoteKind};
+pub use options::{MissingFact, Refusal};

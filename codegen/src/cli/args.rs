@@ -199,6 +199,10 @@ pub(super) struct Export {
     /// What to write.
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub format: ExportFormat,
+    /// A fact that the format wants and the source doesn't say, such as physics=YY; counts before what the source says, and may
+    /// be repeated. Which ones there are is told where one is missing, or unknown.
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = fact)]
+    pub facts: Vec<(String, String)>,
     /// The file to write (for one device), or the folder to write to; standard output where neither is given.
     #[arg(short, long, value_name = "PATH")]
     pub out: Option<PathBuf>,
@@ -213,6 +217,16 @@ pub(super) enum ExportFormat {
     Eds,
     /// CANopen device configuration file (CiA 306): also the node-ID and the values of one device.
     Dcf,
+    /// EtherCAT slave information (ETG.2000), of all devices of an input in one file.
+    Esi,
+    /// PROFINET device description (GSDML), of all devices of an input in one file.
+    Gsdml,
+}
+
+/// `KEY=VALUE`.
+fn fact(text: &str) -> Result<(String, String), String> {
+    let (key, value) = text.split_once('=').ok_or("a fact is a key and a value with `=` between them")?;
+    Ok((key.trim().to_owned(), value.to_owned()))
 }
 
 #[derive(Debug, Args)]

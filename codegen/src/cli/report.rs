@@ -7,8 +7,8 @@ use serde::Serialize;
 
 use super::args::{Colour, Inputs, MessageFormat};
 use super::Failure;
-use crate::backend::eds;
 use crate::backend::json::{DeviceInfo, Info, ModuleContent, ModuleInfo, PdoInfo, SubmoduleInfo};
+use crate::backend::Note;
 use crate::compile::Compilation;
 use crate::diagnostics::{render, Diagnostic, Severity};
 use crate::source::{FileId, Source, Span};
@@ -83,7 +83,7 @@ impl Reporter {
     }
 
     /// Tells what an export left out or changed, a line a kind.
-    pub(super) fn export_notes(&mut self, source: &str, device: &str, notes: &[eds::Note]) -> Result<(), Failure> {
+    pub(super) fn export_notes(&mut self, source: &str, device: &str, notes: &[Note]) -> Result<(), Failure> {
         for note in notes {
             match self.format {
                 MessageFormat::Json => {

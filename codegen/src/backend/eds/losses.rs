@@ -32,7 +32,7 @@ pub(super) fn of_device(context: &Context<'_>, catalog: &Catalog, notes: &mut No
     notes.add_many(NoteKind::Language, device.names.len(), place);
     notes.add_many(NoteKind::Documentation, usize::from(device.documentation.is_some()), place);
     notes.add_many(NoteKind::Doubt, device.doubts.len(), place);
-    notes.add_many(NoteKind::Duplicate, registers::duplicates(device), place);
+    notes.add_many(NoteKind::Duplicate, registers::duplicates(device, Item::object), place);
     settings(device, notes);
     pdos(device, notes);
     for group in device.groups.iter().filter(|group| is_coe_only(device, group)) {

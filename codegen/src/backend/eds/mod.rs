@@ -6,7 +6,6 @@
 //!
 //! | file | subject |
 //! |---|---|
-//! | `note` | what was left out or changed |
 //! | `writer` | sections, entries, comments; texts that must not break a line |
 //! | `extras` | which extension attribute goes into which section |
 //! | `header` | `[FileInfo]`, `[DeviceInfo]` and the other sections about the whole |
@@ -15,7 +14,6 @@
 //! | `data_type`, `value` | types as numbers, values as texts |
 //! | `modules` | modular devices |
 //! | `mapping` | mapping objects of PDOs that the dictionary doesn't have |
-//! | `registers` | objects of registers that stand in no object |
 //! | `losses` | facts that CiA 306 has no place for |
 
 mod compact;
@@ -26,19 +24,18 @@ mod header;
 mod losses;
 mod mapping;
 mod modules;
-mod note;
 mod object;
-mod registers;
 mod value;
 mod writer;
 
-pub use note::{Note, NoteKind};
+pub use super::note::{Export, Note, NoteKind};
 
 use std::collections::HashSet;
 
-use crate::ir::{Binding, Catalog, Device, Format, Group};
+use super::note::{self, Place};
+use super::registers;
+use crate::ir::{Binding, Catalog, Device, Format, Group, Item};
 use extras::Extras;
-use note::Place;
 use writer::Writer;
 
 /// Which of the two files of CiA 306 is written.
@@ -52,18 +49,10 @@ pub enum Flavour {
     Dcf,
 }
 
-/// An exported file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Export {
-    /// Its text, with the line ends of CiA 306 (CR LF). ASCII where the device's texts are; else to be written as UTF-8.
-    pub text: String,
-    /// What was left out or changed, a note a kind, by kind.
-    pub notes: Vec<Note>,
-}
-
-/// The file of `device`, which is one of `catalog`; `None` where it has no objects.
+/// The file of `device`, which is one of `catalog`, with the line ends of CiA 306 (CR LF): ASCII where the device's texts are,
+/// else to be written as UTF-8. `None` where the device has no objects.
 pub fn export(catalog: &Catalog, device: &Device, flavour: Flavour) -> Option<Export> {
-    let registers = registers::objects(device);
+    let registers = registers::objects(device, Item::object);
     let completed = registers::completed(&registers);
     let made = [mapping::objects(device), registers].concat();
     let objects = objects(device, &made);

@@ -8,7 +8,7 @@
 //! | file | subject |
 //! |---|---|
 //! | `reader` | reading single texts, attributes, numbers, names, and what has no place in the IR |
-//! | `number`, `language` | numbers of ETG.2000; languages by their LcId |
+//! | `number` | numbers of ETG.2000 |
 //! | `info` | the vendor, groups, lists of devices and modules |
 //! | `device`, `device_info`, `eeprom` | devices |
 //! | `sync`, `mailbox`, `clocks` | FMMUs and sync managers; the mailbox; distributed clocks |
@@ -16,8 +16,8 @@
 //! | `slots`, `modules` | slots, modules, and which fit where |
 //! | `profile`, `diagnosis` | profiles, diagnosis messages |
 //! | `dictionary` | dictionaries as they stand in the file: `data_type`, `object`, `flags` |
-//! | `types`, `type_name` | data types to types |
-//! | `items`, `value`, `array_default`, `unit` | objects to groups and items |
+//! | `types` | data types to types |
+//! | `items`, `value`, `array_default` | objects to groups and items |
 //! | `references` | files that the description refers to |
 
 mod array_default;
@@ -31,7 +31,6 @@ mod eeprom;
 mod flags;
 mod info;
 mod items;
-mod language;
 mod mailbox;
 mod modules;
 mod number;
@@ -42,12 +41,11 @@ mod reader;
 mod references;
 mod slots;
 mod sync;
-mod type_name;
 mod types;
-mod unit;
 mod value;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::etg::{language, type_name, unit};
 use crate::frontend::declared_encoding;
 use crate::ir::{Catalog, Device};
 use crate::source::{FileId, References, Source};

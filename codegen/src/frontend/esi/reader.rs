@@ -216,7 +216,7 @@ impl<'a> Reader<'a, '_> {
         let mut lcid = None;
         if has_attributes(tag) {
             let [given] = self.fields(tag, &["LcId"], extensions)?;
-            lcid = language::number(&given.text);
+            lcid = number::parse(&given.text).and_then(|number| u32::try_from(number.value).ok());
             if lcid.is_none() && !given.is_empty() {
                 self.bad(&given, "number of a language", "read as if there were none");
             }

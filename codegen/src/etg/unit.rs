@@ -3,7 +3,7 @@
 use compact_str::{format_compact, CompactString};
 
 /// The unit with this number, as far as its parts are known; `own` has those that the dictionary defines.
-pub(super) fn text(number: u32, own: &[(u32, CompactString)]) -> Option<CompactString> {
+pub(crate) fn text(number: u32, own: &[(u32, CompactString)]) -> Option<CompactString> {
     let [exponent, numerator, denominator, rest] = number.to_be_bytes();
     if rest != 0 {
         return None;
@@ -23,6 +23,23 @@ pub(super) fn text(number: u32, own: &[(u32, CompactString)]) -> Option<CompactS
         text.push_str(symbol(denominator)?);
     }
     Some(text)
+}
+
+/// The number whose [`text`] is this one.
+pub(crate) fn number(unit: &str) -> Option<u32> {
+    let units = || (1..=u8::MAX).filter(|notation| symbol(*notation).is_some());
+    for exponent in -12i8..=9 {
+        for numerator in units() {
+            for denominator in std::iter::once(0).chain(units()) {
+                let number = u32::from_be_bytes([exponent.to_be_bytes()[0], numerator, denominator, 0]);
+                if text(number, &[]).as_deref() == Some(unit) {
+                    return Some(number);
+                }
+            }
+        }
+    }
+    let inverse = |denominator: u8| (u32::from(denominator) << 8, text(u32::from(denominator) << 8, &[]));
+    units().map(inverse).find(|(_, text)| text.as_deref() == Some(unit)).map(|(number, _)| number)
 }
 
 /// Units whose number is certain.
@@ -94,6 +111,10 @@ mod tests {
         assert_eq!(unit(0xFD2D_0000).as_deref(), Some("10^-3 °C"));
         assert_eq!(unit(0x00A1_0000).as_deref(), Some("mG"));
         assert_eq!(unit(0x0000_4700).as_deref(), Some("1/min"));
+        for known in [0xF703_0000, 0x0026_0000, 0xFD01_0300, 0x00B4_4700, 0xFD2D_0000, 0x0000_4700] {
+            assert_eq!(unit(known).and_then(|text| number(&text)), Some(known), "{known:#x}");
+        }
+        assert_eq!((number("mG"), number("")), (None, None));
         for unknown in [0, 0x00F1_0000, 0x0026_F100, 0x0026_0001] {
             assert_eq!(unit(unknown), None, "{unknown:#x}");
         }

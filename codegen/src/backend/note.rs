@@ -5,6 +5,15 @@ use std::fmt;
 
 use crate::ir::{Group, Item};
 
+/// An exported file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Export {
+    /// Its text.
+    pub text: String,
+    /// What was left out or changed, a note a kind, by kind.
+    pub notes: Vec<Note>,
+}
+
 /// Everything of one kind that an export left out or changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
@@ -24,7 +33,7 @@ impl fmt::Display for Note {
 
 macro_rules! kinds {
     ($($(#[doc = $doc:literal])+ $kind:ident = $name:literal, $text:literal;)+) => {
-        /// A kind of fact that CiA 306 has no place for, or has to be told another way.
+        /// A kind of fact that the format has no place for, or that has to be told another way.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[non_exhaustive]
         pub enum NoteKind {
@@ -51,7 +60,7 @@ macro_rules! kinds {
 
 kinds! {
     /// ParameterValue, Denotation and the like in an EDS.
-    Configuration = "configuration", "configuration of one device left out: an EDS has none (export a DCF)";
+    Configuration = "configuration", "configuration of one device left out (of all formats, a DCF has it)";
     /// Unit, scale, sentinels, step.
     Quantity = "unit", "unit or scale left out";
     /// A type with named values.
@@ -59,15 +68,17 @@ kinds! {
     /// A type with named bits.
     BitField = "bit-field", "bit field written as the integer below";
     /// A record or array in one entry.
-    Structure = "structure", "array or record in one entry written as DOMAIN";
-    /// An integer of a width that CANopen doesn't have.
-    Widened = "widened-type", "type of a width that CANopen doesn't have written as the next wider one";
-    /// A type that CANopen doesn't have, or that nobody defines.
-    UnknownType = "unknown-type", "type that CANopen doesn't have written as DOMAIN";
+    Structure = "structure", "array or record in one entry written as raw bytes";
+    /// An integer of a width that the format doesn't have.
+    Widened = "widened-type", "integer of a width that the format doesn't have written as the next wider one";
+    /// A type that the format doesn't have, or that nobody defines.
+    UnknownType = "unknown-type", "type that the format doesn't have written as raw bytes";
     /// The greatest length of a text.
     Length = "text-length", "greatest length of a string left out";
     /// Several ranges, or a list of values.
     AllowedValues = "allowed-values", "list of allowed values left out but for the least and the greatest";
+    /// Default and limits of a value in cyclic data.
+    Limits = "limits", "default or limits of a value in cyclic data left out";
     /// A default or limit of another kind than its type.
     Value = "value", "value that its type can't have left out";
     /// A limit between two integers.
@@ -105,7 +116,7 @@ kinds! {
     /// Two objects, or entries, at one address.
     Duplicate = "duplicate", "further object or entry of an index left out";
     /// An extension attribute that no key can carry.
-    Extension = "extension", "extension attribute that isn't of CiA 306 left out";
+    Extension = "extension", "extension attribute that the format has no place for left out";
     /// A module.
     Module = "module", "module of another bus left out";
     /// Slots.
@@ -116,16 +127,44 @@ kinds! {
     Axis = "axis", "further axis left out: the file has the objects of the first";
     /// A PROFINET submodule, a message, a code table, a state machine, a procedure, a variant.
     OtherPart = "other-part", "message, code table, state machine, procedure, variant or submodule left out";
-    /// A setting of CANopen that only XDD has.
-    Setting = "setting", "setting of CANopen that CiA 306 doesn't have left out";
+    /// A setting of the device or of one of its objects.
+    Setting = "setting", "setting that the format doesn't have left out";
     /// A date or version of another form.
-    FileInfo = "file-info", "date, time or version of the file that isn't of CiA 306's form left out or replaced";
+    FileInfo = "file-info", "date, time, version or comment of the file that the format has in another form, or not at all, left out or replaced";
     /// A text with a line break.
     LineBreak = "line-break", "line break in a text written as a blank";
     /// A text that isn't ASCII.
     NotAscii = "not-ascii", "line that isn't ASCII: the file has to be UTF-8";
     /// A line of over 255 characters.
     LongLine = "long-line", "line of over 255 characters";
+    /// A value that never changes.
+    Constant = "constant", "constant written as a read-only value";
+    /// A named range of values.
+    ValueRange = "value-range", "range of values of an enumeration written as its first value";
+    /// A name that has to be the only one.
+    Renamed = "renamed", "name that occurs twice made unique";
+    /// A type without a fixed length.
+    UnknownLength = "unknown-length", "type whose length nothing tells written with a length of 0";
+    /// An object of CAN's own services.
+    CanObject = "can-object", "object that is about CAN itself (identifiers, SYNC, heartbeat) left out";
+    /// An object without entries.
+    EmptyObject = "empty-object", "object without entries left out";
+    /// Half of a group of facts.
+    Incomplete = "incomplete", "facts left out because the format wants others beside them that are missing";
+    /// A spelling that the schema doesn't allow.
+    Spelling = "spelling", "word or number of a form that the schema doesn't allow left out";
+    /// A device of another vendor.
+    OtherVendor = "other-vendor", "device or module of another vendor left out: a file has one";
+    /// A control character.
+    Control = "control-character", "control character left out of a text";
+    /// A text in a file that has a text list.
+    MissingText = "missing-text", "element without the text that the format wants for it named by its identifier";
+    /// A field of a process image that overlaps another, or isn't whole bytes.
+    Layout = "layout", "field of cyclic data that doesn't begin or end with a byte written as octets or bits";
+    /// An item that is in no process image.
+    NotInData = "not-in-data", "item that is in no cyclic data left out";
+    /// A number that the least significant byte comes first of.
+    ByteOrder = "byte-order", "number whose least significant byte comes first written as octets: the bus has the most significant first";
 }
 
 /// Collects notes.
@@ -158,6 +197,7 @@ pub(super) enum Place<'a> {
 }
 
 impl Place<'_> {
+    /// The object that a group is.
     pub(super) fn object(group: &Group) -> Self {
         group.index().map_or(Place::Device, Place::Object)
     }

@@ -8,13 +8,14 @@ use crate::source::Origin;
 /// Name of a sub-index 0 that no register describes (CiA 301 7.4.3).
 const COUNT_NAME: CompactString = CompactString::const_new("Highest sub-index supported");
 
-/// An object for every index that only registers have: a VAR where there is nothing but sub-index 0, else a RECORD.
-pub(super) fn objects(device: &Device) -> Vec<Group> {
+/// An object for every index that only registers have: a VAR where there is nothing but sub-index 0, else a RECORD. `address`
+/// gives index and sub-index of a register on the bus that is meant.
+pub(super) fn objects(device: &Device, address: impl Fn(&Item) -> Option<(u16, u8)>) -> Vec<Group> {
     let taken: HashSet<u16> = device.groups.iter().filter_map(Group::index).collect();
     let mut found: BTreeMap<u16, (&Group, BTreeMap<u8, &Item>)> = BTreeMap::new();
     for chapter in device.groups.iter().filter(|group| group.index().is_none()) {
         for item in &chapter.items {
-            let Some((index, sub)) = item.object().filter(|(index, _)| !taken.contains(index)) else { continue };
+            let Some((index, sub)) = address(item).filter(|(index, _)| !taken.contains(index)) else { continue };
             found.entry(index).or_insert_with(|| (chapter, BTreeMap::new())).1.entry(sub).or_insert(item);
         }
     }
@@ -56,9 +57,9 @@ fn name(chapter: &Group, items: &BTreeMap<u8, &Item>) -> CompactString {
 }
 
 /// How many registers have the address of an object, or of another register, and so no place of their own.
-pub(super) fn duplicates(device: &Device) -> usize {
+pub(super) fn duplicates(device: &Device, address: impl Fn(&Item) -> Option<(u16, u8)>) -> usize {
     let chapters = device.groups.iter().filter(|group| group.index().is_none());
-    let addresses = chapters.flat_map(|chapter| &chapter.items).filter_map(Item::object);
+    let addresses = chapters.flat_map(|chapter| &chapter.items).filter_map(address);
     let mut seen = HashSet::new();
     addresses.filter(|&(index, sub)| device.object(index).is_some() || !seen.insert((index, sub))).count()
 }
@@ -87,7 +88,7 @@ mod tests {
         ];
         let control = Group::object(0x6040, ObjectCode::Var);
         let device = Device { groups: vec![chapter, control], ..Device::default() };
-        let objects = objects(&device);
+        let objects = objects(&device, Item::object);
         let told = |group: &Group| (group.index(), group.object_code(), group.name.to_string(), group.items.len());
         let expected = [
             (Some(0x2000), Some(ObjectCode::Record), "Motor".to_owned(), 3),
@@ -95,7 +96,7 @@ mod tests {
             (Some(0x2002), Some(ObjectCode::Record), "Axis".to_owned(), 2),
         ];
         assert_eq!(objects.iter().map(told).collect::<Vec<_>>(), expected);
-        assert_eq!((duplicates(&device), completed(&objects)), (2, 2));
+        assert_eq!((duplicates(&device, Item::object), completed(&objects)), (2, 2));
         assert_eq!(objects[0].sub(0).and_then(|item| item.default.clone()), Some(Value::Int(2)));
     }
 }

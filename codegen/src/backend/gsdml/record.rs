@@ -1,0 +1,240 @@
+//! Parameter records: constants, parameters and menus.
+
+use std::fmt::Write as _;
+
+use super::types::{self, Name};
+use super::Context;
+use crate::backend::note::{NoteKind, Place};
+use crate::backend::xml::Xml;
+use crate::ir::{
+    Access, Binding, CompactString, Extension, FParameter, FParameters, Group, GroupKind, Item, Menu, Record,
+    Submodule, Type, Value,
+};
+
+/// Writes RecordDataList, if there is anything in it.
+pub(super) fn list(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodule) {
+    if submodule.records.is_empty() && submodule.f_parameters.is_none() {
+        return;
+    }
+    xml.open("RecordDataList");
+    let mut left: Vec<&Menu> = submodule.menus.iter().collect();
+    for group in &submodule.records {
+        let GroupKind::Record(record) = &group.kind else { continue };
+        xml.open("ParameterRecordDataItem");
+        xml.attribute("Index", record.index);
+        xml.attribute("Length", record.length);
+        if record.transfer_sequence != 0 {
+            xml.attribute("TransferSequence", record.transfer_sequence);
+        }
+        xml.optional("ChangeableWithBump", record.changeable_with_bump);
+        xml.open("Name");
+        xml.attribute("TextId", context.texts.id(&group.name, &group.names));
+        xml.close();
+        let (own, others) = menus_of(group, left);
+        left = others;
+        body(xml, context, record, group, &own);
+        xml.close();
+    }
+    context.notes.add_many(NoteKind::OtherPart, left.len(), Place::Named(&submodule.name));
+    if let Some(parameters) = &submodule.f_parameters {
+        f_record(xml, submodule, parameters);
+    }
+    xml.close();
+}
+
+/// The menus with parameters of a record, those that such menus lead to, and the others.
+fn menus_of<'m>(group: &Group, left: Vec<&'m Menu>) -> (Vec<&'m Menu>, Vec<&'m Menu>) {
+    let mut targets: Vec<&str> = group.items.iter().filter_map(id).map(CompactString::as_str).collect();
+    let mut own = vec![false; left.len()];
+    // A menu belongs where one of its targets is, and where a menu that refers to it is.
+    for _ in 0..left.len() {
+        let mut is_done = true;
+        for (menu, is_own) in left.iter().zip(&mut own) {
+            let is_met = menu.targets.iter().any(|target| targets.contains(&target.as_str()))
+                || targets.contains(&menu.id.as_str());
+            if is_met && !*is_own {
+                (*is_own, is_done) = (true, false);
+                targets.push(&menu.id);
+            }
+        }
+        if is_done {
+            break;
+        }
+    }
+    let (own, others): (Vec<_>, Vec<_>) = left.into_iter().zip(own).partition(|(_, is_own)| *is_own);
+    (own.into_iter().map(|(menu, _)| menu).collect(), others.into_iter().map(|(menu, _)| menu).collect())
+}
+
+fn id(item: &Item) -> Option<&CompactString> {
+    item.extensions.iter().find(|extension| extension.key == "ID").map(|extension| &extension.value)
+}
+
+/// Constants, parameters and menus.
+pub(super) fn body(xml: &mut Xml, context: &mut Context<'_>, record: &Record, group: &Group, menus: &[&Menu]) {
+    for (offset, data) in &record.constants {
+        xml.open("Const");
+        if *offset != 0 {
+            xml.attribute("ByteOffset", offset);
+        }
+        xml.attribute("Data", octets(data));
+        xml.close();
+    }
+    group.items.iter().for_each(|item| parameter(xml, context, item));
+    if !menus.is_empty() {
+        xml.open("MenuList");
+        menus.iter().for_each(|own| menu(xml, context, own, menus));
+        xml.close();
+    }
+    context.notes.add_many(NoteKind::Extension, group.extensions.len(), Place::Named(&group.name));
+}
+
+fn octets(data: &[u8]) -> String {
+    let mut text = String::with_capacity(5 * data.len());
+    for byte in data {
+        let comma = if text.is_empty() { "" } else { "," };
+        let _ = write!(text, "{comma}0x{byte:02X}");
+    }
+    text
+}
+
+fn parameter(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
+    let place = Place::Named(&item.name);
+    let Some(Binding::Record { bit_offset, bits, .. }) = item.bindings.first() else {
+        return context.notes.add(NoteKind::Binding, place);
+    };
+    let (offset, bits, types) = (*bit_offset, *bits, context.types);
+    let values = types::enumeration(item.ty, types);
+    let ty = values.map_or(item.ty, |(_, base)| base);
+    xml.open("Ref");
+    xml.optional("ID", id(item));
+    let is_bits = match ty {
+        Type::Boolean | Type::Unsigned(1) => bits == 1,
+        Type::Unsigned(width) => !matches!(width, 8 | 16 | 32 | 64) || offset % 8 != 0,
+        _ => false,
+    };
+    let Name { name, needs_length, note } = match (is_bits, ty) {
+        (true, Type::Boolean | Type::Unsigned(1)) => Name { name: "Bit", needs_length: false, note: None },
+        (true, _) => Name { name: "BitArea", needs_length: false, note: None },
+        (false, _) => types::name(ty, bits, types),
+    };
+    if let Some(note) = note {
+        context.notes.add(note, place);
+    }
+    xml.optional("ValueItemTarget", values.map(|(def, _)| &def.name).or_else(|| kept(item, "ValueItemTarget")));
+    xml.attribute("DataType", name);
+    xml.attribute("ByteOffset", offset / 8);
+    if is_bits && offset % 8 != 0 {
+        xml.attribute("BitOffset", offset % 8);
+    }
+    if name == "BitArea" {
+        xml.attribute("BitLength", bits);
+    }
+    if needs_length {
+        xml.attribute("Length", bits / 8);
+    }
+    if let Some(default) = item.default.as_ref().and_then(value) {
+        xml.attribute("DefaultValue", default);
+    }
+    xml.optional("AllowedValues", allowed(item));
+    if !matches!(item.access, Access::ReadWrite) {
+        xml.attribute("Changeable", "false");
+    }
+    if item.behaviour.as_ref().is_some_and(|behaviour| behaviour.hidden) {
+        xml.attribute("Visible", "false");
+    }
+    xml.attribute("TextId", context.texts.id(&item.name, &item.names));
+    xml.close();
+    let is_told = |extension: &&Extension| matches!(extension.key.as_str(), "ID" | "ValueItemTarget" | "AllowedValues");
+    let lost = item.extensions.iter().filter(|extension| !is_told(extension)).count();
+    context.notes.add_many(NoteKind::Extension, lost, place);
+}
+
+fn kept<'i>(item: &'i Item, key: &str) -> Option<&'i CompactString> {
+    item.extensions.iter().find(|extension| extension.key == key).map(|extension| &extension.value)
+}
+
+fn value(value: &Value) -> Option<String> {
+    Some(match value {
+        Value::Bool(value) => u8::from(*value).to_string(),
+        Value::Int(value) => value.to_string(),
+        Value::Real(value) => real(*value),
+        Value::Text(text) | Value::Raw(text) => text.to_string(),
+        Value::Bytes(bytes) => octets(bytes),
+        Value::NodeId(_) | Value::Time { .. } => return None,
+    })
+}
+
+/// A number with a point, or an exponent, of which no side is empty.
+fn real(value: f64) -> String {
+    format!("{value:?}")
+}
+
+/// The values that are allowed, as ranges; what was kept as it is stays so.
+fn allowed(item: &Item) -> Option<String> {
+    if let Some(kept) = kept(item, "AllowedValues") {
+        return Some(kept.to_string());
+    }
+    let limits = &item.limits;
+    let one = limits.low.clone().zip(limits.high.clone());
+    let ranges = if limits.allowed.is_empty() { one.as_slice() } else { &limits.allowed };
+    let range = |(first, last): &(Value, Value)| match (value(first)?, value(last)?) {
+        (first, last) if first == last => Some(first),
+        (first, last) => Some(format!("{first}..{last}")),
+    };
+    let texts: Vec<String> = ranges.iter().filter_map(range).collect();
+    (!texts.is_empty()).then(|| texts.join(" "))
+}
+
+fn menu(xml: &mut Xml, context: &mut Context<'_>, menu: &Menu, all: &[&Menu]) {
+    xml.open("MenuItem");
+    xml.attribute("ID", &menu.id);
+    xml.open("Name");
+    xml.attribute("TextId", context.texts.id(&menu.name, &menu.names));
+    xml.close();
+    for target in &menu.targets {
+        let is_menu = all.iter().any(|other| other.id == *target);
+        let (element, attribute) =
+            if is_menu { ("MenuRef", "MenuTarget") } else { ("ParameterRef", "ParameterTarget") };
+        xml.open(element);
+        xml.attribute(attribute, target);
+        xml.close();
+    }
+    xml.close();
+}
+
+fn f_record(xml: &mut Xml, submodule: &Submodule, parameters: &FParameters) {
+    xml.open("F_ParameterRecordDataItem");
+    xml.attribute("Index", parameters.index);
+    if parameters.transfer_sequence != 0 {
+        xml.attribute("TransferSequence", parameters.transfer_sequence);
+    }
+    xml.optional("F_ParamDescCRC", parameters.description_crc);
+    for (key, value) in &submodule.attributes {
+        if let Some(("F_ParameterRecordDataItem", name)) = key.split_once('@') {
+            xml.attribute(name, value);
+        }
+    }
+    parameters.parameters.iter().for_each(|own| f_parameter(xml, own));
+    xml.close();
+}
+
+fn f_parameter(xml: &mut Xml, parameter: &FParameter) {
+    xml.open(parameter.name.to_string());
+    match parameter.label.as_str() {
+        "" => xml.attribute("DefaultValue", parameter.default),
+        label => xml.attribute("DefaultValue", label),
+    }
+    let range = |&(first, last): &(i128, i128)| match first == last {
+        true => first.to_string(),
+        false => format!("{first}..{last}"),
+    };
+    let ranges: Vec<String> = parameter.allowed.iter().map(range).collect();
+    if !parameter.allowed_labels.is_empty() {
+        xml.attribute("AllowedValues", parameter.allowed_labels.join(" "));
+    } else if !ranges.is_empty() {
+        xml.attribute("AllowedValues", ranges.join(" "));
+    }
+    xml.attribute("Changeable", parameter.changeable);
+    xml.attribute("Visible", parameter.visible);
+    xml.close();
+}

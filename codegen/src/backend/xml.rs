@@ -1,0 +1,155 @@
+//! Elements, attributes and texts of an XML file in the making.
+
+use std::borrow::Cow;
+use std::fmt::Display;
+
+use quick_xml::escape::escape;
+
+/// A file in the making. Every element that is opened has to be closed.
+pub(super) struct Xml {
+    text: String,
+    open: Vec<Open>,
+    /// Characters that XML 1.0 doesn't allow, which were left out.
+    pub(super) dropped: usize,
+}
+
+/// An element that isn't closed yet.
+struct Open {
+    name: Cow<'static, str>,
+    content: Content,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Content {
+    /// The start tag isn't finished: attributes may follow.
+    Tag,
+    Text,
+    Elements,
+}
+
+impl Xml {
+    pub(super) fn new() -> Self {
+        Xml { text: "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".into(), open: Vec::new(), dropped: 0 }
+    }
+
+    /// Starts an element.
+    pub(super) fn open(&mut self, name: impl Into<Cow<'static, str>>) {
+        self.finish_tag(Content::Elements);
+        let name = name.into();
+        self.indent();
+        self.text.push('<');
+        self.text += &name;
+        self.open.push(Open { name, content: Content::Tag });
+    }
+
+    /// An attribute of the element that was opened last.
+    pub(super) fn attribute(&mut self, name: &str, value: impl Display) {
+        let value = self.allowed(value.to_string());
+        self.text.push(' ');
+        self.text += name;
+        self.text += "=\"";
+        // A line break in an attribute is read as a blank, if it isn't a reference.
+        let breaks = [("\t", "&#9;"), ("\n", "&#10;"), ("\r", "&#13;")];
+        let value = breaks.into_iter().fold(escape(&*value).into_owned(), |text, (from, to)| text.replace(from, to));
+        self.text += &value;
+        self.text.push('"');
+    }
+
+    /// The same where there is a value.
+    pub(super) fn optional(&mut self, name: &str, value: Option<impl Display>) {
+        if let Some(value) = value {
+            self.attribute(name, value);
+        }
+    }
+
+    /// An attribute that is there only where it is true.
+    pub(super) fn flag(&mut self, name: &str, value: bool, word: &str) {
+        if value {
+            self.attribute(name, word);
+        }
+    }
+
+    /// Text within the element that was opened last.
+    pub(super) fn content(&mut self, value: impl Display) {
+        let value = self.allowed(value.to_string());
+        if !value.is_empty() {
+            self.finish_tag(Content::Text);
+            self.text += &quick_xml::escape::partial_escape(&*value).replace('\r', "&#13;");
+        }
+    }
+
+    /// Ends the element that was opened last.
+    pub(super) fn close(&mut self) {
+        let Some(Open { name, content }) = self.open.pop() else { return };
+        match content {
+            Content::Tag => self.text += "/>\n",
+            Content::Text | Content::Elements => {
+                if content == Content::Elements {
+                    self.indent();
+                }
+                self.text += "</";
+                self.text += &name;
+                self.text += ">\n";
+            }
+        }
+    }
+
+    /// An element with nothing but text.
+    pub(super) fn leaf(&mut self, name: impl Into<Cow<'static, str>>, value: impl Display) {
+        self.open(name);
+        self.content(value);
+        self.close();
+    }
+
+    /// Ends the start tag of the element that was opened last, if that isn't done.
+    fn finish_tag(&mut self, content: Content) {
+        if let Some(last) = self.open.last_mut().filter(|last| last.content == Content::Tag) {
+            last.content = content;
+            self.text += if content == Content::Elements { ">\n" } else { ">" };
+        }
+    }
+
+    fn indent(&mut self) {
+        self.text.extend(std::iter::repeat_n("  ", self.open.len()));
+    }
+
+    /// `text` without what no XML file can have in it.
+    fn allowed(&mut self, mut text: String) -> String {
+        let is_forbidden = |letter: char| {
+            letter < ' ' && !matches!(letter, '\t' | '\n' | '\r') || matches!(letter, '\u{FFFE}' | '\u{FFFF}')
+        };
+        let count = text.chars().filter(|letter| is_forbidden(*letter)).count();
+        if count > 0 {
+            self.dropped += count;
+            text.retain(|letter| !is_forbidden(letter));
+        }
+        text
+    }
+
+    /// The file.
+    pub(super) fn finish(mut self) -> String {
+        while !self.open.is_empty() {
+            self.close();
+        }
+        self.text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_stay_within_their_elements() {
+        let mut xml = Xml::new();
+        xml.open("A");
+        xml.attribute("b", "\"<&\n");
+        xml.open("C");
+        xml.close();
+        xml.leaf("D", "</D>\u{1}&\r");
+        xml.leaf("E", "");
+        assert_eq!(xml.dropped, 1);
+        let expected = "<A b=\"&quot;&lt;&amp;&#10;\">\n  <C/>\n  <D>&lt;/D&gt;&amp;&#13;</D>\n  <E/>\n</A>\n";
+        assert_eq!(xml.finish(), format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{expected}"));
+    }
+}

@@ -1,0 +1,84 @@
+//! Languages: the LcId of Windows that ETG.2000 uses, and the tags of BCP 47 that the IR has.
+
+use compact_str::{format_compact, CompactString};
+
+/// The language of a text without LcId.
+pub(crate) const ENGLISH: u32 = 1033;
+
+/// Numbers and tags; of a language without a region, the first one is meant.
+const LANGUAGES: [(u32, &str); 23] = [
+    (1028, "zh-TW"),
+    (1029, "cs-CZ"),
+    (1030, "da-DK"),
+    (1031, "de-DE"),
+    (1033, "en-US"),
+    (3082, "es-ES"),
+    (1034, "es-ES"),
+    (1035, "fi-FI"),
+    (1036, "fr-FR"),
+    (1038, "hu-HU"),
+    (1040, "it-IT"),
+    (1041, "ja-JP"),
+    (1042, "ko-KR"),
+    (1043, "nl-NL"),
+    (1044, "nb-NO"),
+    (1045, "pl-PL"),
+    (1046, "pt-BR"),
+    (1049, "ru-RU"),
+    (1053, "sv-SE"),
+    (1055, "tr-TR"),
+    (2052, "zh-CN"),
+    (2057, "en-GB"),
+    (2070, "pt-PT"),
+];
+
+/// How well a text serves as the name: 1033, then one that says no language, then any.
+pub(crate) fn rank(lcid: Option<u32>) -> u8 {
+    match lcid {
+        Some(ENGLISH) => 0,
+        None | Some(0 | 1) => 1,
+        Some(_) => 2,
+    }
+}
+
+/// The tag of a language.
+pub(crate) fn tag(lcid: Option<u32>) -> CompactString {
+    let lcid = lcid.unwrap_or(ENGLISH);
+    match LANGUAGES.iter().find(|(number, _)| *number == lcid) {
+        Some((_, tag)) => CompactString::const_new(tag),
+        None => format_compact!("lcid:{lcid}"),
+    }
+}
+
+/// The number of the language with this tag, or of its first region.
+pub(crate) fn lcid(tag: &str) -> Option<u32> {
+    if let Some(number) = tag.strip_prefix("lcid:") {
+        return number.parse().ok();
+    }
+    let exact = LANGUAGES.iter().find(|(_, other)| other.eq_ignore_ascii_case(tag));
+    let of_language = |other: &str| other.split('-').next().is_some_and(|own| own.eq_ignore_ascii_case(tag));
+    // Chinese without a region is written with simplified characters, Portuguese is Portugal's.
+    let region = match tag {
+        "zh" => return Some(2052),
+        "pt" => return Some(2070),
+        _ => LANGUAGES.iter().find(|(_, other)| of_language(other)),
+    };
+    exact.or(region).map(|&(number, _)| number)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tags_and_numbers() {
+        for (number, _) in LANGUAGES.iter().filter(|(number, _)| *number != 1034) {
+            assert_eq!(lcid(&tag(Some(*number))), Some(*number));
+        }
+        assert_eq!(lcid("de"), Some(1031));
+        assert_eq!(lcid("IT"), Some(1040));
+        assert_eq!(lcid("en"), Some(1033));
+        assert_eq!(lcid(&tag(Some(7))), Some(7));
+        assert_eq!(lcid("tlh"), None);
+    }
+}

@@ -1,0 +1,84 @@
+//! What tests of exports have in common: the IR of what was exported, beside that of the original.
+
+use std::collections::BTreeMap;
+
+use lexibus_codegen::compile::{Compilation, Options};
+use lexibus_codegen::ir::Catalog;
+use lexibus_codegen::source::Source;
+use serde_json::Value;
+
+use super::File;
+
+/// What the file says, without what profiles add.
+pub fn options() -> Options {
+    Options { no_profiles: true, ..Options::default() }
+}
+
+pub fn source(file: &File) -> Source {
+    Source::new(file.name.as_str(), file.bytes.clone())
+}
+
+/// The IR without places, and without what it says of the files that were read.
+pub fn content(catalog: &Catalog) -> Value {
+    let mut value = serde_json::to_value(catalog).expect("JSON");
+    value["files"] = Value::Null;
+    each_object(&mut value, &mut |fields| {
+        fields.retain(|name, _| !matches!(name.as_str(), "origin" | "span" | "at" | "name_at"));
+    });
+    value
+}
+
+/// Calls `change` for every object, the outer ones first.
+pub fn each_object(value: &mut Value, change: &mut impl FnMut(&mut serde_json::Map<String, Value>)) {
+    match value {
+        Value::Object(fields) => {
+            change(fields);
+            fields.values_mut().for_each(|value| each_object(value, change));
+        }
+        Value::Array(list) => list.iter_mut().for_each(|value| each_object(value, change)),
+        _ => {}
+    }
+}
+
+/// Where two values differ first.
+pub fn difference(left: &Value, right: &Value, path: &str) -> Option<String> {
+    match (left, right) {
+        (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => {
+            a.iter().find_map(|(key, value)| difference(value, &b[key], &format!("{path}.{key}")))
+        }
+        (Value::Array(a), Value::Array(b)) => {
+            let pairs = a.iter().zip(b).enumerate();
+            let inner = pairs.into_iter().find_map(|(at, (a, b))| difference(a, b, &format!("{path}[{at}]")));
+            inner.or_else(|| (a.len() != b.len()).then(|| format!("{path}: {} and {} elements", a.len(), b.len())))
+        }
+        _ if left == right => None,
+        _ => {
+            let short = |value: &Value| value.to_string().chars().take(300).collect::<String>();
+            Some(format!("{path}: {} became {}", short(left), short(right)))
+        }
+    }
+}
+
+/// How often each code was reported.
+pub fn counts(compilation: &Compilation) -> BTreeMap<&'static str, usize> {
+    let mut counts = BTreeMap::new();
+    compilation.diagnostics.list().iter().for_each(|found| *counts.entry(found.code.id).or_default() += 1);
+    counts
+}
+
+/// Takes all extension attributes out, and gives how often each is there.
+pub fn take_extensions(value: &mut Value) -> BTreeMap<(String, String), usize> {
+    let mut taken = BTreeMap::new();
+    each_object(value, &mut |fields| {
+        let Some(Value::Array(list)) = fields.insert("extensions".into(), Value::Null).filter(|old| !old.is_null())
+        else {
+            fields.remove("extensions");
+            return;
+        };
+        for extension in list {
+            let text = |name: &str| extension[name].as_str().unwrap_or_default().to_owned();
+            *taken.entry((text("key"), text("value"))).or_default() += 1;
+        }
+    });
+    taken
+}

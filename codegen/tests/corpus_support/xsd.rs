@@ -1,0 +1,69 @@
+//! Validation against the schemas of ETG and PI, by libxml2.
+//!
+//! The schemas stand beside the repository and are no part of it. libxml2 is reached through `lxml`, which
+//! `tests/interop/setup.sh` installs: `LEXIBUS_PYTHON` names a Python that has it. Without either, tests say so and pass.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Prints a line for every violation: the name of the file, the line, and what is wrong.
+const SCRIPT: &str = "\
+import os, sys
+from lxml import etree
+schema, folder = sys.argv[1:]
+schema = etree.XMLSchema(etree.parse(schema))
+for name in sorted(os.listdir(folder)):
+    try:
+        document = etree.parse(os.path.join(folder, name))
+    except (etree.XMLSyntaxError, OSError) as error:
+        print(f'{name}: {error}')
+        continue
+    if not schema.validate(document):
+        for error in schema.error_log:
+            print(f'{name}: {error.line}: {error.message}')
+print('done')
+";
+
+/// A validator for one schema.
+pub struct Schema {
+    path: PathBuf,
+    python: PathBuf,
+}
+
+impl Schema {
+    /// The schema at `path` below the folder of schemas; `None`, with a message, where it or the validator is missing.
+    pub fn new(path: &str) -> Option<Self> {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let path = root.join("../shared/schemas").join(path);
+        if !path.is_file() {
+            eprintln!("skipped: there is no schema at {}", path.display());
+            return None;
+        }
+        let own = root.join("target/python/bin/python");
+        let usual = if own.is_file() { own } else { "python3".into() };
+        let python = std::env::var_os("LEXIBUS_PYTHON").map_or(usual, PathBuf::from);
+        let found = Command::new(&python).args(["-c", "import lxml"]).output();
+        if !found.is_ok_and(|output| output.status.success()) {
+            eprintln!("skipped: {} has no lxml (tests/interop/setup.sh installs it)", python.display());
+            return None;
+        }
+        Some(Schema { path, python })
+    }
+
+    /// What is wrong with `files`, which are names and contents; `what` tells calls of one program apart.
+    pub fn violations<'f>(&self, what: &str, files: impl IntoIterator<Item = (&'f str, &'f [u8])>) -> Vec<String> {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("xsd-{what}-{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(&folder).expect("a folder for files to validate");
+        for (name, content) in files {
+            std::fs::write(folder.join(name), content).expect("a file to validate");
+        }
+        let output = Command::new(&self.python).args(["-c", SCRIPT]).arg(&self.path).arg(&folder).output();
+        let output = output.expect("the validator runs");
+        let _ = std::fs::remove_dir_all(&folder);
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        assert_eq!(lines.pop().as_deref(), Some("done"), "{}", String::from_utf8_lossy(&output.stderr));
+        lines
+    }
+}
