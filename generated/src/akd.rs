@@ -416,6 +416,22 @@ pub const STARTUP: &[rt::SdoWrite] = &[
 pub struct Akd<C> {
     client: C,
 }
+impl<X> Akd<rt::Parameters<X, messages::Protocol, { messages::MAX_DATA }>> {
+    /// The device, over what exchanges the data of messages.
+    pub const fn on(exchange: X) -> Self {
+        Self::new(rt::Parameters::new(exchange, messages::Protocol))
+    }
+}
+impl<C> Akd<C> {
+    /// SDO.
+    pub fn sdo(
+        &mut self,
+        message: messages::Sdo,
+    ) -> rt::message::Call<'_, C, messages::Sdo> {
+        let message = message;
+        rt::message::Call::new(&mut self.client, message)
+    }
+}
 impl<C> Akd<C> {
     /// The device that `client` talks to.
     pub const fn new(client: C) -> Self {
@@ -428,6 +444,114 @@ impl<C> Akd<C> {
     /// Gives the client back.
     pub fn into_client(self) -> C {
         self.client
+    }
+    /// AL control: memory 0x0120.
+    pub fn al_control(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, types::AlControl, rt::OnEsc> {
+        objects::AL_CONTROL.at(&mut self.client)
+    }
+    /// AL status: memory 0x0130.
+    pub fn al_status(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, types::AlStatus, rt::OnEsc> {
+        objects::AL_STATUS.at(&mut self.client)
+    }
+    /// AL status code: memory 0x0134.
+    pub fn al_status_code(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, types::AlStatusCode, rt::OnEsc> {
+        objects::AL_STATUS_CODE.at(&mut self.client)
+    }
+    /// Interrupt enable: memory 0x0204.
+    pub fn interrupt_enable(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, types::InterruptEnable, rt::OnEsc> {
+        objects::INTERRUPT_ENABLE.at(&mut self.client)
+    }
+    /// AL event request: memory 0x0220.
+    pub fn al_event_request(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, types::AlEventRequest, rt::OnEsc> {
+        objects::AL_EVENT_REQUEST.at(&mut self.client)
+    }
+    /// SyncManager 0: memory 0x0800.
+    pub fn sync_manager_0(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
+        objects::SYNC_MANAGER_0.at(&mut self.client)
+    }
+    /// SyncManager 1: memory 0x0808.
+    pub fn sync_manager_1(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
+        objects::SYNC_MANAGER_1.at(&mut self.client)
+    }
+    /// SyncManager 2: memory 0x0810.
+    pub fn sync_manager_2(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
+        objects::SYNC_MANAGER_2.at(&mut self.client)
+    }
+    /// SyncManager 3: memory 0x0818.
+    pub fn sync_manager_3(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
+        objects::SYNC_MANAGER_3.at(&mut self.client)
+    }
+    /// SyncManager 4: memory 0x0820.
+    pub fn sync_manager_4(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
+        objects::SYNC_MANAGER_4.at(&mut self.client)
+    }
+    /// SyncManager 5: memory 0x0828.
+    pub fn sync_manager_5(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
+        objects::SYNC_MANAGER_5.at(&mut self.client)
+    }
+    /// SyncManager 6: memory 0x0830.
+    pub fn sync_manager_6(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
+        objects::SYNC_MANAGER_6.at(&mut self.client)
+    }
+    /// SyncManager 7: memory 0x0838.
+    pub fn sync_manager_7(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
+        objects::SYNC_MANAGER_7.at(&mut self.client)
+    }
+    /// SyncManager 8: memory 0x0840.
+    pub fn sync_manager_8(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
+        objects::SYNC_MANAGER_8.at(&mut self.client)
+    }
+    /// ProcOut buffer: memory 0x1100.
+    pub fn proc_out_buffer(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
+        objects::PROC_OUT_BUFFER.at(&mut self.client)
+    }
+    /// ProcIn buffer: memory 0x1140.
+    pub fn proc_in_buffer(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, rt::OctetString, rt::OnEsc> {
+        objects::PROC_IN_BUFFER.at(&mut self.client)
+    }
+    /// Mailbox out buffer: memory 0x1800.
+    pub fn mailbox_out_buffer(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
+        objects::MAILBOX_OUT_BUFFER.at(&mut self.client)
+    }
+    /// Mailbox in buffer: memory 0x1C00.
+    pub fn mailbox_in_buffer(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, rt::OctetString, rt::OnEsc> {
+        objects::MAILBOX_IN_BUFFER.at(&mut self.client)
     }
     /// RxPDO mapping 1: 0x1600.
     pub fn rx_pdo_mapping_1(&mut self) -> objects::rx_pdo_mapping_1::Accessors<'_, C> {
@@ -494,65 +618,75 @@ impl<C> Akd<C> {
         }
     }
     /// Second position feedback: 0x2050.
-    pub fn second_position_feedback(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
+    pub fn second_position_feedback(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCoE> {
         objects::SECOND_POSITION_FEEDBACK.at(&mut self.client)
     }
     /// Latch position, rising edge: 0x20A0.
-    pub fn latch_position_rising_edge(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
+    pub fn latch_position_rising_edge(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCoE> {
         objects::LATCH_POSITION_RISING_EDGE.at(&mut self.client)
     }
     /// Latch control word: 0x20A4.
     pub fn latch_control_word(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, types::LatchControl> {
+    ) -> objects::ReadWriteAccess<'_, C, types::LatchControl, rt::OnCoE> {
         objects::LATCH_CONTROL_WORD.at(&mut self.client)
     }
     /// Latch status word: 0x20A5.
     pub fn latch_status_word(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, types::LatchStatus> {
+    ) -> objects::ReadOnlyAccess<'_, C, types::LatchStatus, rt::OnCoE> {
         objects::LATCH_STATUS_WORD.at(&mut self.client)
     }
     /// Analogue input value: 0x3470.
-    pub fn analogue_input_value(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
+    pub fn analogue_input_value(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, i16, rt::OnCoE> {
         objects::ANALOGUE_INPUT_VALUE.at(&mut self.client)
     }
     /// Control word: 0x6040.
     pub fn control_word(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, types::ControlWord> {
+    ) -> objects::ReadWriteAccess<'_, C, types::ControlWord, rt::OnCoE> {
         objects::CONTROL_WORD.at(&mut self.client)
     }
     /// Status word: 0x6041.
-    pub fn status_word(&mut self) -> objects::ReadOnlyAccess<'_, C, types::StatusWord> {
+    pub fn status_word(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, types::StatusWord, rt::OnCoE> {
         objects::STATUS_WORD.at(&mut self.client)
     }
     /// Modes of operation: 0x6060.
     pub fn modes_of_operation(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, types::ModesOfOperation> {
+    ) -> objects::ReadWriteAccess<'_, C, types::ModesOfOperation, rt::OnCoE> {
         objects::MODES_OF_OPERATION.at(&mut self.client)
     }
     /// Internal position actual value: 0x6063.
     pub fn internal_position_actual_value(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, i32> {
+    ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCoE> {
         objects::INTERNAL_POSITION_ACTUAL_VALUE.at(&mut self.client)
     }
     /// Velocity actual value: 0x606C.
-    pub fn velocity_actual_value(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
+    pub fn velocity_actual_value(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCoE> {
         objects::VELOCITY_ACTUAL_VALUE.at(&mut self.client)
     }
     /// Torque actual value: 0x6077.
     pub fn torque_actual_value(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, rt::Scaled<i16, 1, 10>> {
+    ) -> objects::ReadOnlyAccess<'_, C, rt::Scaled<i16, 1, 10>, rt::OnCoE> {
         objects::TORQUE_ACTUAL_VALUE.at(&mut self.client)
     }
     /// Torque feed-forward: 0x60B2.
     pub fn torque_feed_forward(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 10>> {
+    ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 10>, rt::OnCoE> {
         objects::TORQUE_FEED_FORWARD.at(&mut self.client)
     }
     /// Interpolation data record: 0x60C1.
@@ -574,13 +708,13 @@ impl<C> Akd<C> {
     /// Following error actual value: 0x60F4.
     pub fn following_error_actual_value(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, i32> {
+    ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCoE> {
         objects::FOLLOWING_ERROR_ACTUAL_VALUE.at(&mut self.client)
     }
     /// Digital inputs: 0x60FD.
     pub fn digital_inputs(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, types::DigitalInputs> {
+    ) -> objects::ReadOnlyAccess<'_, C, types::DigitalInputs, rt::OnCoE> {
         objects::DIGITAL_INPUTS.at(&mut self.client)
     }
     /// Digital outputs: 0x60FE.
@@ -590,8 +724,208 @@ impl<C> Akd<C> {
         }
     }
     /// Velocity command value: 0x60FF.
-    pub fn velocity_command_value(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
+    pub fn velocity_command_value(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnCoE> {
         objects::VELOCITY_COMMAND_VALUE.at(&mut self.client)
+    }
+}
+/// Requests and replies.
+pub mod messages {
+    use ::lexibus as rt;
+    /// The greatest length of the data of a message, in bytes.
+    pub const MAX_DATA: usize = 16;
+    /// The messages that carry parameters.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Protocol;
+    impl rt::message::Station for Protocol {
+        fn station(&self) -> u32 {
+            0
+        }
+    }
+    /// SDO.
+    ///
+    /// An object is written or read through the mailbox: at most four bytes, in 16 bytes each way. The master writes the request to 0x1800 of the slave controller, and reads the reply at 0x1C00.
+    ///
+    /// Manual, line 1130-1167, 1169-1205: Uscita della Mailbox, ingresso della Mailbox.
+    ///
+    /// Note: No abort codes are listed: they are those of CANopen (L1203). Chosen: none in the table (the profile of CoE has them).
+    ///
+    /// Note: Only writes and reads of up to four bytes are described (L1156-1158); other types of the CoE header aren't. Chosen: this one message (the other types have no bytes in the manual).
+    ///
+    /// Note: The request's ten bytes are byte 2 to byte 11 (L1211-1212). Chosen: ten bytes, from byte 6 to byte 15 (the data of the mailbox are what follows its header, and are ten bytes).
+    ///
+    /// Note: The reply has length 0x0E, for byte 2 to byte 15 (L1230-1231), and as many data as the request. Chosen: 0x0A (the length of the request is that of the data from byte 6 on).
+    ///
+    /// Note: The reply has 0x20 in byte 7, and calls it an SDO response (L1237); type 2 is the request, 3 the response (L1149-1150, L1188-1189). Chosen: 0x30 (the table of types has it so).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Sdo {
+        /// address: UNSIGNED16.
+        ///
+        /// Manual, line 1139, 1140.
+        pub address: u16,
+        /// routing: UNSIGNED8.
+        ///
+        /// Manual, line 1141.
+        pub routing: super::types::MailboxRouting,
+        /// type: UNSIGNED8.
+        ///
+        /// Manual, line 1142-1143.
+        pub r#type: super::types::MailboxType,
+        /// command: UNSIGNED8.
+        ///
+        /// Manual, line 1156-1158: Byte di controllo nel telegramma CAN.
+        pub command: super::types::SdoCommand,
+        /// index: UNSIGNED16.
+        ///
+        /// Manual, line 1159, 1160.
+        pub index: u16,
+        /// sub index: UNSIGNED8.
+        ///
+        /// Manual, line 1161.
+        pub sub_index: u8,
+        /// data: UNSIGNED32.
+        ///
+        /// What is written, in as many of its lower bytes as the command says.
+        ///
+        /// Manual, line 1162-1165.
+        pub data: u32,
+    }
+    impl rt::message::Message for Sdo {
+        type Reply<'r> = SdoReply;
+        type Refusal = core::convert::Infallible;
+        const NAME: &'static str = "SDO";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            let length_at = to.len();
+            to.ordered(&[1, 0], 0)?;
+            to.ordered(&[1, 0], self.address as u64)?;
+            to.number(8, self.routing.raw() as u64)?;
+            to.number(8, self.r#type.raw() as u64)?;
+            to.ordered(&[1, 0], 8192)?;
+            to.number(8, self.command.raw() as u64)?;
+            to.ordered(&[1, 0], self.index as u64)?;
+            to.number(8, self.sub_index as u64)?;
+            to.ordered(&[3, 2, 1, 0], self.data as u64)?;
+            to.length(length_at, &[1, 0], 6)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for Sdo {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let length = from.ordered(&[1, 0])?;
+            from.counted(6, length)?;
+            let value_0 = from.ordered(&[1, 0])?;
+            let value_1 = from.number(8)?;
+            let value_2 = from.number(8)?;
+            from.fixed_in(&[1, 0], 8192)?;
+            let value_3 = from.number(8)?;
+            let value_4 = from.ordered(&[1, 0])?;
+            let value_5 = from.number(8)?;
+            let value_6 = from.ordered(&[3, 2, 1, 0])?;
+            from.end()?;
+            let own = Self {
+                address: value_0 as u16,
+                routing: super::types::MailboxRouting::from_raw(value_1 as u8),
+                r#type: super::types::MailboxType::from_raw(value_2 as u8),
+                command: super::types::SdoCommand::from_raw(value_3 as u8),
+                index: value_4 as u16,
+                sub_index: value_5 as u8,
+                data: value_6 as u32,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`Sdo`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct SdoReply {
+        /// address: UNSIGNED16.
+        ///
+        /// Manual, line 1178, 1179.
+        pub address: u16,
+        /// routing: UNSIGNED8.
+        ///
+        /// Manual, line 1180.
+        pub routing: super::types::MailboxRouting,
+        /// type: UNSIGNED8.
+        ///
+        /// Manual, line 1181-1182.
+        pub r#type: super::types::MailboxType,
+        /// result: UNSIGNED8.
+        ///
+        /// Manual, line 1195-1198.
+        pub result: super::types::SdoResult,
+        /// data: UNSIGNED32.
+        ///
+        /// The value that was read, or the abort code.
+        ///
+        /// Manual, line 1202-1205.
+        ///
+        /// Note: Error code beside byte 13 and value beside byte 14 (L1203-1204), in cells of a field of four bytes. Chosen: both of all four bytes (the data go from byte 12, the lower one, to byte 15 (L1202, L1205)).
+        pub data: u32,
+    }
+    impl<'a> rt::message::Reply<'a> for SdoReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            let length = from.ordered(&[1, 0])?;
+            from.counted(6, length)?;
+            let value_0 = from.ordered(&[1, 0])?;
+            let value_1 = from.number(8)?;
+            let value_2 = from.number(8)?;
+            from.fixed_in(&[1, 0], 12288)?;
+            let value_3 = from.number(8)?;
+            from.echo(request, 9, 2)?;
+            from.echo(request, 11, 1)?;
+            let value_4 = from.ordered(&[3, 2, 1, 0])?;
+            from.end()?;
+            let own = Self {
+                address: value_0 as u16,
+                routing: super::types::MailboxRouting::from_raw(value_1 as u8),
+                r#type: super::types::MailboxType::from_raw(value_2 as u8),
+                result: super::types::SdoResult::from_raw(value_3 as u8),
+                data: value_4 as u32,
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            let length_at = to.len();
+            to.ordered(&[1, 0], 0)?;
+            to.ordered(&[1, 0], self.address as u64)?;
+            to.number(8, self.routing.raw() as u64)?;
+            to.number(8, self.r#type.raw() as u64)?;
+            to.ordered(&[1, 0], 12288)?;
+            to.number(8, self.result.raw() as u64)?;
+            to.echo(request, 9, 2)?;
+            to.echo(request, 11, 1)?;
+            to.ordered(&[3, 2, 1, 0], self.data as u64)?;
+            to.length(length_at, &[1, 0], 6)?;
+            Ok(())
+        }
+    }
+    /// A request, as a simulated device gets it.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum Request {
+        /// [`Sdo`].
+        Sdo(Sdo),
+    }
+    impl Request {
+        /// The number of the device that is meant, and the request; `None` where the data are none. Of requests that are alike, the
+        /// first is told.
+        pub fn parse(data: &[u8]) -> Option<(u32, Self)> {
+            let from = rt::message::Reader::new(data);
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::Sdo(own)));
+            }
+            None
+        }
     }
 }
 /// Values and bits that have names.
@@ -935,6 +1269,216 @@ pub mod types {
         }
     }
     impl rt::Enumeration for SynchronisationSupervision {
+        type Base = u8;
+        fn from_native(native: u8) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u8 {
+            self.raw()
+        }
+    }
+    /// MailboxType protocol.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum MailboxTypeProtocol {
+        /// 1: AoE. Must not be used. ADS over EtherCAT: reserved.
+        AoE,
+        /// 2: EoE. Must not be used. Ethernet over EtherCAT: reserved.
+        EoE,
+        /// 3: CoE. CAN application protocol over EtherCAT.
+        CoE,
+        /// Any other number.
+        Unknown(u8),
+    }
+    impl MailboxTypeProtocol {
+        /// The value of a number.
+        pub const fn from_raw(raw: u8) -> Self {
+            match raw {
+                1 => Self::AoE,
+                2 => Self::EoE,
+                3 => Self::CoE,
+                other => Self::Unknown(other),
+            }
+        }
+        /// The number of a value.
+        pub const fn raw(self) -> u8 {
+            match self {
+                Self::AoE => 1,
+                Self::EoE => 2,
+                Self::CoE => 3,
+                Self::Unknown(other) => other,
+            }
+        }
+    }
+    impl rt::Enumeration for MailboxTypeProtocol {
+        type Base = rt::Uint<4>;
+        fn from_native(native: u8) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u8 {
+            self.raw()
+        }
+    }
+    /// CoeService.
+    ///
+    /// Manual, line 1147-1155, 1186-1194.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum CoeService {
+        /// 0: reserved. Must not be used. Manual, line 1147, 1186: Riserva.
+        Reserved,
+        /// 1: emergency. Manual, line 1148, 1187: messaggio di emergenza.
+        Emergency,
+        /// 2: SDO request. Manual, line 1149, 1188: richiesta SDO.
+        SdoRequest,
+        /// 3: SDO response. Manual, line 1150, 1189: risposta SDO.
+        SdoResponse,
+        /// 4: TxPDO. Manual, line 1151, 1190.
+        TxPdo,
+        /// 5: RxPDO. Manual, line 1152, 1191.
+        RxPdo,
+        /// 6: TxPDO remote request. Manual, line 1153, 1192: richiesta di trasmissione a distanza di un TxPDO.
+        TxPdoRemoteRequest,
+        /// 7: RxPDO remote request. Manual, line 1154, 1193: richiesta di trasmissione a distanza di un RxPDO.
+        RxPdoRemoteRequest,
+        /// Any other number.
+        Unknown(u8),
+    }
+    impl CoeService {
+        /// The value of a number.
+        pub const fn from_raw(raw: u8) -> Self {
+            match raw {
+                0 => Self::Reserved,
+                1 => Self::Emergency,
+                2 => Self::SdoRequest,
+                3 => Self::SdoResponse,
+                4 => Self::TxPdo,
+                5 => Self::RxPdo,
+                6 => Self::TxPdoRemoteRequest,
+                7 => Self::RxPdoRemoteRequest,
+                other => Self::Unknown(other),
+            }
+        }
+        /// The number of a value.
+        pub const fn raw(self) -> u8 {
+            match self {
+                Self::Reserved => 0,
+                Self::Emergency => 1,
+                Self::SdoRequest => 2,
+                Self::SdoResponse => 3,
+                Self::TxPdo => 4,
+                Self::RxPdo => 5,
+                Self::TxPdoRemoteRequest => 6,
+                Self::RxPdoRemoteRequest => 7,
+                Self::Unknown(other) => other,
+            }
+        }
+    }
+    impl rt::Enumeration for CoeService {
+        type Base = rt::Uint<4>;
+        fn from_native(native: u8) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u8 {
+            self.raw()
+        }
+    }
+    /// SdoCommand.
+    ///
+    /// Manual, line 1156-1158.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum SdoCommand {
+        /// 35: write 4 bytes. Manual, line 1157.
+        Write4Bytes,
+        /// 39: write 3 bytes. Manual, line 1157.
+        Write3Bytes,
+        /// 43: write 2 bytes. Manual, line 1157.
+        Write2Bytes,
+        /// 47: write 1 byte. Manual, line 1157.
+        Write1Byte,
+        /// 64: read. Manual, line 1158.
+        Read,
+        /// Any other number.
+        Unknown(u8),
+    }
+    impl SdoCommand {
+        /// The value of a number.
+        pub const fn from_raw(raw: u8) -> Self {
+            match raw {
+                35 => Self::Write4Bytes,
+                39 => Self::Write3Bytes,
+                43 => Self::Write2Bytes,
+                47 => Self::Write1Byte,
+                64 => Self::Read,
+                other => Self::Unknown(other),
+            }
+        }
+        /// The number of a value.
+        pub const fn raw(self) -> u8 {
+            match self {
+                Self::Write4Bytes => 35,
+                Self::Write3Bytes => 39,
+                Self::Write2Bytes => 43,
+                Self::Write1Byte => 47,
+                Self::Read => 64,
+                Self::Unknown(other) => other,
+            }
+        }
+    }
+    impl rt::Enumeration for SdoCommand {
+        type Base = u8;
+        fn from_native(native: u8) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u8 {
+            self.raw()
+        }
+    }
+    /// SdoResult.
+    ///
+    /// Manual, line 1195-1198.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum SdoResult {
+        /// 67: read 4 bytes. Manual, line 1197.
+        Read4Bytes,
+        /// 71: read 3 bytes. Manual, line 1197.
+        Read3Bytes,
+        /// 75: read 2 bytes. Manual, line 1197.
+        Read2Bytes,
+        /// 79: read 1 byte. Manual, line 1197.
+        Read1Byte,
+        /// 96: written. Manual, line 1196.
+        Written,
+        /// 128: error. Of reading or writing. Manual, line 1198.
+        Error,
+        /// Any other number.
+        Unknown(u8),
+    }
+    impl SdoResult {
+        /// The value of a number.
+        pub const fn from_raw(raw: u8) -> Self {
+            match raw {
+                67 => Self::Read4Bytes,
+                71 => Self::Read3Bytes,
+                75 => Self::Read2Bytes,
+                79 => Self::Read1Byte,
+                96 => Self::Written,
+                128 => Self::Error,
+                other => Self::Unknown(other),
+            }
+        }
+        /// The number of a value.
+        pub const fn raw(self) -> u8 {
+            match self {
+                Self::Read4Bytes => 67,
+                Self::Read3Bytes => 71,
+                Self::Read2Bytes => 75,
+                Self::Read1Byte => 79,
+                Self::Written => 96,
+                Self::Error => 128,
+                Self::Unknown(other) => other,
+            }
+        }
+    }
+    impl rt::Enumeration for SdoResult {
         type Base = u8;
         fn from_native(native: u8) -> Self {
             Self::from_raw(native)
@@ -1954,6 +2498,188 @@ pub mod types {
             bits.finish()
         }
     }
+    /// MailboxRouting.
+    ///
+    /// Manual, line 1141, 1180.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct MailboxRouting(u8);
+    impl MailboxRouting {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u8) -> Self {
+            Self(raw)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u8 {
+            self.0
+        }
+        /// Bits 5 to 0: channel. Manual, line 1141, 1180: Canale.
+        pub const fn channel(self) -> u8 {
+            self.0 & 0x3F
+        }
+        /// The same with another [`channel`](Self::channel).
+        #[must_use]
+        pub const fn with_channel(self, value: u8) -> Self {
+            Self((self.0 & !0x3F) | (value & 0x3F))
+        }
+        /// Bits 7 to 6: priority. Manual, line 1141, 1180: priorità.
+        pub const fn priority(self) -> u8 {
+            (self.0 >> 6) & 0x3
+        }
+        /// The same with another [`priority`](Self::priority).
+        #[must_use]
+        pub const fn with_priority(self, value: u8) -> Self {
+            Self((self.0 & !0xC0) | ((value << 6) & 0xC0))
+        }
+    }
+    impl Default for MailboxRouting {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for MailboxRouting {
+        type Base = u8;
+        fn from_native(native: u8) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u8 {
+            self.0
+        }
+    }
+    impl core::fmt::Debug for MailboxRouting {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "MailboxRouting", self.0 as u64);
+            let bits = rt::DebugBits::field(bits, "channel", 0x3F, &self.channel());
+            let bits = rt::DebugBits::field(bits, "priority", 0xC0, &self.priority());
+            bits.finish()
+        }
+    }
+    /// MailboxType.
+    ///
+    /// Manual, line 1142-1143, 1181-1182.
+    ///
+    /// Bits 0xF0 are written as 0.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct MailboxType(u8);
+    impl MailboxType {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u8) -> Self {
+            Self(raw)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u8 {
+            self.0
+        }
+        /// Bits 3 to 0: protocol. Manual, line 1142, 1181: Tipo.
+        pub const fn protocol(self) -> MailboxTypeProtocol {
+            MailboxTypeProtocol::from_raw(self.0 & 0xF)
+        }
+        /// The same with another [`protocol`](Self::protocol).
+        #[must_use]
+        pub const fn with_protocol(self, value: MailboxTypeProtocol) -> Self {
+            Self((self.0 & !0xF) | (value.raw() & 0xF))
+        }
+    }
+    impl Default for MailboxType {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for MailboxType {
+        type Base = u8;
+        fn from_native(native: u8) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u8 {
+            self.0 & !0xF0
+        }
+        fn as_is(self) -> u8 {
+            self.0
+        }
+    }
+    impl core::fmt::Debug for MailboxType {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "MailboxType", self.0 as u64);
+            let bits = rt::DebugBits::field(bits, "protocol", 0xF, &self.protocol());
+            bits.finish()
+        }
+    }
+    /// CoeHeader.
+    ///
+    /// Manual, line 1144-1155, 1183-1194.
+    ///
+    /// Bits 0xE00 are written as 0.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct CoeHeader(u16);
+    impl CoeHeader {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u16) -> Self {
+            Self(raw)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u16 {
+            self.0
+        }
+        /// Bits 8 to 0: PDO number. Of PDOs only: byte 6 with bit 0 of byte 7 on top. Manual, line 1144, 1145, 1183, 1184: Numero PDO.
+        pub const fn pdo_number(self) -> u16 {
+            self.0 & 0x1FF
+        }
+        /// The same with another [`pdo_number`](Self::pdo_number).
+        #[must_use]
+        pub const fn with_pdo_number(self, value: u16) -> Self {
+            Self((self.0 & !0x1FF) | (value & 0x1FF))
+        }
+        /// Bits 15 to 12: service. Manual, line 1147-1155, 1186-1194: Tipo specifico CoE.
+        pub const fn service(self) -> CoeService {
+            CoeService::from_raw(((self.0 >> 12) & 0xF) as u8)
+        }
+        /// The same with another [`service`](Self::service).
+        #[must_use]
+        pub const fn with_service(self, value: CoeService) -> Self {
+            Self((self.0 & !0xF000) | (((value.raw() as u16) << 12) & 0xF000))
+        }
+    }
+    impl Default for CoeHeader {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for CoeHeader {
+        type Base = u16;
+        fn from_native(native: u16) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u16 {
+            self.0 & !0xE00
+        }
+        fn as_is(self) -> u16 {
+            self.0
+        }
+    }
+    impl core::fmt::Debug for CoeHeader {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "CoeHeader", self.0 as u64);
+            let bits = rt::DebugBits::field(
+                bits,
+                "pdo_number",
+                0x1FF,
+                &self.pdo_number(),
+            );
+            let bits = rt::DebugBits::field(bits, "service", 0xF000, &self.service());
+            bits.finish()
+        }
+    }
     /// DigitalInputs.
     #[derive(Clone, Copy, PartialEq)]
     pub struct DigitalInputs(u32);
@@ -2496,6 +3222,8 @@ pub mod codes {
     use ::lexibus as rt;
     /// al\_status.
     ///
+    /// What the AL status code means, of which changes of state, and in which state the drive is then.
+    ///
     /// Further columns: change of state, resulting state.
     pub static AL_STATUS: &[rt::codes::Code] = &[
         rt::codes::Code::new(
@@ -2562,6 +3290,8 @@ pub mod codes {
     }
     /// operating\_modes.
     ///
+    /// The modes of operation that are supported, and the drive's own parameters that go with them.
+    ///
     /// Further columns: DRV.OPMODE, DRV.CMDSOURCE.
     pub static OPERATING_MODES: &[rt::codes::Code] = &[
         rt::codes::Code::new(
@@ -2621,6 +3351,8 @@ pub mod codes {
         }
     }
     /// faults.
+    ///
+    /// The one fault that the manual names.
     pub static FAULTS: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             0x7D,
@@ -3105,34 +3837,423 @@ pub mod procedures {
         rt::SdoWrite::new_u8(0x60C2, 0x02, 0xFD),
     ];
 }
-/// A handle for every entry of the object dictionary.
+/// A handle for every register and every entry of the object dictionary.
 pub mod objects {
     use ::lexibus as rt;
-    /// An entry that can be read.
-    pub type ReadOnly<V> = rt::Item<V, rt::Ro, rt::OnCoE>;
-    /// An entry that can be read and written.
-    pub type ReadWrite<V> = rt::Item<V, rt::Rw, rt::OnCoE>;
-    type ReadOnlyI16 = ReadOnly<i16>;
-    type ReadOnlyI16Times1Per10 = ReadOnly<rt::Scaled<i16, 1, 10>>;
-    type ReadOnlyI32 = ReadOnly<i32>;
-    type ReadOnlyNamedDigitalInputs = ReadOnly<super::types::DigitalInputs>;
-    type ReadOnlyNamedLatchStatus = ReadOnly<super::types::LatchStatus>;
-    type ReadOnlyNamedStatusWord = ReadOnly<super::types::StatusWord>;
-    type ReadWriteExponentialU8 = ReadWrite<rt::Exponential<u8>>;
-    type ReadWriteI16Times1Per10 = ReadWrite<rt::Scaled<i16, 1, 10>>;
-    type ReadWriteI32 = ReadWrite<i32>;
-    type ReadWriteI8 = ReadWrite<i8>;
-    type ReadWriteNamedControlWord = ReadWrite<super::types::ControlWord>;
-    type ReadWriteNamedDigitalOutputs = ReadWrite<super::types::DigitalOutputs>;
-    type ReadWriteNamedLatchControl = ReadWrite<super::types::LatchControl>;
-    type ReadWriteNamedModesOfOperation = ReadWrite<super::types::ModesOfOperation>;
-    type ReadWriteNamedPdoMapping = ReadWrite<super::types::PdoMapping>;
-    type ReadWriteU16 = ReadWrite<u16>;
-    type ReadWriteU8 = ReadWrite<u8>;
-    /// Access to an entry that can be read.
-    pub type ReadOnlyAccess<'c, C, V> = rt::Accessor<'c, C, V, rt::Ro, rt::OnCoE>;
-    /// Access to an entry that can be read and written.
-    pub type ReadWriteAccess<'c, C, V> = rt::Accessor<'c, C, V, rt::Rw, rt::OnCoE>;
+    /// The location of what is found on EtherCAT, the slave controller.
+    pub type OnCoEEsc = rt::Location<
+        rt::Absent,
+        rt::Object,
+        rt::Absent,
+        rt::Absent,
+        rt::Absent,
+        rt::Absent,
+        rt::EscMemory,
+    >;
+    /// A register or an entry that can be read.
+    pub type ReadOnly<V, L = OnCoEEsc> = rt::Item<V, rt::Ro, L>;
+    /// A register or an entry that can be read and written.
+    pub type ReadWrite<V, L = OnCoEEsc> = rt::Item<V, rt::Rw, L>;
+    type ReadOnlyI16OnCoE = ReadOnly<i16, rt::OnCoE>;
+    type ReadOnlyI16Times1Per10OnCoE = ReadOnly<rt::Scaled<i16, 1, 10>, rt::OnCoE>;
+    type ReadOnlyI32OnCoE = ReadOnly<i32, rt::OnCoE>;
+    type ReadOnlyNamedAlStatusCodeOnEsc = ReadOnly<
+        super::types::AlStatusCode,
+        rt::OnEsc,
+    >;
+    type ReadOnlyNamedAlStatusOnEsc = ReadOnly<super::types::AlStatus, rt::OnEsc>;
+    type ReadOnlyNamedDigitalInputsOnCoE = ReadOnly<
+        super::types::DigitalInputs,
+        rt::OnCoE,
+    >;
+    type ReadOnlyNamedInterruptEnableOnEsc = ReadOnly<
+        super::types::InterruptEnable,
+        rt::OnEsc,
+    >;
+    type ReadOnlyNamedLatchStatusOnCoE = ReadOnly<super::types::LatchStatus, rt::OnCoE>;
+    type ReadOnlyNamedStatusWordOnCoE = ReadOnly<super::types::StatusWord, rt::OnCoE>;
+    type ReadOnlyOctetStringOnEsc = ReadOnly<rt::OctetString, rt::OnEsc>;
+    type ReadWriteExponentialU8OnCoE = ReadWrite<rt::Exponential<u8>, rt::OnCoE>;
+    type ReadWriteI16Times1Per10OnCoE = ReadWrite<rt::Scaled<i16, 1, 10>, rt::OnCoE>;
+    type ReadWriteI32OnCoE = ReadWrite<i32, rt::OnCoE>;
+    type ReadWriteI8OnCoE = ReadWrite<i8, rt::OnCoE>;
+    type ReadWriteNamedAlControlOnEsc = ReadWrite<super::types::AlControl, rt::OnEsc>;
+    type ReadWriteNamedAlEventRequestOnEsc = ReadWrite<
+        super::types::AlEventRequest,
+        rt::OnEsc,
+    >;
+    type ReadWriteNamedControlWordOnCoE = ReadWrite<
+        super::types::ControlWord,
+        rt::OnCoE,
+    >;
+    type ReadWriteNamedDigitalOutputsOnCoE = ReadWrite<
+        super::types::DigitalOutputs,
+        rt::OnCoE,
+    >;
+    type ReadWriteNamedLatchControlOnCoE = ReadWrite<
+        super::types::LatchControl,
+        rt::OnCoE,
+    >;
+    type ReadWriteNamedModesOfOperationOnCoE = ReadWrite<
+        super::types::ModesOfOperation,
+        rt::OnCoE,
+    >;
+    type ReadWriteNamedPdoMappingOnCoE = ReadWrite<super::types::PdoMapping, rt::OnCoE>;
+    type ReadWriteOctetStringOnEsc = ReadWrite<rt::OctetString, rt::OnEsc>;
+    type ReadWriteU16OnCoE = ReadWrite<u16, rt::OnCoE>;
+    type ReadWriteU8OnCoE = ReadWrite<u8, rt::OnCoE>;
+    /// Access to a register or an entry that can be read.
+    pub type ReadOnlyAccess<'c, C, V, L = OnCoEEsc> = rt::Accessor<'c, C, V, rt::Ro, L>;
+    /// Access to a register or an entry that can be read and written.
+    pub type ReadWriteAccess<'c, C, V, L = OnCoEEsc> = rt::Accessor<'c, C, V, rt::Rw, L>;
+    /// AL control.
+    ///
+    /// UNSIGNED16, rw.
+    ///
+    /// State that the master asks for
+    ///
+    /// The device's own side has it ro.
+    ///
+    /// Memory of the slave controller: 2 bytes from 0x0120 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 533, 607-616: Controllo AL.
+    ///
+    /// Note: R/W for the master (L533), SENZA (without) in the table of its bits (L609-616). Chosen: rw (SENZA stands for W/O, and reading back what was written does no harm; both say that the drive reads only).
+    pub const AL_CONTROL: ReadWrite<super::types::AlControl, rt::OnEsc> = ReadWriteNamedAlControlOnEsc::new(
+        rt::OnEsc::memory(0x0120, 2),
+        "AL control",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// AL status.
+    ///
+    /// UNSIGNED16, ro.
+    ///
+    /// State that the drive is in
+    ///
+    /// The device's own side has it rw.
+    ///
+    /// Memory of the slave controller: 2 bytes from 0x0130 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 534, 619-628: Stato AL.
+    ///
+    /// Note: R/W for the drive (L534), SENZA (without) in the table of its bits (L621-628). Chosen: rw for the drive's side (SENZA stands for W/O; the master's side is R/O in both).
+    pub const AL_STATUS: ReadOnly<super::types::AlStatus, rt::OnEsc> = ReadOnlyNamedAlStatusOnEsc::new(
+        rt::OnEsc::memory(0x0130, 2),
+        "AL status",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// AL status code.
+    ///
+    /// UNSIGNED16, ro.
+    ///
+    /// Why a change of state was refused; all bits of both bytes are the code
+    ///
+    /// The device's own side has it rw.
+    ///
+    /// Memory of the slave controller: 2 bytes from 0x0134 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 535, 631-641: Codice dello stato AL.
+    ///
+    /// Note: R/W for the drive (L535), SENZA (without) in the table of its bytes (L633-634). Chosen: rw for the drive's side (SENZA stands for W/O; the master's side is R/O in both).
+    pub const AL_STATUS_CODE: ReadOnly<super::types::AlStatusCode, rt::OnEsc> = ReadOnlyNamedAlStatusCodeOnEsc::new(
+        rt::OnEsc::memory(0x0134, 2),
+        "AL status code",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// Interrupt enable.
+    ///
+    /// UNSIGNED16, ro.
+    ///
+    /// Events that interrupt the drive's processor while their bit is 1
+    ///
+    /// The device's own side has it rw.
+    ///
+    /// Memory of the slave controller: 2 bytes from 0x0204 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 536, 563-578: Registro di abilitazione dell'interruzione.
+    pub const INTERRUPT_ENABLE: ReadOnly<super::types::InterruptEnable, rt::OnEsc> = ReadOnlyNamedInterruptEnableOnEsc::new(
+        rt::OnEsc::memory(0x0204, 2),
+        "Interrupt enable",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// AL event request.
+    ///
+    /// UNSIGNED16, rw.
+    ///
+    /// Events that the slave controller signals to the drive
+    ///
+    /// The device's own side has it ro.
+    ///
+    /// Memory of the slave controller: 2 bytes from 0x0220 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 537, 580-598: Evento AL (evento IRQ).
+    ///
+    /// Note: R/W for the master (L537, L585-598) of a register that only signals events to the drive. Chosen: rw, as printed (both tables agree).
+    pub const AL_EVENT_REQUEST: ReadWrite<super::types::AlEventRequest, rt::OnEsc> = ReadWriteNamedAlEventRequestOnEsc::new(
+        rt::OnEsc::memory(0x0220, 2),
+        "AL event request",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// SyncManager 0.
+    ///
+    /// OCTET_STRING, rw.
+    ///
+    /// Sync manager of the mailbox to the drive
+    ///
+    /// The device's own side has it ro.
+    ///
+    /// Memory of the slave controller: 8 bytes from 0x0800 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 538: SyncManager 0 (registro di controllo corrispondenza in uscita).
+    pub const SYNC_MANAGER_0: ReadWrite<rt::OctetString, rt::OnEsc> = ReadWriteOctetStringOnEsc::new(
+        rt::OnEsc::memory(0x0800, 8),
+        "SyncManager 0",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// SyncManager 1.
+    ///
+    /// OCTET_STRING, rw.
+    ///
+    /// Sync manager of the mailbox from the drive
+    ///
+    /// The device's own side has it ro.
+    ///
+    /// Memory of the slave controller: 8 bytes from 0x0808 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 539: SyncManager 1 (registro di controllo corrispondenza in ingresso).
+    pub const SYNC_MANAGER_1: ReadWrite<rt::OctetString, rt::OnEsc> = ReadWriteOctetStringOnEsc::new(
+        rt::OnEsc::memory(0x0808, 8),
+        "SyncManager 1",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// SyncManager 2.
+    ///
+    /// OCTET_STRING, rw.
+    ///
+    /// Sync manager of the set-points
+    ///
+    /// The device's own side has it ro.
+    ///
+    /// Memory of the slave controller: 8 bytes from 0x0810 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 540: SyncManager 2 (registro di controllo dati di processo in uscita).
+    pub const SYNC_MANAGER_2: ReadWrite<rt::OctetString, rt::OnEsc> = ReadWriteOctetStringOnEsc::new(
+        rt::OnEsc::memory(0x0810, 8),
+        "SyncManager 2",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// SyncManager 3.
+    ///
+    /// OCTET_STRING, rw.
+    ///
+    /// Sync manager of the actual values
+    ///
+    /// The device's own side has it ro.
+    ///
+    /// Memory of the slave controller: 8 bytes from 0x0818 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 541: SyncManager 3 (registro di controllo dati di processo in ingresso).
+    pub const SYNC_MANAGER_3: ReadWrite<rt::OctetString, rt::OnEsc> = ReadWriteOctetStringOnEsc::new(
+        rt::OnEsc::memory(0x0818, 8),
+        "SyncManager 3",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// SyncManager 4.
+    ///
+    /// OCTET_STRING, rw.
+    ///
+    /// The device's own side has it ro.
+    ///
+    /// Memory of the slave controller: 8 bytes from 0x0820 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 542: Sync Manager 4.
+    ///
+    /// Note: Sync Manager from 4 on (L542-546), SyncManager up to 3 (L538-541). Chosen: one spelling (addresses and lengths go on alike).
+    pub const SYNC_MANAGER_4: ReadWrite<rt::OctetString, rt::OnEsc> = ReadWriteOctetStringOnEsc::new(
+        rt::OnEsc::memory(0x0820, 8),
+        "SyncManager 4",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// SyncManager 5.
+    ///
+    /// OCTET_STRING, rw.
+    ///
+    /// The device's own side has it ro.
+    ///
+    /// Memory of the slave controller: 8 bytes from 0x0828 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 543: Sync Manager 5.
+    pub const SYNC_MANAGER_5: ReadWrite<rt::OctetString, rt::OnEsc> = ReadWriteOctetStringOnEsc::new(
+        rt::OnEsc::memory(0x0828, 8),
+        "SyncManager 5",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// SyncManager 6.
+    ///
+    /// OCTET_STRING, rw.
+    ///
+    /// The device's own side has it ro.
+    ///
+    /// Memory of the slave controller: 8 bytes from 0x0830 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 544: Sync Manager 6.
+    pub const SYNC_MANAGER_6: ReadWrite<rt::OctetString, rt::OnEsc> = ReadWriteOctetStringOnEsc::new(
+        rt::OnEsc::memory(0x0830, 8),
+        "SyncManager 6",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// SyncManager 7.
+    ///
+    /// OCTET_STRING, rw.
+    ///
+    /// The device's own side has it ro.
+    ///
+    /// Memory of the slave controller: 8 bytes from 0x0838 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 545: Sync Manager 7.
+    pub const SYNC_MANAGER_7: ReadWrite<rt::OctetString, rt::OnEsc> = ReadWriteOctetStringOnEsc::new(
+        rt::OnEsc::memory(0x0838, 8),
+        "SyncManager 7",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// SyncManager 8.
+    ///
+    /// OCTET_STRING, rw.
+    ///
+    /// The device's own side has it ro.
+    ///
+    /// Memory of the slave controller: 8 bytes from 0x0840 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 546: Sync Manager 8.
+    ///
+    /// Note: Nine sync managers, 0 to 8 (L538-546), and events of sixteen, 0 to 15 (L595-598). Chosen: nine registers (only these have addresses; the events of 4 to 15 are reserved anyway).
+    pub const SYNC_MANAGER_8: ReadWrite<rt::OctetString, rt::OnEsc> = ReadWriteOctetStringOnEsc::new(
+        rt::OnEsc::memory(0x0840, 8),
+        "SyncManager 8",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// ProcOut buffer.
+    ///
+    /// OCTET_STRING, rw.
+    ///
+    /// Set-points from the master: 64 bytes at most, as many as the assigned PDOs have
+    ///
+    /// The device's own side has it ro.
+    ///
+    /// Memory of the slave controller: 64 bytes from 0x1100 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 547: Buffer ProOut (uscita dati di processo, setpoint ECAT).
+    pub const PROC_OUT_BUFFER: ReadWrite<rt::OctetString, rt::OnEsc> = ReadWriteOctetStringOnEsc::new(
+        rt::OnEsc::memory(0x1100, 64),
+        "ProcOut buffer",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// ProcIn buffer.
+    ///
+    /// OCTET_STRING, ro.
+    ///
+    /// Actual values of the drive: 64 bytes at most, as many as the assigned PDOs have
+    ///
+    /// The device's own side has it rw.
+    ///
+    /// Memory of the slave controller: 64 bytes from 0x1140 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 548: ProIn (Ingresso dati di processo, valori effettivi ECAT).
+    pub const PROC_IN_BUFFER: ReadOnly<rt::OctetString, rt::OnEsc> = ReadOnlyOctetStringOnEsc::new(
+        rt::OnEsc::memory(0x1140, 64),
+        "ProcIn buffer",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// Mailbox out buffer.
+    ///
+    /// OCTET_STRING, rw.
+    ///
+    /// Requests to the drive, of which it reads 16 bytes
+    ///
+    /// The device's own side has it ro.
+    ///
+    /// Memory of the slave controller: 512 bytes from 0x1800 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 549, 1125, 1134: Buffer corrispondenza in uscita.
+    ///
+    /// Note: 512 bytes here, as the device description says (L549), and 16 bytes that are read (L1125, L1132). Chosen: 512 (the request fills the first 16 bytes of the buffer (L1134)).
+    pub const MAILBOX_OUT_BUFFER: ReadWrite<rt::OctetString, rt::OnEsc> = ReadWriteOctetStringOnEsc::new(
+        rt::OnEsc::memory(0x1800, 512),
+        "Mailbox out buffer",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// Mailbox in buffer.
+    ///
+    /// OCTET_STRING, ro.
+    ///
+    /// Replies of the drive, of 16 bytes
+    ///
+    /// The device's own side has it rw.
+    ///
+    /// Memory of the slave controller: 512 bytes from 0x1C00 on.
+    ///
+    /// Chapter Registers of the slave controller. Manual, line 550, 1171, 1173: Buffer corrispondenza in ingresso.
+    ///
+    /// Note: 512 bytes here, as the device description says (L550), and replies of 16 bytes (L1171). Chosen: 512 (the reply fills the first 16 bytes of the buffer (L1173)).
+    pub const MAILBOX_IN_BUFFER: ReadOnly<rt::OctetString, rt::OnEsc> = ReadOnlyOctetStringOnEsc::new(
+        rt::OnEsc::memory(0x1C00, 512),
+        "Mailbox in buffer",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
     /// RxPDO mapping 1.
     ///
     /// RECORD 0x1600.
@@ -3145,7 +4266,7 @@ pub mod objects {
         /// 0 clears the mapping
         ///
         /// Manual, line 808, 933, 936, 937-939.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1600, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -3158,72 +4279,90 @@ pub mod objects {
         /// 0x1600:01, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_1: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1600,
-            0x01,
-            "Entry 1",
-        );
+        pub const ENTRY_1: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1600, 0x01, "Entry 1");
         /// Entry 2.
         ///
         /// 0x1600:02, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_2: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1600,
-            0x02,
-            "Entry 2",
-        );
+        pub const ENTRY_2: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1600, 0x02, "Entry 2");
         /// Entry 3.
         ///
         /// 0x1600:03, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_3: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1600,
-            0x03,
-            "Entry 3",
-        );
+        pub const ENTRY_3: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1600, 0x03, "Entry 3");
         /// Entry 4.
         ///
         /// 0x1600:04, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_4: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1600,
-            0x04,
-            "Entry 4",
-        );
+        pub const ENTRY_4: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1600, 0x04, "Entry 4");
         /// Access to the entries of RxPDO mapping 1: 0x1600.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1600:00.
-            pub fn number_of_entries(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn number_of_entries(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1600:01.
             pub fn entry_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1600:02.
             pub fn entry_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1600:03.
             pub fn entry_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1600:04.
             pub fn entry_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_4.at(self.client)
             }
         }
@@ -3240,7 +4379,7 @@ pub mod objects {
         /// 0 clears the mapping
         ///
         /// Manual, line 808, 933, 936, 937-939.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1601, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -3253,72 +4392,90 @@ pub mod objects {
         /// 0x1601:01, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_1: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1601,
-            0x01,
-            "Entry 1",
-        );
+        pub const ENTRY_1: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1601, 0x01, "Entry 1");
         /// Entry 2.
         ///
         /// 0x1601:02, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_2: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1601,
-            0x02,
-            "Entry 2",
-        );
+        pub const ENTRY_2: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1601, 0x02, "Entry 2");
         /// Entry 3.
         ///
         /// 0x1601:03, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_3: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1601,
-            0x03,
-            "Entry 3",
-        );
+        pub const ENTRY_3: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1601, 0x03, "Entry 3");
         /// Entry 4.
         ///
         /// 0x1601:04, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_4: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1601,
-            0x04,
-            "Entry 4",
-        );
+        pub const ENTRY_4: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1601, 0x04, "Entry 4");
         /// Access to the entries of RxPDO mapping 2: 0x1601.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1601:00.
-            pub fn number_of_entries(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn number_of_entries(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1601:01.
             pub fn entry_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1601:02.
             pub fn entry_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1601:03.
             pub fn entry_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1601:04.
             pub fn entry_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_4.at(self.client)
             }
         }
@@ -3335,7 +4492,7 @@ pub mod objects {
         /// 0 clears the mapping
         ///
         /// Manual, line 808, 933, 936, 937-939.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1602, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -3348,72 +4505,90 @@ pub mod objects {
         /// 0x1602:01, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_1: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1602,
-            0x01,
-            "Entry 1",
-        );
+        pub const ENTRY_1: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1602, 0x01, "Entry 1");
         /// Entry 2.
         ///
         /// 0x1602:02, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_2: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1602,
-            0x02,
-            "Entry 2",
-        );
+        pub const ENTRY_2: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1602, 0x02, "Entry 2");
         /// Entry 3.
         ///
         /// 0x1602:03, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_3: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1602,
-            0x03,
-            "Entry 3",
-        );
+        pub const ENTRY_3: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1602, 0x03, "Entry 3");
         /// Entry 4.
         ///
         /// 0x1602:04, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_4: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1602,
-            0x04,
-            "Entry 4",
-        );
+        pub const ENTRY_4: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1602, 0x04, "Entry 4");
         /// Access to the entries of RxPDO mapping 3: 0x1602.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1602:00.
-            pub fn number_of_entries(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn number_of_entries(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1602:01.
             pub fn entry_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1602:02.
             pub fn entry_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1602:03.
             pub fn entry_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1602:04.
             pub fn entry_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_4.at(self.client)
             }
         }
@@ -3430,7 +4605,7 @@ pub mod objects {
         /// 0 clears the mapping
         ///
         /// Manual, line 808, 933, 936, 937-939.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1603, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -3443,72 +4618,90 @@ pub mod objects {
         /// 0x1603:01, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_1: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1603,
-            0x01,
-            "Entry 1",
-        );
+        pub const ENTRY_1: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1603, 0x01, "Entry 1");
         /// Entry 2.
         ///
         /// 0x1603:02, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_2: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1603,
-            0x02,
-            "Entry 2",
-        );
+        pub const ENTRY_2: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1603, 0x02, "Entry 2");
         /// Entry 3.
         ///
         /// 0x1603:03, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_3: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1603,
-            0x03,
-            "Entry 3",
-        );
+        pub const ENTRY_3: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1603, 0x03, "Entry 3");
         /// Entry 4.
         ///
         /// 0x1603:04, UNSIGNED32, rw.
         ///
         /// Manual, line 934, 935.
-        pub const ENTRY_4: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1603,
-            0x04,
-            "Entry 4",
-        );
+        pub const ENTRY_4: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1603, 0x04, "Entry 4");
         /// Access to the entries of RxPDO mapping 4: 0x1603.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1603:00.
-            pub fn number_of_entries(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn number_of_entries(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1603:01.
             pub fn entry_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1603:02.
             pub fn entry_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1603:03.
             pub fn entry_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1603:04.
             pub fn entry_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_4.at(self.client)
             }
         }
@@ -3525,7 +4718,7 @@ pub mod objects {
         /// 0 clears the mapping
         ///
         /// Manual, line 808, 926, 929, 930-932.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1A00, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -3538,72 +4731,90 @@ pub mod objects {
         /// 0x1A00:01, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_1: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A00,
-            0x01,
-            "Entry 1",
-        );
+        pub const ENTRY_1: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A00, 0x01, "Entry 1");
         /// Entry 2.
         ///
         /// 0x1A00:02, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_2: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A00,
-            0x02,
-            "Entry 2",
-        );
+        pub const ENTRY_2: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A00, 0x02, "Entry 2");
         /// Entry 3.
         ///
         /// 0x1A00:03, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_3: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A00,
-            0x03,
-            "Entry 3",
-        );
+        pub const ENTRY_3: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A00, 0x03, "Entry 3");
         /// Entry 4.
         ///
         /// 0x1A00:04, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_4: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A00,
-            0x04,
-            "Entry 4",
-        );
+        pub const ENTRY_4: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A00, 0x04, "Entry 4");
         /// Access to the entries of TxPDO mapping 1: 0x1A00.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A00:00.
-            pub fn number_of_entries(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn number_of_entries(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1A00:01.
             pub fn entry_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1A00:02.
             pub fn entry_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1A00:03.
             pub fn entry_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1A00:04.
             pub fn entry_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_4.at(self.client)
             }
         }
@@ -3620,7 +4831,7 @@ pub mod objects {
         /// 0 clears the mapping
         ///
         /// Manual, line 808, 926, 929, 930-932.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1A01, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -3633,72 +4844,90 @@ pub mod objects {
         /// 0x1A01:01, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_1: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A01,
-            0x01,
-            "Entry 1",
-        );
+        pub const ENTRY_1: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A01, 0x01, "Entry 1");
         /// Entry 2.
         ///
         /// 0x1A01:02, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_2: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A01,
-            0x02,
-            "Entry 2",
-        );
+        pub const ENTRY_2: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A01, 0x02, "Entry 2");
         /// Entry 3.
         ///
         /// 0x1A01:03, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_3: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A01,
-            0x03,
-            "Entry 3",
-        );
+        pub const ENTRY_3: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A01, 0x03, "Entry 3");
         /// Entry 4.
         ///
         /// 0x1A01:04, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_4: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A01,
-            0x04,
-            "Entry 4",
-        );
+        pub const ENTRY_4: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A01, 0x04, "Entry 4");
         /// Access to the entries of TxPDO mapping 2: 0x1A01.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A01:00.
-            pub fn number_of_entries(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn number_of_entries(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1A01:01.
             pub fn entry_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1A01:02.
             pub fn entry_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1A01:03.
             pub fn entry_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1A01:04.
             pub fn entry_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_4.at(self.client)
             }
         }
@@ -3715,7 +4944,7 @@ pub mod objects {
         /// 0 clears the mapping
         ///
         /// Manual, line 808, 926, 929, 930-932.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1A02, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -3728,72 +4957,90 @@ pub mod objects {
         /// 0x1A02:01, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_1: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A02,
-            0x01,
-            "Entry 1",
-        );
+        pub const ENTRY_1: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A02, 0x01, "Entry 1");
         /// Entry 2.
         ///
         /// 0x1A02:02, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_2: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A02,
-            0x02,
-            "Entry 2",
-        );
+        pub const ENTRY_2: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A02, 0x02, "Entry 2");
         /// Entry 3.
         ///
         /// 0x1A02:03, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_3: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A02,
-            0x03,
-            "Entry 3",
-        );
+        pub const ENTRY_3: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A02, 0x03, "Entry 3");
         /// Entry 4.
         ///
         /// 0x1A02:04, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_4: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A02,
-            0x04,
-            "Entry 4",
-        );
+        pub const ENTRY_4: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A02, 0x04, "Entry 4");
         /// Access to the entries of TxPDO mapping 3: 0x1A02.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A02:00.
-            pub fn number_of_entries(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn number_of_entries(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1A02:01.
             pub fn entry_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1A02:02.
             pub fn entry_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1A02:03.
             pub fn entry_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1A02:04.
             pub fn entry_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_4.at(self.client)
             }
         }
@@ -3810,7 +5057,7 @@ pub mod objects {
         /// 0 clears the mapping
         ///
         /// Manual, line 808, 926, 929, 930-932.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1A03, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -3823,72 +5070,90 @@ pub mod objects {
         /// 0x1A03:01, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_1: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A03,
-            0x01,
-            "Entry 1",
-        );
+        pub const ENTRY_1: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A03, 0x01, "Entry 1");
         /// Entry 2.
         ///
         /// 0x1A03:02, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_2: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A03,
-            0x02,
-            "Entry 2",
-        );
+        pub const ENTRY_2: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A03, 0x02, "Entry 2");
         /// Entry 3.
         ///
         /// 0x1A03:03, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_3: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A03,
-            0x03,
-            "Entry 3",
-        );
+        pub const ENTRY_3: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A03, 0x03, "Entry 3");
         /// Entry 4.
         ///
         /// 0x1A03:04, UNSIGNED32, rw.
         ///
         /// Manual, line 927, 928.
-        pub const ENTRY_4: super::ReadWrite<super::super::types::PdoMapping> = super::ReadWriteNamedPdoMapping::coe_object(
-            0x1A03,
-            0x04,
-            "Entry 4",
-        );
+        pub const ENTRY_4: super::ReadWrite<
+            super::super::types::PdoMapping,
+            rt::OnCoE,
+        > = super::ReadWriteNamedPdoMappingOnCoE::coe_object(0x1A03, 0x04, "Entry 4");
         /// Access to the entries of TxPDO mapping 4: 0x1A03.
         pub struct Accessors<'c, C> {
             pub(in super::super) client: &'c mut C,
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A03:00.
-            pub fn number_of_entries(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn number_of_entries(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1A03:01.
             pub fn entry_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1A03:02.
             pub fn entry_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1A03:03.
             pub fn entry_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1A03:04.
             pub fn entry_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::PdoMapping> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::PdoMapping,
+                rt::OnCoE,
+            > {
                 ENTRY_4.at(self.client)
             }
         }
@@ -3905,7 +5170,7 @@ pub mod objects {
         /// 0 clears the assignment
         ///
         /// Manual, line 772, 774, 811, 924, 941.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1C12, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -3920,7 +5185,7 @@ pub mod objects {
         /// The only one of a fixed mapping
         ///
         /// Manual, line 768, 773, 809, 815, 940.
-        pub const PDO_1: super::ReadWrite<u16> = super::ReadWriteU16::coe_object_with_default(
+        pub const PDO_1: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object_with_default(
             0x1C12,
             0x01,
             "PDO 1",
@@ -3931,7 +5196,7 @@ pub mod objects {
         /// 0x1C12:02, UNSIGNED16, rw.
         ///
         /// Manual, line 809.
-        pub const PDO_2: super::ReadWrite<u16> = super::ReadWriteU16::coe_object(
+        pub const PDO_2: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
             0x1C12,
             0x02,
             "PDO 2",
@@ -3941,7 +5206,7 @@ pub mod objects {
         /// 0x1C12:03, UNSIGNED16, rw.
         ///
         /// Manual, line 809.
-        pub const PDO_3: super::ReadWrite<u16> = super::ReadWriteU16::coe_object(
+        pub const PDO_3: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
             0x1C12,
             0x03,
             "PDO 3",
@@ -3951,7 +5216,7 @@ pub mod objects {
         /// 0x1C12:04, UNSIGNED16, rw.
         ///
         /// Manual, line 809.
-        pub const PDO_4: super::ReadWrite<u16> = super::ReadWriteU16::coe_object(
+        pub const PDO_4: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
             0x1C12,
             0x04,
             "PDO 4",
@@ -3962,23 +5227,25 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1C12:00.
-            pub fn number_of_entries(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn number_of_entries(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// PDO 1: 0x1C12:01.
-            pub fn pdo_1(&mut self) -> super::ReadWriteAccess<'_, C, u16> {
+            pub fn pdo_1(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_1.at(self.client)
             }
             /// PDO 2: 0x1C12:02.
-            pub fn pdo_2(&mut self) -> super::ReadWriteAccess<'_, C, u16> {
+            pub fn pdo_2(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_2.at(self.client)
             }
             /// PDO 3: 0x1C12:03.
-            pub fn pdo_3(&mut self) -> super::ReadWriteAccess<'_, C, u16> {
+            pub fn pdo_3(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_3.at(self.client)
             }
             /// PDO 4: 0x1C12:04.
-            pub fn pdo_4(&mut self) -> super::ReadWriteAccess<'_, C, u16> {
+            pub fn pdo_4(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_4.at(self.client)
             }
         }
@@ -3995,7 +5262,7 @@ pub mod objects {
         /// 0 clears the assignment
         ///
         /// Manual, line 811, 925, 943.
-        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8> = super::ReadWriteU8::new(
+        pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
             rt::OnCoE::coe(0x1C13, 0x00),
             "Number of entries",
             rt::Range::To(4),
@@ -4010,7 +5277,7 @@ pub mod objects {
         /// The only one of a fixed mapping
         ///
         /// Manual, line 768, 810, 815, 942.
-        pub const PDO_1: super::ReadWrite<u16> = super::ReadWriteU16::coe_object_with_default(
+        pub const PDO_1: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object_with_default(
             0x1C13,
             0x01,
             "PDO 1",
@@ -4021,7 +5288,7 @@ pub mod objects {
         /// 0x1C13:02, UNSIGNED16, rw.
         ///
         /// Manual, line 810.
-        pub const PDO_2: super::ReadWrite<u16> = super::ReadWriteU16::coe_object(
+        pub const PDO_2: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
             0x1C13,
             0x02,
             "PDO 2",
@@ -4031,7 +5298,7 @@ pub mod objects {
         /// 0x1C13:03, UNSIGNED16, rw.
         ///
         /// Manual, line 810.
-        pub const PDO_3: super::ReadWrite<u16> = super::ReadWriteU16::coe_object(
+        pub const PDO_3: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
             0x1C13,
             0x03,
             "PDO 3",
@@ -4041,7 +5308,7 @@ pub mod objects {
         /// 0x1C13:04, UNSIGNED16, rw.
         ///
         /// Manual, line 810.
-        pub const PDO_4: super::ReadWrite<u16> = super::ReadWriteU16::coe_object(
+        pub const PDO_4: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
             0x1C13,
             0x04,
             "PDO 4",
@@ -4052,23 +5319,25 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1C13:00.
-            pub fn number_of_entries(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn number_of_entries(
+                &mut self,
+            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// PDO 1: 0x1C13:01.
-            pub fn pdo_1(&mut self) -> super::ReadWriteAccess<'_, C, u16> {
+            pub fn pdo_1(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_1.at(self.client)
             }
             /// PDO 2: 0x1C13:02.
-            pub fn pdo_2(&mut self) -> super::ReadWriteAccess<'_, C, u16> {
+            pub fn pdo_2(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_2.at(self.client)
             }
             /// PDO 3: 0x1C13:03.
-            pub fn pdo_3(&mut self) -> super::ReadWriteAccess<'_, C, u16> {
+            pub fn pdo_3(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_3.at(self.client)
             }
             /// PDO 4: 0x1C13:04.
-            pub fn pdo_4(&mut self) -> super::ReadWriteAccess<'_, C, u16> {
+            pub fn pdo_4(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_4.at(self.client)
             }
         }
@@ -4080,7 +5349,7 @@ pub mod objects {
     /// Manual, line 995: Seconda retroazione di posizione.
     ///
     /// Note: 2050 without 0x (L995). Chosen: 0x2050 (2050 as a decimal number would be 0x0802, no index of a value).
-    pub const SECOND_POSITION_FEEDBACK: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
+    pub const SECOND_POSITION_FEEDBACK: ReadOnly<i32, rt::OnCoE> = ReadOnlyI32OnCoE::flagged_coe_object(
         0x2050,
         0x00,
         "Second position feedback",
@@ -4093,7 +5362,7 @@ pub mod objects {
     /// Position captured on the rising edge
     ///
     /// Manual, line 998: Fronte positivo della posizione di blocco.
-    pub const LATCH_POSITION_RISING_EDGE: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
+    pub const LATCH_POSITION_RISING_EDGE: ReadOnly<i32, rt::OnCoE> = ReadOnlyI32OnCoE::flagged_coe_object(
         0x20A0,
         0x00,
         "Latch position, rising edge",
@@ -4104,7 +5373,7 @@ pub mod objects {
     /// 0x20A4:00, UNSIGNED16, rw, mappable into RPDOs.
     ///
     /// Manual, line 985, 1071-1085: Parola di controllo del blocco.
-    pub const LATCH_CONTROL_WORD: ReadWrite<super::types::LatchControl> = ReadWriteNamedLatchControl::flagged_coe_object(
+    pub const LATCH_CONTROL_WORD: ReadWrite<super::types::LatchControl, rt::OnCoE> = ReadWriteNamedLatchControlOnCoE::flagged_coe_object(
         0x20A4,
         0x00,
         "Latch control word",
@@ -4115,7 +5384,7 @@ pub mod objects {
     /// 0x20A5:00, UNSIGNED16, ro, mappable into TPDOs.
     ///
     /// Manual, line 1000, 1087-1103: Stato del blocco.
-    pub const LATCH_STATUS_WORD: ReadOnly<super::types::LatchStatus> = ReadOnlyNamedLatchStatus::flagged_coe_object(
+    pub const LATCH_STATUS_WORD: ReadOnly<super::types::LatchStatus, rt::OnCoE> = ReadOnlyNamedLatchStatusOnCoE::flagged_coe_object(
         0x20A5,
         0x00,
         "Latch status word",
@@ -4126,7 +5395,7 @@ pub mod objects {
     /// 0x3470:00, INTEGER16, ro, mappable into TPDOs.
     ///
     /// Manual, line 1001: Valore dell'ingresso analogico.
-    pub const ANALOGUE_INPUT_VALUE: ReadOnly<i16> = ReadOnlyI16::flagged_coe_object(
+    pub const ANALOGUE_INPUT_VALUE: ReadOnly<i16, rt::OnCoE> = ReadOnlyI16OnCoE::flagged_coe_object(
         0x3470,
         0x00,
         "Analogue input value",
@@ -4137,7 +5406,7 @@ pub mod objects {
     /// 0x6040:00, UNSIGNED16, rw, mappable into RPDOs.
     ///
     /// Manual, line 684, 984: Parola di controllo CANopen.
-    pub const CONTROL_WORD: ReadWrite<super::types::ControlWord> = ReadWriteNamedControlWord::flagged_coe_object(
+    pub const CONTROL_WORD: ReadWrite<super::types::ControlWord, rt::OnCoE> = ReadWriteNamedControlWordOnCoE::flagged_coe_object(
         0x6040,
         0x00,
         "Control word",
@@ -4148,7 +5417,7 @@ pub mod objects {
     /// 0x6041:00, UNSIGNED16, ro, mappable into TPDOs.
     ///
     /// Manual, line 731, 994: Parola di stato CANopen.
-    pub const STATUS_WORD: ReadOnly<super::types::StatusWord> = ReadOnlyNamedStatusWord::flagged_coe_object(
+    pub const STATUS_WORD: ReadOnly<super::types::StatusWord, rt::OnCoE> = ReadOnlyNamedStatusWordOnCoE::flagged_coe_object(
         0x6041,
         0x00,
         "Status word",
@@ -4161,7 +5430,7 @@ pub mod objects {
     /// Manual, line 708, 944, 1006-1008: Modalità di funzionamento.
     ///
     /// Note: No type; 0x07 of two digits in the start-up list (L944). Chosen: i8 (a byte by its digits, signed as in DS402).
-    pub const MODES_OF_OPERATION: ReadWrite<super::types::ModesOfOperation> = ReadWriteNamedModesOfOperation::coe_object(
+    pub const MODES_OF_OPERATION: ReadWrite<super::types::ModesOfOperation, rt::OnCoE> = ReadWriteNamedModesOfOperationOnCoE::coe_object(
         0x6060,
         0x00,
         "Modes of operation",
@@ -4171,7 +5440,7 @@ pub mod objects {
     /// 0x6063:00, INTEGER32, ro, mappable into TPDOs.
     ///
     /// Manual, line 992: Valore effettivo interno della posizione.
-    pub const INTERNAL_POSITION_ACTUAL_VALUE: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
+    pub const INTERNAL_POSITION_ACTUAL_VALUE: ReadOnly<i32, rt::OnCoE> = ReadOnlyI32OnCoE::flagged_coe_object(
         0x6063,
         0x00,
         "Internal position actual value",
@@ -4182,7 +5451,7 @@ pub mod objects {
     /// 0x606C:00, INTEGER32, ro, mappable into TPDOs.
     ///
     /// Manual, line 993: Valore effettivo della velocità.
-    pub const VELOCITY_ACTUAL_VALUE: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
+    pub const VELOCITY_ACTUAL_VALUE: ReadOnly<i32, rt::OnCoE> = ReadOnlyI32OnCoE::flagged_coe_object(
         0x606C,
         0x00,
         "Velocity actual value",
@@ -4193,7 +5462,7 @@ pub mod objects {
     /// 0x6077:00, INTEGER16, ro, mappable into TPDOs, in 0.1 %.
     ///
     /// Manual, line 999: Valore effettivo della coppia.
-    pub const TORQUE_ACTUAL_VALUE: ReadOnly<rt::Scaled<i16, 1, 10>> = ReadOnlyI16Times1Per10::new(
+    pub const TORQUE_ACTUAL_VALUE: ReadOnly<rt::Scaled<i16, 1, 10>, rt::OnCoE> = ReadOnlyI16Times1Per10OnCoE::new(
         rt::OnCoE::coe(0x6077, 0x00),
         "Torque actual value",
         rt::Range::Full,
@@ -4206,7 +5475,7 @@ pub mod objects {
     /// 0x60B2:00, INTEGER16, rw, mappable into RPDOs, in 0.1 %.
     ///
     /// Manual, line 986: Feed forward della coppia.
-    pub const TORQUE_FEED_FORWARD: ReadWrite<rt::Scaled<i16, 1, 10>> = ReadWriteI16Times1Per10::new(
+    pub const TORQUE_FEED_FORWARD: ReadWrite<rt::Scaled<i16, 1, 10>, rt::OnCoE> = ReadWriteI16Times1Per10OnCoE::new(
         rt::OnCoE::coe(0x60B2, 0x00),
         "Torque feed-forward",
         rt::Range::Full,
@@ -4226,7 +5495,7 @@ pub mod objects {
         /// Set-point of interpolated position
         ///
         /// Manual, line 982: Valore di comando di posizione.
-        pub const POSITION_COMMAND_VALUE: super::ReadWrite<i32> = super::ReadWriteI32::flagged_coe_object(
+        pub const POSITION_COMMAND_VALUE: super::ReadWrite<i32, rt::OnCoE> = super::ReadWriteI32OnCoE::flagged_coe_object(
             0x60C1,
             0x01,
             "Position command value",
@@ -4240,7 +5509,7 @@ pub mod objects {
             /// Position command value: 0x60C1:01.
             pub fn position_command_value(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, i32> {
+            ) -> super::ReadWriteAccess<'_, C, i32, rt::OnCoE> {
                 POSITION_COMMAND_VALUE.at(self.client)
             }
         }
@@ -4263,7 +5532,10 @@ pub mod objects {
         /// Note: The unit of time is sub-index 1 and the index sub-index 2 (L1016); the list calls them Cycle time and Cycle exp (L945-946). Chosen: the manual's own words (the numbers of both places agree: 2 and -3).
         ///
         /// Note: Of the multiples of 62.5 µs only some can be written as a byte times a power of ten (L1016, L1026). Chosen: no further limit (the manual has none; 0.25 ms is 25 and -5).
-        pub const INTERPOLATION_TIME_UNITS: super::ReadWrite<rt::Exponential<u8>> = super::ReadWriteExponentialU8::new(
+        pub const INTERPOLATION_TIME_UNITS: super::ReadWrite<
+            rt::Exponential<u8>,
+            rt::OnCoE,
+        > = super::ReadWriteExponentialU8OnCoE::new(
             rt::OnCoE::coe(0x60C2, 0x01),
             "Interpolation time units",
             rt::Range::Full,
@@ -4280,7 +5552,7 @@ pub mod objects {
         /// Manual, line 946, 1014, 1016, 1020, 1024: indice di tempo di interpolazione.
         ///
         /// Note: No type; 0xFD in the start-up list (L946), -3 and -4 in the text (L1016-1024). Chosen: i8 (0xFD of a signed byte is -3).
-        pub const INTERPOLATION_TIME_INDEX: super::ReadWrite<i8> = super::ReadWriteI8::coe_object(
+        pub const INTERPOLATION_TIME_INDEX: super::ReadWrite<i8, rt::OnCoE> = super::ReadWriteI8OnCoE::coe_object(
             0x60C2,
             0x02,
             "Interpolation time index",
@@ -4293,13 +5565,13 @@ pub mod objects {
             /// Interpolation time units: 0x60C2:01.
             pub fn interpolation_time_units(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, rt::Exponential<u8>> {
+            ) -> super::ReadWriteAccess<'_, C, rt::Exponential<u8>, rt::OnCoE> {
                 INTERPOLATION_TIME_UNITS.at(self.client)
             }
             /// Interpolation time index: 0x60C2:02.
             pub fn interpolation_time_index(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, i8> {
+            ) -> super::ReadWriteAccess<'_, C, i8, rt::OnCoE> {
                 INTERPOLATION_TIME_INDEX.at(self.client)
             }
         }
@@ -4309,7 +5581,7 @@ pub mod objects {
     /// 0x60F4:00, INTEGER32, ro, mappable into TPDOs.
     ///
     /// Manual, line 997: Valore effettivo dell'errore seguente.
-    pub const FOLLOWING_ERROR_ACTUAL_VALUE: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
+    pub const FOLLOWING_ERROR_ACTUAL_VALUE: ReadOnly<i32, rt::OnCoE> = ReadOnlyI32OnCoE::flagged_coe_object(
         0x60F4,
         0x00,
         "Following error actual value",
@@ -4320,7 +5592,7 @@ pub mod objects {
     /// 0x60FD:00, UNSIGNED32, ro, mappable into TPDOs.
     ///
     /// Manual, line 996: Ingressi digitali.
-    pub const DIGITAL_INPUTS: ReadOnly<super::types::DigitalInputs> = ReadOnlyNamedDigitalInputs::flagged_coe_object(
+    pub const DIGITAL_INPUTS: ReadOnly<super::types::DigitalInputs, rt::OnCoE> = ReadOnlyNamedDigitalInputsOnCoE::flagged_coe_object(
         0x60FD,
         0x00,
         "Digital inputs",
@@ -4338,7 +5610,8 @@ pub mod objects {
         /// Manual, line 987: Uscite digitali.
         pub const PHYSICAL_OUTPUTS: super::ReadWrite<
             super::super::types::DigitalOutputs,
-        > = super::ReadWriteNamedDigitalOutputs::flagged_coe_object(
+            rt::OnCoE,
+        > = super::ReadWriteNamedDigitalOutputsOnCoE::flagged_coe_object(
             0x60FE,
             0x01,
             "Physical outputs",
@@ -4352,7 +5625,12 @@ pub mod objects {
             /// Physical outputs: 0x60FE:01.
             pub fn physical_outputs(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::DigitalOutputs> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::DigitalOutputs,
+                rt::OnCoE,
+            > {
                 PHYSICAL_OUTPUTS.at(self.client)
             }
         }
@@ -4362,7 +5640,7 @@ pub mod objects {
     /// 0x60FF:00, INTEGER32, rw, mappable into RPDOs.
     ///
     /// Manual, line 983: Valore di comando di velocità.
-    pub const VELOCITY_COMMAND_VALUE: ReadWrite<i32> = ReadWriteI32::flagged_coe_object(
+    pub const VELOCITY_COMMAND_VALUE: ReadWrite<i32, rt::OnCoE> = ReadWriteI32OnCoE::flagged_coe_object(
         0x60FF,
         0x00,
         "Velocity command value",

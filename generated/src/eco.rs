@@ -267,938 +267,1955 @@ impl<C> Eco<C> {
     pub fn into_client(self) -> C {
         self.client
     }
+    /// following\_error\_actual\_value: bytes 8 to 11 of the image to the master.
+    pub fn following_error_actual_value(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, rt::PerItem<i32, 1>, rt::OnImage> {
+        objects::FOLLOWING_ERROR_ACTUAL_VALUE.at(&mut self.client)
+    }
+    /// torque\_actual\_value: bytes 12 to 13 of the image to the master.
+    pub fn torque_actual_value(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, i16, rt::OnImage> {
+        objects::TORQUE_ACTUAL_VALUE.at(&mut self.client)
+    }
+    /// cyclic read value: bytes 16 to 19 of the image to the master.
+    pub fn cyclic_read_value(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, u32, rt::OnImage> {
+        objects::CYCLIC_READ_VALUE.at(&mut self.client)
+    }
+    /// cyclic read address: bytes 24 to 25 of the image from the master.
+    pub fn cyclic_read_address(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, u16, objects::OnImageOut> {
+        objects::CYCLIC_READ_ADDRESS.at(&mut self.client)
+    }
+    /// cyclic write address: bytes 26 to 27 of the image from the master.
+    pub fn cyclic_write_address(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, u16, objects::OnImageOut> {
+        objects::CYCLIC_WRITE_ADDRESS.at(&mut self.client)
+    }
+    /// cyclic write value: bytes 28 to 31 of the image from the master.
+    pub fn cyclic_write_value(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, u32, objects::OnImageOut> {
+        objects::CYCLIC_WRITE_VALUE.at(&mut self.client)
+    }
     /// control\_word: register 32768.
     pub fn control_word(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, types::DriveCommand, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        types::DriveCommand,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindowInOut,
+    > {
         objects::CONTROL_WORD.at(&mut self.client)
     }
     /// modes\_of\_operation: register 32769.
     pub fn modes_of_operation(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, types::Mode, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        types::Mode,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindowInOut,
+    > {
         objects::MODES_OF_OPERATION.at(&mut self.client)
     }
     /// following\_error\_window: 0x6065:00, register 32771.
     pub fn following_error_window(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::PerItem<u32, 1>, 4294967295>> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::OrNone<rt::PerItem<u32, 1>, 4294967295>,
+        objects::OnCanOpenCoEModbusImageWindowInOut,
+    > {
         objects::FOLLOWING_ERROR_WINDOW.at(&mut self.client)
     }
     /// following\_error\_timeout: 0x6066:00, register 32772.
-    pub fn following_error_timeout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
+    pub fn following_error_timeout(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, u16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::FOLLOWING_ERROR_TIMEOUT.at(&mut self.client)
     }
     /// status\_word: register 32773.
     pub fn status_word(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, types::DriveStatus, rt::OnModbus> {
+    ) -> objects::ReadOnlyAccess<
+        '_,
+        C,
+        types::DriveStatus,
+        objects::OnCanOpenWindowInCoEWindowInModbusImage,
+    > {
         objects::STATUS_WORD.at(&mut self.client)
     }
     /// position\_actual\_value: 0x6064:00, register 32774.
     pub fn position_actual_value(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, rt::PerItem<i32, 1>> {
+    ) -> objects::ReadOnlyAccess<
+        '_,
+        C,
+        rt::PerItem<i32, 1>,
+        objects::OnCanOpenCoEModbusImage,
+    > {
         objects::POSITION_ACTUAL_VALUE.at(&mut self.client)
     }
     /// latched\_position: 0x2001:00, register 32775.
     pub fn latched_position(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<i32, 1>> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::PerItem<i32, 1>,
+        objects::OnCanOpenCoEModbusImageWindows,
+    > {
         objects::LATCHED_POSITION.at(&mut self.client)
     }
     /// velocity\_actual\_value: 0x606C:00, register 32776.
     pub fn velocity_actual_value(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, rt::PerItem<i32, 60>> {
+    ) -> objects::ReadOnlyAccess<
+        '_,
+        C,
+        rt::PerItem<i32, 60>,
+        objects::OnCanOpenCoEModbusImage,
+    > {
         objects::VELOCITY_ACTUAL_VALUE.at(&mut self.client)
     }
     /// target\_position: 0x607A:00, register 32777.
     pub fn target_position(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<i32, 1>> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::PerItem<i32, 1>,
+        objects::OnCanOpenCoEModbusImageWindowInOut,
+    > {
         objects::TARGET_POSITION.at(&mut self.client)
     }
     /// profile\_acceleration: 0x6083:00, register 32778.
     pub fn profile_acceleration(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<u32, 1000>> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::PerItem<u32, 1000>,
+        objects::OnCanOpenCoEModbusImageWindowInOut,
+    > {
         objects::PROFILE_ACCELERATION.at(&mut self.client)
     }
     /// profile\_deceleration: 0x6084:00, register 32779.
     pub fn profile_deceleration(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<u32, 1000>> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::PerItem<u32, 1000>,
+        objects::OnCanOpenCoEModbusImageWindowInOut,
+    > {
         objects::PROFILE_DECELERATION.at(&mut self.client)
     }
     /// profile\_velocity: 0x6081:00, register 32780.
     pub fn profile_velocity(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<u32, 60>> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::PerItem<u32, 60>,
+        objects::OnCanOpenCoEModbusImageWindowInOut,
+    > {
         objects::PROFILE_VELOCITY.at(&mut self.client)
     }
     /// target\_velocity: 0x60FF:00, register 32781.
     pub fn target_velocity(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<i32, 60>> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::PerItem<i32, 60>,
+        objects::OnCanOpenCoEModbusImageWindows,
+    > {
         objects::TARGET_VELOCITY.at(&mut self.client)
     }
     /// velocity\_window: 0x606D:00, register 32782.
     pub fn velocity_window(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 65535>> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::OrNone<rt::Scaled<u16, 1>, 65535>,
+        objects::OnCanOpenCoEModbusImageWindows,
+    > {
         objects::VELOCITY_WINDOW.at(&mut self.client)
     }
     /// velocity\_window\_time: 0x606E:00, register 32783.
-    pub fn velocity_window_time(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
+    pub fn velocity_window_time(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, u16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::VELOCITY_WINDOW_TIME.at(&mut self.client)
     }
     /// velocity\_threshold: 0x606F:00, register 32784.
     pub fn velocity_threshold(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 65535>> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::OrNone<rt::Scaled<u16, 1>, 65535>,
+        objects::OnCanOpenCoEModbusImageWindows,
+    > {
         objects::VELOCITY_THRESHOLD.at(&mut self.client)
     }
     /// velocity\_threshold\_time: 0x6070:00, register 32785.
-    pub fn velocity_threshold_time(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
+    pub fn velocity_threshold_time(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, u16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::VELOCITY_THRESHOLD_TIME.at(&mut self.client)
     }
     /// homing\_method: 0x6098:00, register 32786.
     pub fn homing_method(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, types::HomingMethod> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        types::HomingMethod,
+        objects::OnCanOpenCoEModbusImageWindows,
+    > {
         objects::HOMING_METHOD.at(&mut self.client)
     }
     /// home\_offset: 0x607C:00, register 32787.
     pub fn home_offset(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<i32, 1>> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::PerItem<i32, 1>,
+        objects::OnCanOpenCoEModbusImageWindows,
+    > {
         objects::HOME_OFFSET.at(&mut self.client)
     }
     /// homing\_acceleration: 0x609A:00, register 32790.
     pub fn homing_acceleration(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<u32, 1000>> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::PerItem<u32, 1000>,
+        objects::OnCanOpenCoEModbusImageWindows,
+    > {
         objects::HOMING_ACCELERATION.at(&mut self.client)
     }
     /// velocity\_master\_sensor: register 32791.
     pub fn velocity_master_sensor(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, i16, rt::OnModbus> {
+    ) -> objects::ReadOnlyAccess<
+        '_,
+        C,
+        i16,
+        objects::OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
+    > {
         objects::VELOCITY_MASTER_SENSOR.at(&mut self.client)
     }
     /// master\_encoder\_increments: 0x3000:00, register 32792.
-    pub fn master_encoder_increments(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
+    pub fn master_encoder_increments(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, u16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::MASTER_ENCODER_INCREMENTS.at(&mut self.client)
     }
     /// gear\_ratio\_numerator: 0x3001:00, register 32793.
-    pub fn gear_ratio_numerator(&mut self) -> objects::ReadWriteAccess<'_, C, u8> {
+    pub fn gear_ratio_numerator(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, u8, objects::OnCanOpenCoEModbusImageWindows> {
         objects::GEAR_RATIO_NUMERATOR.at(&mut self.client)
     }
     /// gear\_ratio\_divisor: 0x3002:00, register 32794.
-    pub fn gear_ratio_divisor(&mut self) -> objects::ReadWriteAccess<'_, C, u8> {
+    pub fn gear_ratio_divisor(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, u8, objects::OnCanOpenCoEModbusImageWindows> {
         objects::GEAR_RATIO_DIVISOR.at(&mut self.client)
     }
     /// motion\_profile\_type: 0x6086:00, register 32795.
     pub fn motion_profile_type(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, types::MotionProfile> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        types::MotionProfile,
+        objects::OnCanOpenCoEModbusImageWindows,
+    > {
         objects::MOTION_PROFILE_TYPE.at(&mut self.client)
     }
     /// acceleration\_jerk: 0x3100:00, register 32796.
-    pub fn acceleration_jerk(&mut self) -> objects::ReadWriteAccess<'_, C, u8> {
+    pub fn acceleration_jerk(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, u8, objects::OnCanOpenCoEModbusImageWindows> {
         objects::ACCELERATION_JERK.at(&mut self.client)
     }
     /// deceleration\_jerk: 0x3101:00, register 32797.
-    pub fn deceleration_jerk(&mut self) -> objects::ReadWriteAccess<'_, C, u8> {
+    pub fn deceleration_jerk(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, u8, objects::OnCanOpenCoEModbusImageWindows> {
         objects::DECELERATION_JERK.at(&mut self.client)
     }
     /// aux\_in\_1: 0x3201:00, register 32798.
-    pub fn aux_in_1(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
+    pub fn aux_in_1(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX_IN_1.at(&mut self.client)
     }
     /// aux\_in\_2: 0x3202:00, register 32799.
-    pub fn aux_in_2(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
+    pub fn aux_in_2(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX_IN_2.at(&mut self.client)
     }
     /// aux\_out\_1: 0x3301:00, register 32800.
-    pub fn aux_out_1(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
+    pub fn aux_out_1(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindowIn> {
         objects::AUX_OUT_1.at(&mut self.client)
     }
     /// aux\_out\_2: 0x3302:00, register 32801.
-    pub fn aux_out_2(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
+    pub fn aux_out_2(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindowIn> {
         objects::AUX_OUT_2.at(&mut self.client)
     }
     /// aux\_in\_3: 0x3401:00, register 32802.
-    pub fn aux_in_3(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
+    pub fn aux_in_3(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX_IN_3.at(&mut self.client)
     }
     /// torque\_max: 0x3402:00, register 32803.
-    pub fn torque_max(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
+    pub fn torque_max(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::TORQUE_MAX.at(&mut self.client)
     }
     /// aux16\_out\_3: 0x3501:00, register 32804.
-    pub fn aux16_out_3(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
+    pub fn aux16_out_3(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindowIn> {
         objects::AUX16_OUT_3.at(&mut self.client)
     }
     /// aux16\_out\_4: 0x3502:00, register 32805.
-    pub fn aux16_out_4(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
+    pub fn aux16_out_4(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindowIn> {
         objects::AUX16_OUT_4.at(&mut self.client)
     }
     /// aux\_in\_5: 0x3601:00, register 32806.
-    pub fn aux_in_5(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
+    pub fn aux_in_5(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX_IN_5.at(&mut self.client)
     }
     /// aux\_in\_6: 0x3602:00, register 32807.
-    pub fn aux_in_6(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
+    pub fn aux_in_6(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX_IN_6.at(&mut self.client)
     }
     /// aux\_in\_7: 0x3603:00, register 32808.
-    pub fn aux_in_7(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
+    pub fn aux_in_7(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX_IN_7.at(&mut self.client)
     }
     /// aux\_in\_8: 0x3604:00, register 32809.
-    pub fn aux_in_8(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
+    pub fn aux_in_8(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX_IN_8.at(&mut self.client)
     }
     /// aux16\_in\_9: 0x3701:00, register 32810.
-    pub fn aux16_in_9(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
+    pub fn aux16_in_9(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX16_IN_9.at(&mut self.client)
     }
     /// aux16\_in\_10: 0x3702:00, register 32811.
-    pub fn aux16_in_10(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
+    pub fn aux16_in_10(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX16_IN_10.at(&mut self.client)
     }
     /// aux16\_in\_11: 0x3703:00, register 32812.
-    pub fn aux16_in_11(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
+    pub fn aux16_in_11(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX16_IN_11.at(&mut self.client)
     }
     /// aux16\_in\_12: 0x3704:00, register 32813.
-    pub fn aux16_in_12(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
+    pub fn aux16_in_12(
+        &mut self,
+    ) -> objects::ReadWriteAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX16_IN_12.at(&mut self.client)
     }
     /// alarm\_code: register 32814.
-    pub fn alarm_code(&mut self) -> objects::ReadOnlyAccess<'_, C, u8, rt::OnModbus> {
+    pub fn alarm_code(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<
+        '_,
+        C,
+        u8,
+        objects::OnCanOpenWindowInCoEWindowInModbusImage,
+    > {
         objects::ALARM_CODE.at(&mut self.client)
     }
     /// digital\_inputs: 0x60FD:00, register 32816.
     pub fn digital_inputs(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, types::DigitalInputs> {
+    ) -> objects::ReadOnlyAccess<
+        '_,
+        C,
+        types::DigitalInputs,
+        objects::OnCanOpenCoEModbusImageWindowIn,
+    > {
         objects::DIGITAL_INPUTS.at(&mut self.client)
     }
     /// aux\_in\_13: register 32819.
-    pub fn aux_in_13(&mut self) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    pub fn aux_in_13(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::AUX_IN_13.at(&mut self.client)
     }
     /// aux\_in\_14: register 32820.
-    pub fn aux_in_14(&mut self) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    pub fn aux_in_14(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::AUX_IN_14.at(&mut self.client)
     }
     /// aux\_in\_15: register 32821.
-    pub fn aux_in_15(&mut self) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    pub fn aux_in_15(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::AUX_IN_15.at(&mut self.client)
     }
     /// aux\_in\_16: register 32822.
-    pub fn aux_in_16(&mut self) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    pub fn aux_in_16(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::AUX_IN_16.at(&mut self.client)
     }
     /// aux\_in\_17: register 32823.
-    pub fn aux_in_17(&mut self) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    pub fn aux_in_17(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::AUX_IN_17.at(&mut self.client)
     }
     /// aux\_in\_18: register 32824.
-    pub fn aux_in_18(&mut self) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    pub fn aux_in_18(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::AUX_IN_18.at(&mut self.client)
     }
     /// aux\_in\_19: register 32825.
-    pub fn aux_in_19(&mut self) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    pub fn aux_in_19(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::AUX_IN_19.at(&mut self.client)
     }
     /// aux\_in\_20: register 32826.
-    pub fn aux_in_20(&mut self) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    pub fn aux_in_20(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::AUX_IN_20.at(&mut self.client)
     }
     /// aux\_in\_21: register 32827.
-    pub fn aux_in_21(&mut self) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    pub fn aux_in_21(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::AUX_IN_21.at(&mut self.client)
     }
     /// aux\_in\_22: register 32828.
-    pub fn aux_in_22(&mut self) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    pub fn aux_in_22(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::AUX_IN_22.at(&mut self.client)
     }
     /// target\_window: register 32829.
     pub fn target_window(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<i32, 1>, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::PerItem<i32, 1>,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::TARGET_WINDOW.at(&mut self.client)
     }
     /// abs\_enc\_control: register 32830.
     pub fn abs_enc_control(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::ABS_ENC_CONTROL.at(&mut self.client)
     }
     /// abs\_enc\_status: register 32831.
     pub fn abs_enc_status(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadOnlyAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
+    > {
         objects::ABS_ENC_STATUS.at(&mut self.client)
     }
     /// num\_ext\_enc: register 32832.
-    pub fn num_ext_enc(&mut self) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    pub fn num_ext_enc(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::NUM_EXT_ENC.at(&mut self.client)
     }
     /// den\_ext\_enc: register 32833.
-    pub fn den_ext_enc(&mut self) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    pub fn den_ext_enc(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::DEN_EXT_ENC.at(&mut self.client)
     }
     /// mechatronic\_66: register 32834.
     pub fn mechatronic_66(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_66.at(&mut self.client)
     }
     /// mechatronic\_67: register 32835.
     pub fn mechatronic_67(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_67.at(&mut self.client)
     }
     /// mechatronic\_68: register 32836.
     pub fn mechatronic_68(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_68.at(&mut self.client)
     }
     /// mechatronic\_69: register 32837.
     pub fn mechatronic_69(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_69.at(&mut self.client)
     }
     /// mechatronic\_70: register 32838.
     pub fn mechatronic_70(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_70.at(&mut self.client)
     }
     /// mechatronic\_71: register 32839.
     pub fn mechatronic_71(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_71.at(&mut self.client)
     }
     /// mechatronic\_72: register 32840.
     pub fn mechatronic_72(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_72.at(&mut self.client)
     }
     /// velocity\_rpm: register 32841.
-    pub fn velocity_rpm(&mut self) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnModbus> {
+    pub fn velocity_rpm(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
+    > {
         objects::VELOCITY_RPM.at(&mut self.client)
     }
     /// mechatronic\_74: register 32842.
     pub fn mechatronic_74(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_74.at(&mut self.client)
     }
     /// mechatronic\_75: register 32843.
     pub fn mechatronic_75(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_75.at(&mut self.client)
     }
     /// mechatronic\_76: register 32844.
     pub fn mechatronic_76(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_76.at(&mut self.client)
     }
     /// mechatronic\_77: register 32845.
     pub fn mechatronic_77(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_77.at(&mut self.client)
     }
     /// mechatronic\_78: register 32846.
     pub fn mechatronic_78(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_78.at(&mut self.client)
     }
     /// mechatronic\_79: register 32847.
     pub fn mechatronic_79(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_79.at(&mut self.client)
     }
     /// mechatronic\_80: register 32848.
     pub fn mechatronic_80(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_80.at(&mut self.client)
     }
     /// mechatronic\_81: register 32849.
     pub fn mechatronic_81(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_81.at(&mut self.client)
     }
     /// mechatronic\_82: register 32850.
     pub fn mechatronic_82(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_82.at(&mut self.client)
     }
     /// mechatronic\_83: register 32851.
     pub fn mechatronic_83(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_83.at(&mut self.client)
     }
     /// mechatronic\_84: register 32852.
     pub fn mechatronic_84(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_84.at(&mut self.client)
     }
     /// mechatronic\_85: register 32853.
     pub fn mechatronic_85(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_85.at(&mut self.client)
     }
     /// mechatronic\_86: register 32854.
     pub fn mechatronic_86(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_86.at(&mut self.client)
     }
     /// mechatronic\_87: register 32855.
     pub fn mechatronic_87(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_87.at(&mut self.client)
     }
     /// mechatronic\_88: register 32856.
     pub fn mechatronic_88(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_88.at(&mut self.client)
     }
     /// mechatronic\_89: register 32857.
     pub fn mechatronic_89(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_89.at(&mut self.client)
     }
     /// mechatronic\_90: register 32858.
     pub fn mechatronic_90(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_90.at(&mut self.client)
     }
     /// mechatronic\_91: register 32859.
     pub fn mechatronic_91(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_91.at(&mut self.client)
     }
     /// mechatronic\_92: register 32860.
     pub fn mechatronic_92(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_92.at(&mut self.client)
     }
     /// mechatronic\_93: register 32861.
     pub fn mechatronic_93(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_93.at(&mut self.client)
     }
     /// mechatronic\_94: register 32862.
     pub fn mechatronic_94(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_94.at(&mut self.client)
     }
     /// mechatronic\_95: register 32863.
     pub fn mechatronic_95(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_95.at(&mut self.client)
     }
     /// mechatronic\_96: register 32864.
     pub fn mechatronic_96(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_96.at(&mut self.client)
     }
     /// mechatronic\_97: register 32865.
     pub fn mechatronic_97(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_97.at(&mut self.client)
     }
     /// mechatronic\_98: register 32866.
     pub fn mechatronic_98(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_98.at(&mut self.client)
     }
     /// mechatronic\_99: register 32867.
     pub fn mechatronic_99(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_99.at(&mut self.client)
     }
     /// mechatronic\_100: register 32868.
     pub fn mechatronic_100(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_100.at(&mut self.client)
     }
     /// mechatronic\_101: register 32869.
     pub fn mechatronic_101(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_101.at(&mut self.client)
     }
     /// mechatronic\_102: register 32870.
     pub fn mechatronic_102(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_102.at(&mut self.client)
     }
     /// mechatronic\_103: register 32871.
     pub fn mechatronic_103(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_103.at(&mut self.client)
     }
     /// mechatronic\_104: register 32872.
     pub fn mechatronic_104(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_104.at(&mut self.client)
     }
     /// mechatronic\_105: register 32873.
     pub fn mechatronic_105(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_105.at(&mut self.client)
     }
     /// mechatronic\_106: register 32874.
     pub fn mechatronic_106(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_106.at(&mut self.client)
     }
     /// mechatronic\_107: register 32875.
     pub fn mechatronic_107(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_107.at(&mut self.client)
     }
     /// mechatronic\_108: register 32876.
     pub fn mechatronic_108(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_108.at(&mut self.client)
     }
     /// mechatronic\_109: register 32877.
     pub fn mechatronic_109(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_109.at(&mut self.client)
     }
     /// mechatronic\_110: register 32878.
     pub fn mechatronic_110(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_110.at(&mut self.client)
     }
     /// mechatronic\_111: register 32879.
     pub fn mechatronic_111(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_111.at(&mut self.client)
     }
     /// mechatronic\_112: register 32880.
     pub fn mechatronic_112(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_112.at(&mut self.client)
     }
     /// mechatronic\_113: register 32881.
     pub fn mechatronic_113(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_113.at(&mut self.client)
     }
     /// mechatronic\_114: register 32882.
     pub fn mechatronic_114(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_114.at(&mut self.client)
     }
     /// mechatronic\_115: register 32883.
     pub fn mechatronic_115(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_115.at(&mut self.client)
     }
     /// mechatronic\_116: register 32884.
     pub fn mechatronic_116(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_116.at(&mut self.client)
     }
     /// mechatronic\_117: register 32885.
     pub fn mechatronic_117(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_117.at(&mut self.client)
     }
     /// mechatronic\_118: register 32886.
     pub fn mechatronic_118(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_118.at(&mut self.client)
     }
     /// mechatronic\_119: register 32887.
     pub fn mechatronic_119(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_119.at(&mut self.client)
     }
     /// mechatronic\_120: register 32888.
     pub fn mechatronic_120(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_120.at(&mut self.client)
     }
     /// mechatronic\_121: register 32889.
     pub fn mechatronic_121(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_121.at(&mut self.client)
     }
     /// mechatronic\_122: register 32890.
     pub fn mechatronic_122(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_122.at(&mut self.client)
     }
     /// mechatronic\_123: register 32891.
     pub fn mechatronic_123(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_123.at(&mut self.client)
     }
     /// mechatronic\_124: register 32892.
     pub fn mechatronic_124(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_124.at(&mut self.client)
     }
     /// mechatronic\_125: register 32893.
     pub fn mechatronic_125(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_125.at(&mut self.client)
     }
     /// mechatronic\_126: register 32894.
     pub fn mechatronic_126(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_126.at(&mut self.client)
     }
     /// mechatronic\_127: register 32895.
     pub fn mechatronic_127(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_127.at(&mut self.client)
     }
     /// mechatronic\_128: register 32896.
     pub fn mechatronic_128(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_128.at(&mut self.client)
     }
     /// mechatronic\_129: register 32897.
     pub fn mechatronic_129(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_129.at(&mut self.client)
     }
     /// mechatronic\_130: register 32898.
     pub fn mechatronic_130(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_130.at(&mut self.client)
     }
     /// mechatronic\_131: register 32899.
     pub fn mechatronic_131(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_131.at(&mut self.client)
     }
     /// mechatronic\_132: register 32900.
     pub fn mechatronic_132(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_132.at(&mut self.client)
     }
     /// mechatronic\_133: register 32901.
     pub fn mechatronic_133(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        i32,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::MECHATRONIC_133.at(&mut self.client)
     }
     /// d1: register 1.
-    pub fn d1(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn d1(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::D1.at(&mut self.client)
     }
     /// d2: register 2.
-    pub fn d2(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn d2(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::D2.at(&mut self.client)
     }
     /// d3: register 3.
-    pub fn d3(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn d3(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::D3.at(&mut self.client)
     }
     /// d4: register 4.
-    pub fn d4(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn d4(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::D4.at(&mut self.client)
     }
     /// d5: register 5.
-    pub fn d5(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn d5(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::D5.at(&mut self.client)
     }
     /// d6: register 6.
-    pub fn d6(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn d6(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::D6.at(&mut self.client)
     }
     /// d7: register 7.
-    pub fn d7(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn d7(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::D7.at(&mut self.client)
     }
     /// d8: register 8.
-    pub fn d8(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn d8(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::D8.at(&mut self.client)
     }
     /// E1: register 9.
-    pub fn e1(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn e1(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::E1.at(&mut self.client)
     }
     /// E2: register 10.
-    pub fn e2(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn e2(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::E2.at(&mut self.client)
     }
     /// E3: register 58.
     pub fn e3(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, types::Exceptions, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        types::Exceptions,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::E3.at(&mut self.client)
     }
     /// E4: register 55.
-    pub fn e4(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn e4(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::E4.at(&mut self.client)
     }
     /// F1: register 11.
-    pub fn f1(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn f1(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::F1.at(&mut self.client)
     }
     /// F2: register 12.
-    pub fn f2(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn f2(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::F2.at(&mut self.client)
     }
     /// F3: register 13.
-    pub fn f3(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn f3(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::F3.at(&mut self.client)
     }
     /// c1: register 14.
-    pub fn c1(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn c1(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::C1.at(&mut self.client)
     }
     /// c2: register 15.
-    pub fn c2(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn c2(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::C2.at(&mut self.client)
     }
     /// c3: register 16.
-    pub fn c3(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn c3(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::C3.at(&mut self.client)
     }
     /// c4: register 17.
-    pub fn c4(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn c4(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::C4.at(&mut self.client)
     }
     /// c5: register 18.
-    pub fn c5(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn c5(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::C5.at(&mut self.client)
     }
     /// c6: register 19.
-    pub fn c6(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn c6(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::C6.at(&mut self.client)
     }
     /// c7: register 20.
-    pub fn c7(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn c7(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusLimitedImageWindows,
+    > {
         objects::C7.at(&mut self.client)
     }
     /// c8: register 21.
     pub fn c8(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, types::MiniInputs, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        types::MiniInputs,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::C8.at(&mut self.client)
     }
     /// c9: register 22.
     pub fn c9(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, types::Network, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        types::Network,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::C9.at(&mut self.client)
     }
     /// I1: register 35.
-    pub fn i1(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn i1(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::I1.at(&mut self.client)
     }
     /// I2: register 36.
-    pub fn i2(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn i2(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::I2.at(&mut self.client)
     }
     /// I3: register 37.
-    pub fn i3(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn i3(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::I3.at(&mut self.client)
     }
     /// I4: register 38.
-    pub fn i4(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn i4(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::I4.at(&mut self.client)
     }
     /// I5: register 39.
     pub fn i5(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 100>, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::Scaled<u16, 1, 100>,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::I5.at(&mut self.client)
     }
     /// I6: register 90.
-    pub fn i6(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn i6(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::I6.at(&mut self.client)
     }
     /// I7: register 99.
-    pub fn i7(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn i7(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::I7.at(&mut self.client)
     }
     /// O1: register 81.
-    pub fn o1(&mut self) -> objects::ReadOnlyAccess<'_, C, u16, rt::OnModbus> {
+    pub fn o1(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
+    > {
         objects::O1.at(&mut self.client)
     }
     /// O2: register 82.
-    pub fn o2(&mut self) -> objects::ReadOnlyAccess<'_, C, u16, rt::OnModbus> {
+    pub fn o2(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
+    > {
         objects::O2.at(&mut self.client)
     }
     /// O3: register 83.
-    pub fn o3(&mut self) -> objects::ReadOnlyAccess<'_, C, u16, rt::OnModbus> {
+    pub fn o3(
+        &mut self,
+    ) -> objects::ReadOnlyAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
+    > {
         objects::O3.at(&mut self.client)
     }
     /// P1: register 41.
-    pub fn p1(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn p1(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::P1.at(&mut self.client)
     }
     /// P2: register 42.
-    pub fn p2(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn p2(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::P2.at(&mut self.client)
     }
     /// P3: register 43.
-    pub fn p3(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn p3(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::P3.at(&mut self.client)
     }
     /// P4: register 44.
-    pub fn p4(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn p4(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::P4.at(&mut self.client)
     }
     /// P5: register 45.
-    pub fn p5(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn p5(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::P5.at(&mut self.client)
     }
     /// P6: register 46.
-    pub fn p6(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn p6(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::P6.at(&mut self.client)
     }
     /// P7: register 47.
     pub fn p7(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::Scaled<u16, 100>,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::P7.at(&mut self.client)
     }
     /// A1: register 48.
-    pub fn a1(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn a1(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::A1.at(&mut self.client)
     }
     /// A2: register 49.
-    pub fn a2(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn a2(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::A2.at(&mut self.client)
     }
     /// A3: register 50.
-    pub fn a3(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn a3(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::A3.at(&mut self.client)
     }
     /// A4: register 51.
-    pub fn a4(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn a4(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::A4.at(&mut self.client)
     }
     /// A5: register 52.
-    pub fn a5(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn a5(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::A5.at(&mut self.client)
     }
     /// A6: register 53.
-    pub fn a6(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn a6(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::A6.at(&mut self.client)
     }
     /// H1: register 59.
-    pub fn h1(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn h1(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::H1.at(&mut self.client)
     }
     /// H2: register 60.
-    pub fn h2(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn h2(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::H2.at(&mut self.client)
     }
     /// H3: register 61.
     pub fn h3(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 10>, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        rt::Scaled<u16, 1, 10>,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::H3.at(&mut self.client)
     }
     /// H4: register 62.
-    pub fn h4(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn h4(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::H4.at(&mut self.client)
     }
     /// H5: register 63.
-    pub fn h5(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn h5(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::H5.at(&mut self.client)
     }
     /// H6: register 64.
-    pub fn h6(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn h6(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::H6.at(&mut self.client)
     }
     /// H7: register 65.
-    pub fn h7(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn h7(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::H7.at(&mut self.client)
     }
     /// H8: register 66.
-    pub fn h8(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn h8(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::H8.at(&mut self.client)
     }
     /// H9: register 67.
-    pub fn h9(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
+    pub fn h9(
+        &mut self,
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        u16,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::H9.at(&mut self.client)
     }
     /// n1: register 40.
     pub fn n1(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, types::BitRate, rt::OnModbus> {
+    ) -> objects::ReadWriteAccess<
+        '_,
+        C,
+        types::BitRate,
+        objects::OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > {
         objects::N1.at(&mut self.client)
     }
     /// save\_to\_flash: register 14338.
@@ -1214,15 +2231,13 @@ impl<C> Eco<C> {
         objects::SAVE_TO_FLASH_32.at(&mut self.client)
     }
     /// Device Type: 0x1000.
-    pub fn device_type(
-        &mut self,
-    ) -> objects::ConstantAccess<'_, C, types::DeviceType, rt::OnCanOpenAndCoE> {
+    pub fn device_type(&mut self) -> objects::ConstantAccess<'_, C, types::DeviceType> {
         objects::DEVICE_TYPE.at(&mut self.client)
     }
     /// Error Register: 0x1001.
     pub fn error_register(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, types::ErrorRegister, rt::OnCanOpenAndCoE> {
+    ) -> objects::ReadOnlyAccess<'_, C, types::ErrorRegister> {
         objects::ERROR_REGISTER.at(&mut self.client)
     }
     /// Pre Defined Error Field: 0x1003.
@@ -1236,47 +2251,37 @@ impl<C> Eco<C> {
     /// Cob-Id Sync: 0x1005.
     pub fn cob_id_sync(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, types::SyncIdentifier, rt::OnCanOpenAndCoE> {
+    ) -> objects::ReadWriteAccess<'_, C, types::SyncIdentifier> {
         objects::COB_ID_SYNC.at(&mut self.client)
     }
     /// Manufacturer Device Name: 0x1008.
     pub fn manufacturer_device_name(
         &mut self,
-    ) -> objects::ConstantAccess<'_, C, rt::VisibleString, rt::OnCanOpenAndCoE> {
+    ) -> objects::ConstantAccess<'_, C, rt::VisibleString> {
         objects::MANUFACTURER_DEVICE_NAME.at(&mut self.client)
     }
     /// Manufacturer Hardware Version: 0x1009.
     pub fn manufacturer_hardware_version(
         &mut self,
-    ) -> objects::ConstantAccess<'_, C, rt::VisibleString, rt::OnCanOpenAndCoE> {
+    ) -> objects::ConstantAccess<'_, C, rt::VisibleString> {
         objects::MANUFACTURER_HARDWARE_VERSION.at(&mut self.client)
     }
     /// Manufacturer Software Version: 0x100A.
     pub fn manufacturer_software_version(
         &mut self,
-    ) -> objects::ConstantAccess<'_, C, rt::VisibleString, rt::OnCanOpenAndCoE> {
+    ) -> objects::ConstantAccess<'_, C, rt::VisibleString> {
         objects::MANUFACTURER_SOFTWARE_VERSION.at(&mut self.client)
     }
     /// Guard Time: 0x100C.
     pub fn guard_time(
         &mut self,
-    ) -> objects::ReadWriteAccess<
-        '_,
-        C,
-        rt::OrNone<rt::Scaled<u16, 1>, 0>,
-        rt::OnCanOpenAndCoE,
-    > {
+    ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
         objects::GUARD_TIME.at(&mut self.client)
     }
     /// Life Time Factor: 0x100D.
     pub fn life_time_factor(
         &mut self,
-    ) -> objects::ReadWriteAccess<
-        '_,
-        C,
-        rt::OrNone<rt::Scaled<u8, 1>, 0>,
-        rt::OnCanOpenAndCoE,
-    > {
+    ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u8, 1>, 0>> {
         objects::LIFE_TIME_FACTOR.at(&mut self.client)
     }
     /// Store Parameter Field: 0x1010.
@@ -1290,29 +2295,19 @@ impl<C> Eco<C> {
     /// Cob Id Emcy: 0x1014.
     pub fn cob_id_emcy(
         &mut self,
-    ) -> objects::ReadWriteAccess<
-        '_,
-        C,
-        types::EmergencyIdentifier,
-        rt::OnCanOpenAndCoE,
-    > {
+    ) -> objects::ReadWriteAccess<'_, C, types::EmergencyIdentifier> {
         objects::COB_ID_EMCY.at(&mut self.client)
     }
     /// Inhibit Emcy: 0x1015.
     pub fn inhibit_emcy(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>, rt::OnCanOpenAndCoE> {
+    ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
         objects::INHIBIT_EMCY.at(&mut self.client)
     }
     /// Producer Heartbeat Time: 0x1017.
     pub fn producer_heartbeat_time(
         &mut self,
-    ) -> objects::ReadWriteAccess<
-        '_,
-        C,
-        rt::OrNone<rt::Scaled<u16, 1>, 0>,
-        rt::OnCanOpenAndCoE,
-    > {
+    ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
         objects::PRODUCER_HEARTBEAT_TIME.at(&mut self.client)
     }
     /// Identity Object: 0x1018.
@@ -1472,19 +2467,19 @@ impl<C> Eco<C> {
     /// IP Set Point 16: 0x2002.
     pub fn ip_set_point_16(
         &mut self,
-    ) -> objects::WriteOnlyAccess<'_, C, rt::PerItem<i16, 1>, rt::OnCanOpenAndCoE> {
+    ) -> objects::WriteOnlyAccess<'_, C, rt::PerItem<i16, 1>> {
         objects::IP_SET_POINT_16.at(&mut self.client)
     }
     /// Position Actual Value 16: 0x2003.
     pub fn position_actual_value_16(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<i16, 1>, rt::OnCanOpenAndCoE> {
+    ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<i16, 1>> {
         objects::POSITION_ACTUAL_VALUE_16.at(&mut self.client)
     }
     /// Latched User Position 16: 0x2004.
     pub fn latched_user_position_16(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<i16, 1>, rt::OnCanOpenAndCoE> {
+    ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<i16, 1>> {
         objects::LATCHED_USER_POSITION_16.at(&mut self.client)
     }
     /// Drive Variable Read: 0x2005.
@@ -1514,37 +2509,35 @@ impl<C> Eco<C> {
     /// Controlword: 0x6040.
     pub fn controlword(
         &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, types::Controlword, rt::OnCanOpenAndCoE> {
+    ) -> objects::ReadWriteAccess<'_, C, types::Controlword> {
         objects::CONTROLWORD.at(&mut self.client)
     }
     /// Statusword: 0x6041.
-    pub fn statusword(
-        &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, types::Statusword, rt::OnCanOpenAndCoE> {
+    pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
     /// Modes Of Operation of DSP 402: 0x6060.
     pub fn modes_of_operation_of_dsp_402(
         &mut self,
-    ) -> objects::WriteOnlyAccess<'_, C, types::Mode402, rt::OnCanOpenAndCoE> {
+    ) -> objects::WriteOnlyAccess<'_, C, types::Mode402> {
         objects::MODES_OF_OPERATION_OF_DSP_402.at(&mut self.client)
     }
     /// Modes Of Operation Display: 0x6061.
     pub fn modes_of_operation_display(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, types::Mode, rt::OnCanOpenAndCoE> {
+    ) -> objects::ReadOnlyAccess<'_, C, types::Mode, objects::OnCanOpenCoEImage> {
         objects::MODES_OF_OPERATION_DISPLAY.at(&mut self.client)
     }
     /// Velocity Sensor Actual Value: 0x6069.
     pub fn velocity_sensor_actual_value(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
+    ) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::VELOCITY_SENSOR_ACTUAL_VALUE.at(&mut self.client)
     }
     /// Velocity Demand Value: 0x606B.
     pub fn velocity_demand_value(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, rt::PerItem<i32, 60>, rt::OnCanOpenAndCoE> {
+    ) -> objects::ReadOnlyAccess<'_, C, rt::PerItem<i32, 60>> {
         objects::VELOCITY_DEMAND_VALUE.at(&mut self.client)
     }
     /// Feed Constant: 0x6092.
@@ -1576,9 +2569,7 @@ impl<C> Eco<C> {
         }
     }
     /// Max Slippage: 0x60F8.
-    pub fn max_slippage(
-        &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
+    pub fn max_slippage(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::MAX_SLIPPAGE.at(&mut self.client)
     }
     /// Digital Outputs: 0x60FE.
@@ -1590,30 +2581,23 @@ impl<C> Eco<C> {
     /// Supported Drive Modes: 0x6502.
     pub fn supported_drive_modes(
         &mut self,
-    ) -> objects::ReadOnlyAccess<
-        '_,
-        C,
-        types::SupportedDriveModes,
-        rt::OnCanOpenAndCoE,
-    > {
+    ) -> objects::ReadOnlyAccess<'_, C, types::SupportedDriveModes> {
         objects::SUPPORTED_DRIVE_MODES.at(&mut self.client)
     }
     /// Drive Manufacturer: 0x6504.
     pub fn drive_manufacturer(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, rt::VisibleString, rt::OnCanOpenAndCoE> {
+    ) -> objects::ReadOnlyAccess<'_, C, rt::VisibleString> {
         objects::DRIVE_MANUFACTURER.at(&mut self.client)
     }
     /// Http Drive Catalog Address: 0x6505.
     pub fn http_drive_catalog_address(
         &mut self,
-    ) -> objects::ReadOnlyAccess<'_, C, rt::VisibleString, rt::OnCanOpenAndCoE> {
+    ) -> objects::ReadOnlyAccess<'_, C, rt::VisibleString> {
         objects::HTTP_DRIVE_CATALOG_ADDRESS.at(&mut self.client)
     }
     /// Single Device Type: 0x67FF.
-    pub fn single_device_type(
-        &mut self,
-    ) -> objects::ReadWriteAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
+    pub fn single_device_type(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::SINGLE_DEVICE_TYPE.at(&mut self.client)
     }
 }
@@ -5798,194 +6782,644 @@ pub mod codes {
         }
     }
 }
+/// Sequences of writes, in their order. Each is sent with `SdoWrite::send`.
+pub mod procedures {
+    use ::lexibus as rt;
+    /// The values of the example of a positioner, on Modbus and PROFINET.
+    ///
+    /// Manual, line 1401-1432, 6374-6387.
+    pub const CONFIGURE_POSITIONER: [rt::SdoWrite; 9] = [
+        rt::SdoWrite::new_u32(0x6092, 0x01, 0x0000_003C),
+        rt::SdoWrite::new_u32(0x6083, 0x00, 0x0000_0064),
+        rt::SdoWrite::new_u32(0x6084, 0x00, 0x0000_0064),
+        rt::SdoWrite::new_u32(0x6081, 0x00, 0x0000_03E8),
+        rt::SdoWrite::new_u16(0x6086, 0x00, 0x0000),
+        rt::SdoWrite::new_u8(0x6098, 0x00, 0x21),
+        rt::SdoWrite::new_u32(0x607C, 0x00, 0x0000_0000),
+        rt::SdoWrite::new_u32(0x6099, 0x02, 0x0000_000A),
+        rt::SdoWrite::new_u32(0x609A, 0x00, 0x0000_0064),
+    ];
+    /// Resets alarms and gives the motor torque, by DSP 402.
+    ///
+    /// Manual, line 4282-4291, 4323-4332, 4366-4373, 4448-4457, 4541-4548.
+    pub const ENABLE: [rt::SdoWrite; 6] = [
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x0000),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x0080),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x0000),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x0006),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x0007),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x000F),
+    ];
+    /// Takes the torque off, by DSP 402.
+    ///
+    /// Manual, line 4248-4252, 4383, 4595.
+    pub const DISABLE: [rt::SdoWrite; 1] = [
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x0002),
+    ];
+    /// Ten turns further, by DSP 402; the drive is enabled already. For a position instead of a distance, 0x000F and 0x001F.
+    ///
+    /// Manual, line 4301-4348.
+    pub const POSITION_BY_402: [rt::SdoWrite; 8] = [
+        rt::SdoWrite::new_u32(0x6092, 0x01, 0x0000_1770),
+        rt::SdoWrite::new_u32(0x6081, 0x00, 0x0000_4E20),
+        rt::SdoWrite::new_u32(0x6083, 0x00, 0x0000_00C8),
+        rt::SdoWrite::new_u32(0x6084, 0x00, 0x0000_00C8),
+        rt::SdoWrite::new_u8(0x6060, 0x00, 0x01),
+        rt::SdoWrite::new_u32(0x607A, 0x00, 0x0000_EA60),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x004F),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x005F),
+    ];
+    /// 1000 rpm, by DSP 402; the drive is enabled already.
+    ///
+    /// Manual, line 4349-4377.
+    pub const VELOCITY_BY_402: [rt::SdoWrite; 5] = [
+        rt::SdoWrite::new_u32(0x6092, 0x01, 0x0000_003C),
+        rt::SdoWrite::new_u32(0x6083, 0x00, 0x0000_0005),
+        rt::SdoWrite::new_u32(0x6084, 0x00, 0x0000_0005),
+        rt::SdoWrite::new_u8(0x6060, 0x00, 0x03),
+        rt::SdoWrite::new_u32(0x60FF, 0x00, 0x0000_03E8),
+    ];
+    /// Set-point and control word in RPDO 1, position and state in TPDO 1, each SYNC.
+    ///
+    /// Manual, line 4419-4443, 4517-4535.
+    pub const MAP_INTERPOLATOR: [rt::SdoWrite; 10] = [
+        rt::SdoWrite::new_u8(0x1400, 0x02, 0x01),
+        rt::SdoWrite::new_u8(0x1600, 0x00, 0x00),
+        rt::SdoWrite::new_u32(0x1600, 0x01, 0x60C1_0120),
+        rt::SdoWrite::new_u32(0x1600, 0x02, 0x6040_0010),
+        rt::SdoWrite::new_u8(0x1600, 0x00, 0x02),
+        rt::SdoWrite::new_u8(0x1800, 0x02, 0x01),
+        rt::SdoWrite::new_u8(0x1A00, 0x00, 0x00),
+        rt::SdoWrite::new_u32(0x1A00, 0x01, 0x6064_0020),
+        rt::SdoWrite::new_u32(0x1A00, 0x02, 0x6041_0010),
+        rt::SdoWrite::new_u8(0x1A00, 0x00, 0x02),
+    ];
+    /// The interpolator, by DSP 402; the PDOs are mapped and the drive is enabled already. From the last step on the drive waits for a set-point and SYNC each millisecond.
+    ///
+    /// Manual, line 4406-4470, 4566-4587.
+    pub const INTERPOLATE: [rt::SdoWrite; 4] = [
+        rt::SdoWrite::new_u32(0x6092, 0x01, 0x0000_1770),
+        rt::SdoWrite::new_u8(0x60C2, 0x01, 0x01),
+        rt::SdoWrite::new_u8(0x6060, 0x00, 0x07),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x001F),
+    ];
+    /// Node guarding each 500 ms.
+    ///
+    /// Manual, line 4235-4242.
+    pub const GUARD: [rt::SdoWrite; 2] = [
+        rt::SdoWrite::new_u16(0x100C, 0x00, 0x01F4),
+        rt::SdoWrite::new_u8(0x100D, 0x00, 0x02),
+    ];
+    /// No node guarding.
+    ///
+    /// Manual, line 4244-4246.
+    pub const STOP_GUARDING: [rt::SdoWrite; 2] = [
+        rt::SdoWrite::new_u16(0x100C, 0x00, 0x0000),
+        rt::SdoWrite::new_u8(0x100D, 0x00, 0x00),
+    ];
+    /// Slot of the positioner.
+    ///
+    /// Manual, line 5598-5611, 5646: Position Mode.
+    pub const SLOT_POSITION: [rt::SdoWrite; 7] = [
+        rt::SdoWrite::new_u8(0x1C12, 0x00, 0x00),
+        rt::SdoWrite::new_u16(0x1C12, 0x01, 0x1602),
+        rt::SdoWrite::new_u8(0x1C12, 0x00, 0x01),
+        rt::SdoWrite::new_u8(0x1C13, 0x00, 0x00),
+        rt::SdoWrite::new_u16(0x1C13, 0x01, 0x1A02),
+        rt::SdoWrite::new_u8(0x1C13, 0x00, 0x01),
+        rt::SdoWrite::new_u8(0x6060, 0x00, 0x01),
+    ];
+    /// Slot of the interpolator, the default.
+    ///
+    /// Manual, line 5614-5625, 5647, 5845: Interpolated Mode.
+    pub const SLOT_INTERPOLATED: [rt::SdoWrite; 7] = [
+        rt::SdoWrite::new_u8(0x1C12, 0x00, 0x00),
+        rt::SdoWrite::new_u16(0x1C12, 0x01, 0x1600),
+        rt::SdoWrite::new_u8(0x1C12, 0x00, 0x01),
+        rt::SdoWrite::new_u8(0x1C13, 0x00, 0x00),
+        rt::SdoWrite::new_u16(0x1C13, 0x01, 0x1A02),
+        rt::SdoWrite::new_u8(0x1C13, 0x00, 0x01),
+        rt::SdoWrite::new_u8(0x6060, 0x00, 0x07),
+    ];
+    /// Slot of the velocity mode.
+    ///
+    /// Manual, line 5628-5640, 5648: Velocity Mode.
+    pub const SLOT_VELOCITY: [rt::SdoWrite; 7] = [
+        rt::SdoWrite::new_u8(0x1C12, 0x00, 0x00),
+        rt::SdoWrite::new_u16(0x1C12, 0x01, 0x1603),
+        rt::SdoWrite::new_u8(0x1C12, 0x00, 0x01),
+        rt::SdoWrite::new_u8(0x1C13, 0x00, 0x00),
+        rt::SdoWrite::new_u16(0x1C13, 0x01, 0x1A03),
+        rt::SdoWrite::new_u8(0x1C13, 0x00, 0x01),
+        rt::SdoWrite::new_u8(0x6060, 0x00, 0x03),
+    ];
+}
+/// Windows: what takes the number of a value, and what has the value then.
+pub mod windows {
+    use ::lexibus as rt;
+    /// On CANopen: "Variable Read Address" takes a number, and "Variable Read Value" gives its value.
+    pub const REGISTER_READ_CANOPEN: rt::ReadWindow<rt::Object> = rt::ReadWindow {
+        number: rt::Object::new(0x2005, 0x01),
+        number_bits: 16,
+        value: rt::Object::new(0x2005, 0x02),
+        value_bits: 32,
+        handshake: rt::Handshake::cleared(100),
+    };
+    /// On EtherCAT: "Variable Read Address" takes a number, and "Variable Read Value" gives its value.
+    pub const REGISTER_READ_COE: rt::ReadWindow<rt::Object> = rt::ReadWindow {
+        number: rt::Object::new(0x2005, 0x01),
+        number_bits: 16,
+        value: rt::Object::new(0x2005, 0x02),
+        value_bits: 32,
+        handshake: rt::Handshake::cleared(100),
+    };
+    /// On CANopen: "Variable Write Address" takes a number, and "Variable Write Value" takes its value.
+    pub const REGISTER_WRITE_CANOPEN: rt::WriteWindow<rt::Object> = rt::WriteWindow {
+        number: rt::Object::new(0x2006, 0x01),
+        number_bits: 16,
+        value: rt::Object::new(0x2006, 0x02),
+        value_bits: 32,
+        is_number_first: false,
+        handshake: rt::Handshake::cleared(100),
+    };
+    /// On EtherCAT: "Variable Write Address" takes a number, and "Variable Write Value" takes its value.
+    pub const REGISTER_WRITE_COE: rt::WriteWindow<rt::Object> = rt::WriteWindow {
+        number: rt::Object::new(0x2006, 0x01),
+        number_bits: 16,
+        value: rt::Object::new(0x2006, 0x02),
+        value_bits: 32,
+        is_number_first: false,
+        handshake: rt::Handshake::cleared(100),
+    };
+    /// On PROFINET: "cyclic read address" takes a number, and "cyclic read value" gives its value.
+    pub const REGISTER_READ_IMAGE: rt::ReadWindow<rt::ImageField> = rt::ReadWindow {
+        number: rt::ImageField::output(192, 16),
+        number_bits: 16,
+        value: rt::ImageField::input(128, 32),
+        value_bits: 32,
+        handshake: rt::Handshake::after(3),
+    };
+    /// On PROFINET: "cyclic write address" takes a number, and "cyclic write value" takes its value.
+    pub const REGISTER_WRITE_IMAGE: rt::WriteWindow<rt::ImageField> = rt::WriteWindow {
+        number: rt::ImageField::output(208, 16),
+        number_bits: 16,
+        value: rt::ImageField::output(224, 32),
+        value_bits: 32,
+        is_number_first: false,
+        handshake: rt::Handshake::after(3),
+    };
+    /// On CANopen: "Variable Read Address" takes a number, and "Variable Read Value" gives its value.
+    pub const PARAMETER_READ_CANOPEN_0: rt::ReadWindow<rt::Object> = rt::ReadWindow {
+        number: rt::Object::new(0x2005, 0x01),
+        number_bits: 16,
+        value: rt::Object::new(0x2005, 0x02),
+        value_bits: 32,
+        handshake: rt::Handshake::cleared(100),
+    };
+    /// On EtherCAT: "Variable Read Address" takes a number, and "Variable Read Value" gives its value.
+    pub const PARAMETER_READ_COE_0: rt::ReadWindow<rt::Object> = rt::ReadWindow {
+        number: rt::Object::new(0x2005, 0x01),
+        number_bits: 16,
+        value: rt::Object::new(0x2005, 0x02),
+        value_bits: 32,
+        handshake: rt::Handshake::cleared(100),
+    };
+    /// On CANopen: "Variable Write Address" takes a number, and "Variable Write Value" takes its value.
+    pub const PARAMETER_WRITE_CANOPEN_1: rt::WriteWindow<rt::Object> = rt::WriteWindow {
+        number: rt::Object::new(0x2006, 0x01),
+        number_bits: 16,
+        value: rt::Object::new(0x2006, 0x02),
+        value_bits: 32,
+        is_number_first: false,
+        handshake: rt::Handshake::cleared(100),
+    };
+    /// On EtherCAT: "Variable Write Address" takes a number, and "Variable Write Value" takes its value.
+    pub const PARAMETER_WRITE_COE_1: rt::WriteWindow<rt::Object> = rt::WriteWindow {
+        number: rt::Object::new(0x2006, 0x01),
+        number_bits: 16,
+        value: rt::Object::new(0x2006, 0x02),
+        value_bits: 32,
+        is_number_first: false,
+        handshake: rt::Handshake::cleared(100),
+    };
+    /// On PROFINET: "cyclic read address" takes a number, and "cyclic read value" gives its value.
+    pub const PARAMETER_READ_IMAGE: rt::ReadWindow<rt::ImageField> = rt::ReadWindow {
+        number: rt::ImageField::output(192, 16),
+        number_bits: 16,
+        value: rt::ImageField::input(128, 32),
+        value_bits: 32,
+        handshake: rt::Handshake::after(3),
+    };
+    /// On PROFINET: "cyclic write address" takes a number, and "cyclic write value" takes its value.
+    pub const PARAMETER_WRITE_IMAGE: rt::WriteWindow<rt::ImageField> = rt::WriteWindow {
+        number: rt::ImageField::output(208, 16),
+        number_bits: 16,
+        value: rt::ImageField::output(224, 32),
+        value_bits: 32,
+        is_number_first: false,
+        handshake: rt::Handshake::after(3),
+    };
+    /// On CANopen: "Parameter Read Address" takes a number, and "Parameter Read Value" gives its value.
+    pub const PARAMETER_READ_CANOPEN_4: rt::ReadWindow<rt::Object> = rt::ReadWindow {
+        number: rt::Object::new(0x2000, 0x03),
+        number_bits: 8,
+        value: rt::Object::new(0x2000, 0x04),
+        value_bits: 8,
+        handshake: rt::Handshake::cleared(100),
+    };
+    /// On EtherCAT: "Parameter Read Address" takes a number, and "Parameter Read Value" gives its value.
+    pub const PARAMETER_READ_COE_4: rt::ReadWindow<rt::Object> = rt::ReadWindow {
+        number: rt::Object::new(0x2000, 0x03),
+        number_bits: 8,
+        value: rt::Object::new(0x2000, 0x04),
+        value_bits: 8,
+        handshake: rt::Handshake::cleared(100),
+    };
+    /// On CANopen: "Parameter Write Address" takes a number, and "Parameter Write Value" takes its value.
+    pub const PARAMETER_WRITE_CANOPEN_5: rt::WriteWindow<rt::Object> = rt::WriteWindow {
+        number: rt::Object::new(0x2000, 0x01),
+        number_bits: 8,
+        value: rt::Object::new(0x2000, 0x02),
+        value_bits: 8,
+        is_number_first: false,
+        handshake: rt::Handshake::cleared(100),
+    };
+    /// On EtherCAT: "Parameter Write Address" takes a number, and "Parameter Write Value" takes its value.
+    pub const PARAMETER_WRITE_COE_5: rt::WriteWindow<rt::Object> = rt::WriteWindow {
+        number: rt::Object::new(0x2000, 0x01),
+        number_bits: 8,
+        value: rt::Object::new(0x2000, 0x02),
+        value_bits: 8,
+        is_number_first: false,
+        handshake: rt::Handshake::cleared(100),
+    };
+}
 /// A handle for every register and every entry of the object dictionary.
 pub mod objects {
     use ::lexibus as rt;
+    /// The location of what is found on PROFINET.
+    pub type OnImageOut = rt::Location<
+        rt::Absent,
+        rt::Absent,
+        rt::Absent,
+        rt::Absent,
+        rt::Absent,
+        rt::Split<rt::Absent, rt::ImageField>,
+        rt::Absent,
+    >;
+    /// The location of what is found on CANopen, EtherCAT, PROFINET.
+    pub type OnCanOpenCoEImage = rt::Location<
+        rt::Object,
+        rt::Object,
+        rt::Absent,
+        rt::Absent,
+        rt::Absent,
+        rt::ImageField,
+        rt::Absent,
+    >;
+    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+    pub type OnCanOpenCoEModbusImage = rt::Location<
+        rt::Object,
+        rt::Object,
+        rt::Register,
+        rt::Absent,
+        rt::Absent,
+        rt::ImageField,
+        rt::Absent,
+    >;
+    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+    pub type OnCanOpenCoEModbusImageWindowIn = rt::Location<
+        rt::Object,
+        rt::Object,
+        rt::Register,
+        rt::Absent,
+        rt::Absent,
+        rt::Split<rt::Through<rt::ReadWindow<rt::ImageField>>, rt::Absent>,
+        rt::Absent,
+    >;
+    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+    pub type OnCanOpenCoEModbusImageWindowInOut = rt::Location<
+        rt::Object,
+        rt::Object,
+        rt::Register,
+        rt::Absent,
+        rt::Absent,
+        rt::Split<rt::Through<rt::ReadWindow<rt::ImageField>>, rt::ImageField>,
+        rt::Absent,
+    >;
+    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+    pub type OnCanOpenCoEModbusImageWindows = rt::Location<
+        rt::Object,
+        rt::Object,
+        rt::Register,
+        rt::Absent,
+        rt::Absent,
+        rt::Split<
+            rt::Through<rt::ReadWindow<rt::ImageField>>,
+            rt::Through<rt::WriteWindow<rt::ImageField>>,
+        >,
+        rt::Absent,
+    >;
+    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+    pub type OnCanOpenWindowInCoEWindowInModbusImage = rt::Location<
+        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Absent>,
+        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Absent>,
+        rt::Register,
+        rt::Absent,
+        rt::Absent,
+        rt::ImageField,
+        rt::Absent,
+    >;
+    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+    pub type OnCanOpenWindowInCoEWindowInModbusImageWindowIn = rt::Location<
+        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Absent>,
+        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Absent>,
+        rt::Register,
+        rt::Absent,
+        rt::Absent,
+        rt::Split<rt::Through<rt::ReadWindow<rt::ImageField>>, rt::Absent>,
+        rt::Absent,
+    >;
+    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+    pub type OnCanOpenWindowsCoEWindowsModbusImageWindowInOut = rt::Location<
+        rt::Split<
+            rt::Through<rt::ReadWindow<rt::Object>>,
+            rt::Through<rt::WriteWindow<rt::Object>>,
+        >,
+        rt::Split<
+            rt::Through<rt::ReadWindow<rt::Object>>,
+            rt::Through<rt::WriteWindow<rt::Object>>,
+        >,
+        rt::Register,
+        rt::Absent,
+        rt::Absent,
+        rt::Split<rt::Through<rt::ReadWindow<rt::ImageField>>, rt::ImageField>,
+        rt::Absent,
+    >;
+    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+    pub type OnCanOpenWindowsCoEWindowsModbusImageWindows = rt::Location<
+        rt::Split<
+            rt::Through<rt::ReadWindow<rt::Object>>,
+            rt::Through<rt::WriteWindow<rt::Object>>,
+        >,
+        rt::Split<
+            rt::Through<rt::ReadWindow<rt::Object>>,
+            rt::Through<rt::WriteWindow<rt::Object>>,
+        >,
+        rt::Register,
+        rt::Absent,
+        rt::Absent,
+        rt::Split<
+            rt::Through<rt::ReadWindow<rt::ImageField>>,
+            rt::Through<rt::WriteWindow<rt::ImageField>>,
+        >,
+        rt::Absent,
+    >;
+    /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
+    pub type OnCanOpenWindowsCoEWindowsModbusLimitedImageWindows = rt::Location<
+        rt::Split<
+            rt::Through<rt::ReadWindow<rt::Object>>,
+            rt::Through<rt::WriteWindow<rt::Object>>,
+        >,
+        rt::Split<
+            rt::Through<rt::ReadWindow<rt::Object>>,
+            rt::Through<rt::WriteWindow<rt::Object>>,
+        >,
+        rt::Limited<rt::Register>,
+        rt::Absent,
+        rt::Absent,
+        rt::Split<
+            rt::Through<rt::ReadWindow<rt::ImageField>>,
+            rt::Through<rt::WriteWindow<rt::ImageField>>,
+        >,
+        rt::Absent,
+    >;
     /// A register or an entry that can be read.
-    pub type ReadOnly<V, L = rt::OnCanOpenCoEAndModbus> = rt::Item<V, rt::Ro, L>;
+    pub type ReadOnly<V, L = rt::OnCanOpenAndCoE> = rt::Item<V, rt::Ro, L>;
     /// A register or an entry that can be written.
-    pub type WriteOnly<V, L = rt::OnCanOpenCoEAndModbus> = rt::Item<V, rt::Wo, L>;
+    pub type WriteOnly<V, L = rt::OnCanOpenAndCoE> = rt::Item<V, rt::Wo, L>;
     /// A register or an entry that can be read and written.
-    pub type ReadWrite<V, L = rt::OnCanOpenCoEAndModbus> = rt::Item<V, rt::Rw, L>;
+    pub type ReadWrite<V, L = rt::OnCanOpenAndCoE> = rt::Item<V, rt::Rw, L>;
     /// A register or an entry that can be read and never changes.
-    pub type Constant<V, L = rt::OnCanOpenCoEAndModbus> = rt::Item<V, rt::Const, L>;
-    type ConstantNamedDeviceTypeOnCanOpenCoE = Constant<
-        super::types::DeviceType,
-        rt::OnCanOpenAndCoE,
+    pub type Constant<V, L = rt::OnCanOpenAndCoE> = rt::Item<V, rt::Const, L>;
+    type ConstantNamedDeviceType = Constant<super::types::DeviceType>;
+    type ConstantVisibleString = Constant<rt::VisibleString>;
+    type ReadOnlyI16OnCanOpenCoEModbusImageWindowIn = ReadOnly<
+        i16,
+        OnCanOpenCoEModbusImageWindowIn,
     >;
-    type ConstantVisibleStringOnCanOpenCoE = Constant<
-        rt::VisibleString,
-        rt::OnCanOpenAndCoE,
+    type ReadOnlyI16OnCanOpenWindowInCoEWindowInModbusImageWindowIn = ReadOnly<
+        i16,
+        OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
     >;
-    type ReadOnlyI16 = ReadOnly<i16>;
-    type ReadOnlyI16OnModbus = ReadOnly<i16, rt::OnModbus>;
+    type ReadOnlyI16OnImage = ReadOnly<i16, rt::OnImage>;
     type ReadOnlyI32 = ReadOnly<i32>;
-    type ReadOnlyI32OnCanOpenCoE = ReadOnly<i32, rt::OnCanOpenAndCoE>;
-    type ReadOnlyI32OnModbus = ReadOnly<i32, rt::OnModbus>;
-    type ReadOnlyI8OnCanOpenCoE = ReadOnly<i8, rt::OnCanOpenAndCoE>;
-    type ReadOnlyNamedDigitalInputs = ReadOnly<super::types::DigitalInputs>;
-    type ReadOnlyNamedDriveStatusOnModbus = ReadOnly<
+    type ReadOnlyI32OnCanOpenCoEModbusImageWindowIn = ReadOnly<
+        i32,
+        OnCanOpenCoEModbusImageWindowIn,
+    >;
+    type ReadOnlyI32OnCanOpenWindowInCoEWindowInModbusImageWindowIn = ReadOnly<
+        i32,
+        OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
+    >;
+    type ReadOnlyI8 = ReadOnly<i8>;
+    type ReadOnlyNamedDigitalInputsOnCanOpenCoEModbusImageWindowIn = ReadOnly<
+        super::types::DigitalInputs,
+        OnCanOpenCoEModbusImageWindowIn,
+    >;
+    type ReadOnlyNamedDriveStatusOnCanOpenWindowInCoEWindowInModbusImage = ReadOnly<
         super::types::DriveStatus,
-        rt::OnModbus,
+        OnCanOpenWindowInCoEWindowInModbusImage,
     >;
-    type ReadOnlyNamedErrorFieldEntryOnCanOpenCoE = ReadOnly<
-        super::types::ErrorFieldEntry,
-        rt::OnCanOpenAndCoE,
-    >;
-    type ReadOnlyNamedErrorRegisterOnCanOpenCoE = ReadOnly<
-        super::types::ErrorRegister,
-        rt::OnCanOpenAndCoE,
-    >;
-    type ReadOnlyNamedModeOnCanOpenCoE = ReadOnly<
+    type ReadOnlyNamedErrorFieldEntry = ReadOnly<super::types::ErrorFieldEntry>;
+    type ReadOnlyNamedErrorRegister = ReadOnly<super::types::ErrorRegister>;
+    type ReadOnlyNamedModeOnCanOpenCoEImage = ReadOnly<
         super::types::Mode,
-        rt::OnCanOpenAndCoE,
+        OnCanOpenCoEImage,
     >;
-    type ReadOnlyNamedStatuswordOnCanOpenCoE = ReadOnly<
-        super::types::Statusword,
-        rt::OnCanOpenAndCoE,
+    type ReadOnlyNamedStatusword = ReadOnly<super::types::Statusword>;
+    type ReadOnlyNamedSupportedDriveModes = ReadOnly<super::types::SupportedDriveModes>;
+    type ReadOnlyPerItemI32Times1Per1OnCanOpenCoEModbusImage = ReadOnly<
+        rt::PerItem<i32, 1>,
+        OnCanOpenCoEModbusImage,
     >;
-    type ReadOnlyNamedSupportedDriveModesOnCanOpenCoE = ReadOnly<
-        super::types::SupportedDriveModes,
-        rt::OnCanOpenAndCoE,
+    type ReadOnlyPerItemI32Times1Per1OnImage = ReadOnly<
+        rt::PerItem<i32, 1>,
+        rt::OnImage,
     >;
-    type ReadOnlyPerItemI32Times1Per1 = ReadOnly<rt::PerItem<i32, 1>>;
     type ReadOnlyPerItemI32Times60Per1 = ReadOnly<rt::PerItem<i32, 60>>;
-    type ReadOnlyPerItemI32Times60Per1OnCanOpenCoE = ReadOnly<
+    type ReadOnlyPerItemI32Times60Per1OnCanOpenCoEModbusImage = ReadOnly<
         rt::PerItem<i32, 60>,
-        rt::OnCanOpenAndCoE,
+        OnCanOpenCoEModbusImage,
+    >;
+    type ReadOnlyU16OnCanOpenWindowInCoEWindowInModbusImageWindowIn = ReadOnly<
+        u16,
+        OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
     >;
     type ReadOnlyU16OnCoE = ReadOnly<u16, rt::OnCoE>;
-    type ReadOnlyU16OnModbus = ReadOnly<u16, rt::OnModbus>;
-    type ReadOnlyU32OnCanOpenCoE = ReadOnly<u32, rt::OnCanOpenAndCoE>;
-    type ReadOnlyU8OnCanOpenCoE = ReadOnly<u8, rt::OnCanOpenAndCoE>;
-    type ReadOnlyU8OnModbus = ReadOnly<u8, rt::OnModbus>;
-    type ReadOnlyVisibleStringOnCanOpenCoE = ReadOnly<
-        rt::VisibleString,
-        rt::OnCanOpenAndCoE,
+    type ReadOnlyU32 = ReadOnly<u32>;
+    type ReadOnlyU32OnImage = ReadOnly<u32, rt::OnImage>;
+    type ReadOnlyU8 = ReadOnly<u8>;
+    type ReadOnlyU8OnCanOpenWindowInCoEWindowInModbusImage = ReadOnly<
+        u8,
+        OnCanOpenWindowInCoEWindowInModbusImage,
     >;
-    type ReadWriteI16 = ReadWrite<i16>;
+    type ReadOnlyVisibleString = ReadOnly<rt::VisibleString>;
+    type ReadWriteI16OnCanOpenCoEModbusImageWindows = ReadWrite<
+        i16,
+        OnCanOpenCoEModbusImageWindows,
+    >;
     type ReadWriteI32 = ReadWrite<i32>;
-    type ReadWriteI32OnCanOpenCoE = ReadWrite<i32, rt::OnCanOpenAndCoE>;
-    type ReadWriteI32OnModbus = ReadWrite<i32, rt::OnModbus>;
-    type ReadWriteNamedBitRateOnModbus = ReadWrite<super::types::BitRate, rt::OnModbus>;
-    type ReadWriteNamedControlwordOnCanOpenCoE = ReadWrite<
-        super::types::Controlword,
-        rt::OnCanOpenAndCoE,
+    type ReadWriteI32OnCanOpenCoEModbusImageWindows = ReadWrite<
+        i32,
+        OnCanOpenCoEModbusImageWindows,
     >;
-    type ReadWriteNamedDigitalOutputs = ReadWrite<super::types::DigitalOutputs>;
-    type ReadWriteNamedDriveCommandOnModbus = ReadWrite<
+    type ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows = ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    >;
+    type ReadWriteNamedBitRateOnCanOpenWindowsCoEWindowsModbusImageWindows = ReadWrite<
+        super::types::BitRate,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    >;
+    type ReadWriteNamedControlword = ReadWrite<super::types::Controlword>;
+    type ReadWriteNamedDigitalOutputsOnCanOpenCoEModbusImageWindows = ReadWrite<
+        super::types::DigitalOutputs,
+        OnCanOpenCoEModbusImageWindows,
+    >;
+    type ReadWriteNamedDriveCommandOnCanOpenWindowsCoEWindowsModbusImageWindowInOut = ReadWrite<
         super::types::DriveCommand,
-        rt::OnModbus,
+        OnCanOpenWindowsCoEWindowsModbusImageWindowInOut,
     >;
-    type ReadWriteNamedEmergencyIdentifierOnCanOpenCoE = ReadWrite<
+    type ReadWriteNamedEmergencyIdentifier = ReadWrite<
         super::types::EmergencyIdentifier,
-        rt::OnCanOpenAndCoE,
     >;
-    type ReadWriteNamedExceptionsOnModbus = ReadWrite<
+    type ReadWriteNamedExceptionsOnCanOpenWindowsCoEWindowsModbusImageWindows = ReadWrite<
         super::types::Exceptions,
-        rt::OnModbus,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
     >;
-    type ReadWriteNamedHomingMethod = ReadWrite<super::types::HomingMethod>;
-    type ReadWriteNamedMappedObjectOnCanOpenCoE = ReadWrite<
-        super::types::MappedObject,
-        rt::OnCanOpenAndCoE,
+    type ReadWriteNamedHomingMethodOnCanOpenCoEModbusImageWindows = ReadWrite<
+        super::types::HomingMethod,
+        OnCanOpenCoEModbusImageWindows,
     >;
-    type ReadWriteNamedMiniInputsOnModbus = ReadWrite<
+    type ReadWriteNamedMappedObject = ReadWrite<super::types::MappedObject>;
+    type ReadWriteNamedMiniInputsOnCanOpenWindowsCoEWindowsModbusImageWindows = ReadWrite<
         super::types::MiniInputs,
-        rt::OnModbus,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
     >;
-    type ReadWriteNamedModeOnModbus = ReadWrite<super::types::Mode, rt::OnModbus>;
-    type ReadWriteNamedMotionProfile = ReadWrite<super::types::MotionProfile>;
-    type ReadWriteNamedNetworkOnModbus = ReadWrite<super::types::Network, rt::OnModbus>;
-    type ReadWriteNamedReceivePdoIdentifierOnCanOpenCoE = ReadWrite<
+    type ReadWriteNamedModeOnCanOpenWindowsCoEWindowsModbusImageWindowInOut = ReadWrite<
+        super::types::Mode,
+        OnCanOpenWindowsCoEWindowsModbusImageWindowInOut,
+    >;
+    type ReadWriteNamedMotionProfileOnCanOpenCoEModbusImageWindows = ReadWrite<
+        super::types::MotionProfile,
+        OnCanOpenCoEModbusImageWindows,
+    >;
+    type ReadWriteNamedNetworkOnCanOpenWindowsCoEWindowsModbusImageWindows = ReadWrite<
+        super::types::Network,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    >;
+    type ReadWriteNamedReceivePdoIdentifier = ReadWrite<
         super::types::ReceivePdoIdentifier,
-        rt::OnCanOpenAndCoE,
     >;
-    type ReadWriteNamedStoreParametersOnCanOpenCoE = ReadWrite<
-        super::types::StoreParameters,
-        rt::OnCanOpenAndCoE,
-    >;
-    type ReadWriteNamedSyncIdentifierOnCanOpenCoE = ReadWrite<
-        super::types::SyncIdentifier,
-        rt::OnCanOpenAndCoE,
-    >;
-    type ReadWriteNamedTransmissionTypeOnCanOpenCoE = ReadWrite<
-        super::types::TransmissionType,
-        rt::OnCanOpenAndCoE,
-    >;
-    type ReadWriteNamedTransmitPdoIdentifierOnCanOpenCoE = ReadWrite<
+    type ReadWriteNamedStoreParameters = ReadWrite<super::types::StoreParameters>;
+    type ReadWriteNamedSyncIdentifier = ReadWrite<super::types::SyncIdentifier>;
+    type ReadWriteNamedTransmissionType = ReadWrite<super::types::TransmissionType>;
+    type ReadWriteNamedTransmitPdoIdentifier = ReadWrite<
         super::types::TransmitPdoIdentifier,
-        rt::OnCanOpenAndCoE,
     >;
-    type ReadWritePerItemI16Times1Per1OnCanOpenCoE = ReadWrite<
-        rt::PerItem<i16, 1>,
-        rt::OnCanOpenAndCoE,
-    >;
-    type ReadWritePerItemI32Times1Per1 = ReadWrite<rt::PerItem<i32, 1>>;
-    type ReadWritePerItemI32Times1Per1OnModbus = ReadWrite<
+    type ReadWritePerItemI16Times1Per1 = ReadWrite<rt::PerItem<i16, 1>>;
+    type ReadWritePerItemI32Times1Per1OnCanOpenCoEModbusImageWindowInOut = ReadWrite<
         rt::PerItem<i32, 1>,
-        rt::OnModbus,
+        OnCanOpenCoEModbusImageWindowInOut,
     >;
-    type ReadWritePerItemI32Times60Per1 = ReadWrite<rt::PerItem<i32, 60>>;
-    type ReadWritePerItemU32Times1000Per1 = ReadWrite<rt::PerItem<u32, 1000>>;
-    type ReadWritePerItemU32Times1Per1OrNone4294967295 = ReadWrite<
+    type ReadWritePerItemI32Times1Per1OnCanOpenCoEModbusImageWindows = ReadWrite<
+        rt::PerItem<i32, 1>,
+        OnCanOpenCoEModbusImageWindows,
+    >;
+    type ReadWritePerItemI32Times1Per1OnCanOpenWindowsCoEWindowsModbusImageWindows = ReadWrite<
+        rt::PerItem<i32, 1>,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    >;
+    type ReadWritePerItemI32Times60Per1OnCanOpenCoEModbusImageWindows = ReadWrite<
+        rt::PerItem<i32, 60>,
+        OnCanOpenCoEModbusImageWindows,
+    >;
+    type ReadWritePerItemU32Times1000Per1OnCanOpenCoEModbusImageWindowInOut = ReadWrite<
+        rt::PerItem<u32, 1000>,
+        OnCanOpenCoEModbusImageWindowInOut,
+    >;
+    type ReadWritePerItemU32Times1000Per1OnCanOpenCoEModbusImageWindows = ReadWrite<
+        rt::PerItem<u32, 1000>,
+        OnCanOpenCoEModbusImageWindows,
+    >;
+    type ReadWritePerItemU32Times1Per1OrNone4294967295OnCanOpenCoEModbusImageWindowInOut = ReadWrite<
         rt::OrNone<rt::PerItem<u32, 1>, 4294967295>,
+        OnCanOpenCoEModbusImageWindowInOut,
     >;
-    type ReadWritePerItemU32Times60Per1 = ReadWrite<rt::PerItem<u32, 60>>;
+    type ReadWritePerItemU32Times60Per1OnCanOpenCoEModbusImageWindowInOut = ReadWrite<
+        rt::PerItem<u32, 60>,
+        OnCanOpenCoEModbusImageWindowInOut,
+    >;
+    type ReadWritePerItemU32Times60Per1OnCanOpenCoEModbusImageWindows = ReadWrite<
+        rt::PerItem<u32, 60>,
+        OnCanOpenCoEModbusImageWindows,
+    >;
     type ReadWriteU16 = ReadWrite<u16>;
-    type ReadWriteU16OnCanOpenCoE = ReadWrite<u16, rt::OnCanOpenAndCoE>;
+    type ReadWriteU16OnCanOpenCoEModbusImageWindows = ReadWrite<
+        u16,
+        OnCanOpenCoEModbusImageWindows,
+    >;
+    type ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows = ReadWrite<
+        u16,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    >;
+    type ReadWriteU16OnCanOpenWindowsCoEWindowsModbusLimitedImageWindows = ReadWrite<
+        u16,
+        OnCanOpenWindowsCoEWindowsModbusLimitedImageWindows,
+    >;
     type ReadWriteU16OnCoE = ReadWrite<u16, rt::OnCoE>;
-    type ReadWriteU16OnModbus = ReadWrite<u16, rt::OnModbus>;
-    type ReadWriteU16Times100Per1OnCanOpenCoE = ReadWrite<
+    type ReadWriteU16OnImageOut = ReadWrite<u16, OnImageOut>;
+    type ReadWriteU16Times100Per1 = ReadWrite<rt::Scaled<u16, 100>>;
+    type ReadWriteU16Times100Per1OnCanOpenWindowsCoEWindowsModbusImageWindows = ReadWrite<
         rt::Scaled<u16, 100>,
-        rt::OnCanOpenAndCoE,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
     >;
-    type ReadWriteU16Times100Per1OnModbus = ReadWrite<
-        rt::Scaled<u16, 100>,
-        rt::OnModbus,
-    >;
-    type ReadWriteU16Times1Per100OnModbus = ReadWrite<
+    type ReadWriteU16Times1Per100OnCanOpenWindowsCoEWindowsModbusImageWindows = ReadWrite<
         rt::Scaled<u16, 1, 100>,
-        rt::OnModbus,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
     >;
-    type ReadWriteU16Times1Per10OnModbus = ReadWrite<
+    type ReadWriteU16Times1Per10OnCanOpenWindowsCoEWindowsModbusImageWindows = ReadWrite<
         rt::Scaled<u16, 1, 10>,
-        rt::OnModbus,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
     >;
-    type ReadWriteU16Times1Per1OrNone0OnCanOpenCoE = ReadWrite<
-        rt::OrNone<rt::Scaled<u16, 1>, 0>,
-        rt::OnCanOpenAndCoE,
-    >;
-    type ReadWriteU16Times1Per1OrNone65535 = ReadWrite<
+    type ReadWriteU16Times1Per1OrNone0 = ReadWrite<rt::OrNone<rt::Scaled<u16, 1>, 0>>;
+    type ReadWriteU16Times1Per1OrNone65535OnCanOpenCoEModbusImageWindows = ReadWrite<
         rt::OrNone<rt::Scaled<u16, 1>, 65535>,
+        OnCanOpenCoEModbusImageWindows,
     >;
     type ReadWriteU32 = ReadWrite<u32>;
-    type ReadWriteU32OnCanOpenCoE = ReadWrite<u32, rt::OnCanOpenAndCoE>;
+    type ReadWriteU32OnCanOpenCoEModbusImageWindows = ReadWrite<
+        u32,
+        OnCanOpenCoEModbusImageWindows,
+    >;
+    type ReadWriteU32OnImageOut = ReadWrite<u32, OnImageOut>;
     type ReadWriteU8 = ReadWrite<u8>;
-    type ReadWriteU8OnCanOpenCoE = ReadWrite<u8, rt::OnCanOpenAndCoE>;
+    type ReadWriteU8OnCanOpenCoEModbusImageWindows = ReadWrite<
+        u8,
+        OnCanOpenCoEModbusImageWindows,
+    >;
     type ReadWriteU8OnCoE = ReadWrite<u8, rt::OnCoE>;
-    type ReadWriteU8Times1Per1OrNone0OnCanOpenCoE = ReadWrite<
-        rt::OrNone<rt::Scaled<u8, 1>, 0>,
-        rt::OnCanOpenAndCoE,
-    >;
-    type WriteOnlyNamedMode402OnCanOpenCoE = WriteOnly<
-        super::types::Mode402,
-        rt::OnCanOpenAndCoE,
-    >;
-    type WriteOnlyPerItemI16Times1Per1OnCanOpenCoE = WriteOnly<
-        rt::PerItem<i16, 1>,
-        rt::OnCanOpenAndCoE,
-    >;
-    type WriteOnlyPerItemI32Times1Per1OnCanOpenCoE = WriteOnly<
-        rt::PerItem<i32, 1>,
-        rt::OnCanOpenAndCoE,
-    >;
+    type ReadWriteU8Times1Per1OrNone0 = ReadWrite<rt::OrNone<rt::Scaled<u8, 1>, 0>>;
+    type WriteOnlyNamedMode402 = WriteOnly<super::types::Mode402>;
+    type WriteOnlyPerItemI16Times1Per1 = WriteOnly<rt::PerItem<i16, 1>>;
+    type WriteOnlyPerItemI32Times1Per1 = WriteOnly<rt::PerItem<i32, 1>>;
     type WriteOnlyU16OnModbus = WriteOnly<u16, rt::OnModbus>;
     type WriteOnlyU32OnModbus = WriteOnly<u32, rt::OnModbus>;
-    type WriteOnlyU8OnCanOpenCoE = WriteOnly<u8, rt::OnCanOpenAndCoE>;
+    type WriteOnlyU8 = WriteOnly<u8>;
     type WriteOnlyU8OnCoE = WriteOnly<u8, rt::OnCoE>;
     /// Access to a register or an entry that can be read.
-    pub type ReadOnlyAccess<'c, C, V, L = rt::OnCanOpenCoEAndModbus> = rt::Accessor<
+    pub type ReadOnlyAccess<'c, C, V, L = rt::OnCanOpenAndCoE> = rt::Accessor<
         'c,
         C,
         V,
@@ -5993,7 +7427,7 @@ pub mod objects {
         L,
     >;
     /// Access to a register or an entry that can be written.
-    pub type WriteOnlyAccess<'c, C, V, L = rt::OnCanOpenCoEAndModbus> = rt::Accessor<
+    pub type WriteOnlyAccess<'c, C, V, L = rt::OnCanOpenAndCoE> = rt::Accessor<
         'c,
         C,
         V,
@@ -6001,7 +7435,7 @@ pub mod objects {
         L,
     >;
     /// Access to a register or an entry that can be read and written.
-    pub type ReadWriteAccess<'c, C, V, L = rt::OnCanOpenCoEAndModbus> = rt::Accessor<
+    pub type ReadWriteAccess<'c, C, V, L = rt::OnCanOpenAndCoE> = rt::Accessor<
         'c,
         C,
         V,
@@ -6009,16 +7443,126 @@ pub mod objects {
         L,
     >;
     /// Access to a register or an entry that can be read and never changes.
-    pub type ConstantAccess<'c, C, V, L = rt::OnCanOpenCoEAndModbus> = rt::Accessor<
+    pub type ConstantAccess<'c, C, V, L = rt::OnCanOpenAndCoE> = rt::Accessor<
         'c,
         C,
         V,
         rt::Const,
         L,
     >;
+    /// following\_error\_actual\_value.
+    ///
+    /// Bytes 8 to 11 of the image to the master, INTEGER32, ro, stands for raw / feed\_constant rev.
+    ///
+    /// Manual, line 6133: Following Error Actual Value.
+    pub const FOLLOWING_ERROR_ACTUAL_VALUE: ReadOnly<rt::PerItem<i32, 1>, rt::OnImage> = ReadOnlyPerItemI32Times1Per1OnImage::new(
+        rt::OnImage::field(rt::ImageField::input(64, 32)),
+        "following_error_actual_value",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "rev",
+        rt::Flags::NONE,
+    );
+    /// torque\_actual\_value.
+    ///
+    /// Bytes 12 to 13 of the image to the master, INTEGER16, ro.
+    ///
+    /// Manual, line 6135: Torque Actual Value.
+    pub const TORQUE_ACTUAL_VALUE: ReadOnly<i16, rt::OnImage> = ReadOnlyI16OnImage::new(
+        rt::OnImage::field(rt::ImageField::input(96, 16)),
+        "torque_actual_value",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// cyclic read value.
+    ///
+    /// Bytes 16 to 19 of the image to the master, UNSIGNED32, ro.
+    ///
+    /// At least 3 ms after the address
+    ///
+    /// Manual, line 6137, 6303: Variable Read Value.
+    pub const CYCLIC_READ_VALUE: ReadOnly<u32, rt::OnImage> = ReadOnlyU32OnImage::new(
+        rt::OnImage::field(rt::ImageField::input(128, 32)),
+        "cyclic read value",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// cyclic read address.
+    ///
+    /// Bytes 24 to 25 of the image from the master, UNSIGNED16, rw.
+    ///
+    /// Which variable is read: 1 to 99 a parameter, 0x8000 to 0x8FFF a register
+    ///
+    /// Manual, line 6095, 6298-6304: Variable Read Address.
+    pub const CYCLIC_READ_ADDRESS: ReadWrite<u16, OnImageOut> = ReadWriteU16OnImageOut::new(
+        rt::Location::new(
+            rt::Absent,
+            rt::Absent,
+            rt::Absent,
+            rt::Absent,
+            rt::Absent,
+            rt::Split::writing(rt::ImageField::output(192, 16)),
+            rt::Absent,
+        ),
+        "cyclic read address",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// cyclic write address.
+    ///
+    /// Bytes 26 to 27 of the image from the master, UNSIGNED16, rw.
+    ///
+    /// Which variable is written; it stays, and is written with each new value
+    ///
+    /// Manual, line 6097, 6306-6312: Variable Write Address.
+    ///
+    /// Note: Neither an order of address and value nor an acknowledgement is described (L6306-6312). Chosen: both in one cycle (an old address with a new value would write another variable).
+    pub const CYCLIC_WRITE_ADDRESS: ReadWrite<u16, OnImageOut> = ReadWriteU16OnImageOut::new(
+        rt::Location::new(
+            rt::Absent,
+            rt::Absent,
+            rt::Absent,
+            rt::Absent,
+            rt::Absent,
+            rt::Split::writing(rt::ImageField::output(208, 16)),
+            rt::Absent,
+        ),
+        "cyclic write address",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
+    /// cyclic write value.
+    ///
+    /// Bytes 28 to 31 of the image from the master, UNSIGNED32, rw.
+    ///
+    /// Manual, line 6098, 6311: Variable Write Value.
+    pub const CYCLIC_WRITE_VALUE: ReadWrite<u32, OnImageOut> = ReadWriteU32OnImageOut::new(
+        rt::Location::new(
+            rt::Absent,
+            rt::Absent,
+            rt::Absent,
+            rt::Absent,
+            rt::Absent,
+            rt::Split::writing(rt::ImageField::output(224, 32)),
+            rt::Absent,
+        ),
+        "cyclic write value",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
+        rt::Flags::NONE,
+    );
     /// control\_word.
     ///
-    /// Holding register 32768 of 32 bits, UNSIGNED16, rw, range 0 to 65535.
+    /// Holding register 32768 of 32 bits, bytes 0 to 1 of the image from the master, number 0x8000 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 0 to 65535.
     ///
     /// Commands of the vendor's own bits, which the mode of operation gives their meaning. On CANopen and EtherCAT, 0x6040 has others
     ///
@@ -6027,14 +7571,37 @@ pub mod objects {
     /// Chapter Registers. Manual, line 39, 47-67: Control Word.
     ///
     /// Note: Kept over power-off (L39), and 0x6040 isn't in the list of saved objects (L3361-3407). Chosen: as printed (R00 and 0x6040 have different bits, and the list is one of objects).
-    pub const CONTROL_WORD: ReadWrite<super::types::DriveCommand, rt::OnModbus> = ReadWriteNamedDriveCommandOnModbus::register(
-        rt::Register::high_first(32768, 2).words_per_address(2),
+    pub const CONTROL_WORD: ReadWrite<
+        super::types::DriveCommand,
+        OnCanOpenWindowsCoEWindowsModbusImageWindowInOut,
+    > = ReadWriteNamedDriveCommandOnCanOpenWindowsCoEWindowsModbusImageWindowInOut::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x8000, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::unsigned(0x8000, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x8000, &super::windows::REGISTER_READ_COE),
+                rt::Through::unsigned(0x8000, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32768, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x8000, &super::windows::REGISTER_READ_IMAGE),
+                rt::ImageField::output(0, 16),
+            ),
+            rt::Absent,
+        ),
         "control_word",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// modes\_of\_operation.
     ///
-    /// Holding register 32769 of 32 bits, INTEGER8, rw, range \-127 to 127.
+    /// Holding register 32769 of 32 bits, byte 2 of the image from the master, number 0x8001 behind a window on CANopen, EtherCAT, PROFINET, INTEGER8, rw, range \-127 to 127.
     ///
     /// The mode that is wanted. On CANopen and EtherCAT 0x6060 is it, which can only be written
     ///
@@ -6043,16 +7610,37 @@ pub mod objects {
     /// Chapter Registers. Manual, line 72, 75-79: Modes of operation.
     ///
     /// Note: 0x81 to 0x7F (L72) in a register of 32 bits, 4 bytes in the frames (L1447, L1492), one byte as an object (L3779) and in the image (L6082), two bytes in PDOs (L5547). Chosen: one byte with sign; on Modbus its sign fills the register (0xFFFFFFCE is -50 in the frame).
-    pub const MODES_OF_OPERATION: ReadWrite<super::types::Mode, rt::OnModbus> = ReadWriteNamedModeOnModbus::register_within(
-        rt::Register::high_first(32769, 2).sign_extended().words_per_address(2),
+    pub const MODES_OF_OPERATION: ReadWrite<
+        super::types::Mode,
+        OnCanOpenWindowsCoEWindowsModbusImageWindowInOut,
+    > = ReadWriteNamedModeOnCanOpenWindowsCoEWindowsModbusImageWindowInOut::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8001, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8001, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8001, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8001, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32769, 2).sign_extended().words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8001, &super::windows::REGISTER_READ_IMAGE),
+                rt::ImageField::output(16, 8),
+            ),
+            rt::Absent,
+        ),
         "modes_of_operation",
         rt::Range::From(super::types::Mode::from_raw(-127)),
+        rt::Initial::Unknown,
         "",
         rt::Flags::NONE,
     );
     /// following\_error\_window.
     ///
-    /// 0x6065:00, holding register 32771 of 32 bits, UNSIGNED32, rw, mappable into any PDO, range 0 to 4294967295, stands for raw / feed\_constant rev.
+    /// 0x6065:00, holding register 32771 of 32 bits, bytes 12 to 15 of the image from the master, number 0x8003 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 4294967295, stands for raw / feed\_constant rev.
     ///
     /// Largest distance between set-point and position. That the unit is the user's isn't said of it
     ///
@@ -6063,36 +7651,57 @@ pub mod objects {
     /// Chapter Registers. Manual, line 129, 3782: Following\_error\_windows.
     pub const FOLLOWING_ERROR_WINDOW: ReadWrite<
         rt::OrNone<rt::PerItem<u32, 1>, 4294967295>,
-    > = ReadWritePerItemU32Times1Per1OrNone4294967295::register_within(
-        0x6065,
-        0x00,
-        rt::Register::high_first(32771, 2).words_per_address(2),
+        OnCanOpenCoEModbusImageWindowInOut,
+    > = ReadWritePerItemU32Times1Per1OrNone4294967295OnCanOpenCoEModbusImageWindowInOut::new(
+        rt::Location::new(
+            rt::Object::new(0x6065, 0x00),
+            rt::Object::new(0x6065, 0x00),
+            rt::Register::high_first(32771, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x8003, &super::windows::REGISTER_READ_IMAGE),
+                rt::ImageField::output(96, 32),
+            ),
+            rt::Absent,
+        ),
         "following_error_window",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "rev",
         rt::Flags::PDO,
     );
     /// following\_error\_timeout.
     ///
-    /// 0x6066:00, holding register 32772 of 32 bits, UNSIGNED16, rw, mappable into any PDO, range 0 to 8191.
+    /// 0x6066:00, holding register 32772 of 32 bits, number 0x8004 behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 8191.
     ///
     /// How long the following error may be too large
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 130, 3783: Following\_error\_timeout.
-    pub const FOLLOWING_ERROR_TIMEOUT: ReadWrite<u16> = ReadWriteU16::register_within(
-        0x6066,
-        0x00,
-        rt::Register::high_first(32772, 2).words_per_address(2),
+    pub const FOLLOWING_ERROR_TIMEOUT: ReadWrite<u16, OnCanOpenCoEModbusImageWindows> = ReadWriteU16OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x6066, 0x00),
+            rt::Object::new(0x6066, 0x00),
+            rt::Register::high_first(32772, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x8004, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::unsigned(0x8004, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "following_error_timeout",
         rt::Range::To(8191),
+        rt::Initial::Unknown,
         "",
         rt::Flags::PDO,
     );
     /// status\_word.
     ///
-    /// Holding register 32773 of 32 bits, UNSIGNED16, ro.
+    /// Holding register 32773 of 32 bits, bytes 0 to 1 of the image to the master, number 0x8005 behind a window on CANopen, EtherCAT, UNSIGNED16, ro.
     ///
     /// The vendor's own bits. On CANopen and EtherCAT, 0x6041 has others
     ///
@@ -6103,14 +7712,32 @@ pub mod objects {
     /// Note: 0 to 0xFF (L135), and Status Word is 0x8640 in an image of PROFINET (L6175). Chosen: 16 bits without limits (the value that is shown has to be one that is possible).
     ///
     /// Note: 0x8640 looks like a statusword of DSP 402, with bits 15, 10, 9 and 6 (L6175), and the text of PROFINET uses bit 6 as R05 has it (L6412). Chosen: the bits of R05 (control and status of the example are R00 and R05; only a device can tell).
-    pub const STATUS_WORD: ReadOnly<super::types::DriveStatus, rt::OnModbus> = ReadOnlyNamedDriveStatusOnModbus::register(
-        rt::Register::high_first(32773, 2).words_per_address(2),
+    pub const STATUS_WORD: ReadOnly<
+        super::types::DriveStatus,
+        OnCanOpenWindowInCoEWindowInModbusImage,
+    > = ReadOnlyNamedDriveStatusOnCanOpenWindowInCoEWindowInModbusImage::new(
+        rt::Location::new(
+            rt::Split::reading(
+                rt::Through::unsigned(0x8005, &super::windows::REGISTER_READ_CANOPEN),
+            ),
+            rt::Split::reading(
+                rt::Through::unsigned(0x8005, &super::windows::REGISTER_READ_COE),
+            ),
+            rt::Register::high_first(32773, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::ImageField::input(0, 16),
+            rt::Absent,
+        ),
         "status_word",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// position\_actual\_value.
     ///
-    /// 0x6064:00, holding register 32774 of 32 bits, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
+    /// 0x6064:00, holding register 32774 of 32 bits, bytes 3 to 6 of the image to the master, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
     ///
     /// Position in user units
     ///
@@ -6119,18 +7746,28 @@ pub mod objects {
     /// Chapter Registers. Manual, line 169-172, 3781.
     ///
     /// Note: Position Actual Unit Value (L3781), which DSP 402 calls Position actual value. Chosen: the name of the register (a unit is no part of the name).
-    pub const POSITION_ACTUAL_VALUE: ReadOnly<rt::PerItem<i32, 1>> = ReadOnlyPerItemI32Times1Per1::register_within(
-        0x6064,
-        0x00,
-        rt::Register::high_first(32774, 2).words_per_address(2),
+    pub const POSITION_ACTUAL_VALUE: ReadOnly<
+        rt::PerItem<i32, 1>,
+        OnCanOpenCoEModbusImage,
+    > = ReadOnlyPerItemI32Times1Per1OnCanOpenCoEModbusImage::new(
+        rt::Location::new(
+            rt::Object::new(0x6064, 0x00),
+            rt::Object::new(0x6064, 0x00),
+            rt::Register::high_first(32774, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::ImageField::input(24, 32),
+            rt::Absent,
+        ),
         "position_actual_value",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "rev",
         rt::Flags::TPDO,
     );
     /// latched\_position.
     ///
-    /// 0x2001:00, holding register 32775 of 32 bits, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
+    /// 0x2001:00, holding register 32775 of 32 bits, number 0x8007 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
     ///
     /// The position where the latch input rose; a bit of the status word tells a new one
     ///
@@ -6141,90 +7778,152 @@ pub mod objects {
     /// Note: rw (L3860), of a measured value. Chosen: as printed (what writing does isn't said).
     ///
     /// Note: Hardware Latched User Position is 0x2001 (L4017) and 0x2004 (L4032). Chosen: 0x2004 is the lower half of 0x2001 (the text says so (L4033)).
-    pub const LATCHED_POSITION: ReadWrite<rt::PerItem<i32, 1>> = ReadWritePerItemI32Times1Per1::register_within(
-        0x2001,
-        0x00,
-        rt::Register::high_first(32775, 2).words_per_address(2),
+    pub const LATCHED_POSITION: ReadWrite<
+        rt::PerItem<i32, 1>,
+        OnCanOpenCoEModbusImageWindows,
+    > = ReadWritePerItemI32Times1Per1OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x2001, 0x00),
+            rt::Object::new(0x2001, 0x00),
+            rt::Register::high_first(32775, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8007, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8007, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "latched_position",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "rev",
         rt::Flags::PDO,
     );
     /// velocity\_actual\_value.
     ///
-    /// 0x606C:00, holding register 32776 of 32 bits, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647, stands for raw × 60 / feed\_constant rpm.
+    /// 0x606C:00, holding register 32776 of 32 bits, bytes 20 to 23 of the image to the master, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647, stands for raw × 60 / feed\_constant rpm.
     ///
     /// Speed in user units a second
     ///
     /// Lost at power-off.
     ///
     /// Chapter Registers. Manual, line 179-182, 3786.
-    pub const VELOCITY_ACTUAL_VALUE: ReadOnly<rt::PerItem<i32, 60>> = ReadOnlyPerItemI32Times60Per1::register_within(
-        0x606C,
-        0x00,
-        rt::Register::high_first(32776, 2).words_per_address(2),
+    pub const VELOCITY_ACTUAL_VALUE: ReadOnly<
+        rt::PerItem<i32, 60>,
+        OnCanOpenCoEModbusImage,
+    > = ReadOnlyPerItemI32Times60Per1OnCanOpenCoEModbusImage::new(
+        rt::Location::new(
+            rt::Object::new(0x606C, 0x00),
+            rt::Object::new(0x606C, 0x00),
+            rt::Register::high_first(32776, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::ImageField::input(160, 32),
+            rt::Absent,
+        ),
         "velocity_actual_value",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "rpm",
         rt::Flags::TPDO,
     );
     /// target\_position.
     ///
-    /// 0x607A:00, holding register 32777 of 32 bits, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
+    /// 0x607A:00, holding register 32777 of 32 bits, bytes 3 to 6 of the image from the master, number 0x8009 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
     ///
     /// Where the positioner goes; the distance, where it is incremental
     ///
     /// Lost at power-off.
     ///
     /// Chapter Registers. Manual, line 184-187, 3791.
-    pub const TARGET_POSITION: ReadWrite<rt::PerItem<i32, 1>> = ReadWritePerItemI32Times1Per1::register_within(
-        0x607A,
-        0x00,
-        rt::Register::high_first(32777, 2).words_per_address(2),
+    pub const TARGET_POSITION: ReadWrite<
+        rt::PerItem<i32, 1>,
+        OnCanOpenCoEModbusImageWindowInOut,
+    > = ReadWritePerItemI32Times1Per1OnCanOpenCoEModbusImageWindowInOut::new(
+        rt::Location::new(
+            rt::Object::new(0x607A, 0x00),
+            rt::Object::new(0x607A, 0x00),
+            rt::Register::high_first(32777, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8009, &super::windows::REGISTER_READ_IMAGE),
+                rt::ImageField::output(24, 32),
+            ),
+            rt::Absent,
+        ),
         "target_position",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "rev",
         rt::Flags::PDO,
     );
     /// profile\_acceleration.
     ///
-    /// 0x6083:00, holding register 32778 of 32 bits, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / feed\_constant rev/s².
+    /// 0x6083:00, holding register 32778 of 32 bits, bytes 16 to 19 of the image from the master, number 0x800A behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / feed\_constant rev/s².
     ///
     /// Acceleration in user units a second, each millisecond
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 189, 3794.
-    pub const PROFILE_ACCELERATION: ReadWrite<rt::PerItem<u32, 1000>> = ReadWritePerItemU32Times1000Per1::register_within(
-        0x6083,
-        0x00,
-        rt::Register::high_first(32778, 2).words_per_address(2),
+    pub const PROFILE_ACCELERATION: ReadWrite<
+        rt::PerItem<u32, 1000>,
+        OnCanOpenCoEModbusImageWindowInOut,
+    > = ReadWritePerItemU32Times1000Per1OnCanOpenCoEModbusImageWindowInOut::new(
+        rt::Location::new(
+            rt::Object::new(0x6083, 0x00),
+            rt::Object::new(0x6083, 0x00),
+            rt::Register::high_first(32778, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x800A, &super::windows::REGISTER_READ_IMAGE),
+                rt::ImageField::output(128, 32),
+            ),
+            rt::Absent,
+        ),
         "profile_acceleration",
         rt::Range::To(2147483647),
+        rt::Initial::Unknown,
         "rev/s²",
         rt::Flags::PDO,
     );
     /// profile\_deceleration.
     ///
-    /// 0x6084:00, holding register 32779 of 32 bits, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / feed\_constant rev/s².
+    /// 0x6084:00, holding register 32779 of 32 bits, bytes 20 to 23 of the image from the master, number 0x800B behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / feed\_constant rev/s².
     ///
     /// Deceleration in user units a second, each millisecond
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 190, 3795.
-    pub const PROFILE_DECELERATION: ReadWrite<rt::PerItem<u32, 1000>> = ReadWritePerItemU32Times1000Per1::register_within(
-        0x6084,
-        0x00,
-        rt::Register::high_first(32779, 2).words_per_address(2),
+    pub const PROFILE_DECELERATION: ReadWrite<
+        rt::PerItem<u32, 1000>,
+        OnCanOpenCoEModbusImageWindowInOut,
+    > = ReadWritePerItemU32Times1000Per1OnCanOpenCoEModbusImageWindowInOut::new(
+        rt::Location::new(
+            rt::Object::new(0x6084, 0x00),
+            rt::Object::new(0x6084, 0x00),
+            rt::Register::high_first(32779, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x800B, &super::windows::REGISTER_READ_IMAGE),
+                rt::ImageField::output(160, 32),
+            ),
+            rt::Absent,
+        ),
         "profile_deceleration",
         rt::Range::To(2147483647),
+        rt::Initial::Unknown,
         "rev/s²",
         rt::Flags::PDO,
     );
     /// profile\_velocity.
     ///
-    /// 0x6081:00, holding register 32780 of 32 bits, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 60 / feed\_constant rpm.
+    /// 0x6081:00, holding register 32780 of 32 bits, bytes 8 to 11 of the image from the master, number 0x800C behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 60 / feed\_constant rpm.
     ///
     /// Speed of positioning in user units a second
     ///
@@ -6233,36 +7932,62 @@ pub mod objects {
     /// Chapter Registers. Manual, line 191, 3793.
     ///
     /// Note: The captions of R05's drawing follow in the row (L191-234). Chosen: the row ends with its address (they are those of the bits (L197-234)).
-    pub const PROFILE_VELOCITY: ReadWrite<rt::PerItem<u32, 60>> = ReadWritePerItemU32Times60Per1::register_within(
-        0x6081,
-        0x00,
-        rt::Register::high_first(32780, 2).words_per_address(2),
+    pub const PROFILE_VELOCITY: ReadWrite<
+        rt::PerItem<u32, 60>,
+        OnCanOpenCoEModbusImageWindowInOut,
+    > = ReadWritePerItemU32Times60Per1OnCanOpenCoEModbusImageWindowInOut::new(
+        rt::Location::new(
+            rt::Object::new(0x6081, 0x00),
+            rt::Object::new(0x6081, 0x00),
+            rt::Register::high_first(32780, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x800C, &super::windows::REGISTER_READ_IMAGE),
+                rt::ImageField::output(64, 32),
+            ),
+            rt::Absent,
+        ),
         "profile_velocity",
         rt::Range::To(2147483647),
+        rt::Initial::Unknown,
         "rpm",
         rt::Flags::PDO,
     );
     /// target\_velocity.
     ///
-    /// 0x60FF:00, holding register 32781 of 32 bits, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw × 60 / feed\_constant rpm.
+    /// 0x60FF:00, holding register 32781 of 32 bits, number 0x800D behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw × 60 / feed\_constant rpm.
     ///
     /// Speed wanted in velocity mode
     ///
     /// Lost at power-off.
     ///
     /// Chapter Registers. Manual, line 237-240, 3841.
-    pub const TARGET_VELOCITY: ReadWrite<rt::PerItem<i32, 60>> = ReadWritePerItemI32Times60Per1::register_within(
-        0x60FF,
-        0x00,
-        rt::Register::high_first(32781, 2).words_per_address(2),
+    pub const TARGET_VELOCITY: ReadWrite<
+        rt::PerItem<i32, 60>,
+        OnCanOpenCoEModbusImageWindows,
+    > = ReadWritePerItemI32Times60Per1OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x60FF, 0x00),
+            rt::Object::new(0x60FF, 0x00),
+            rt::Register::high_first(32781, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x800D, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x800D, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "target_velocity",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "rpm",
         rt::Flags::PDO,
     );
     /// velocity\_window.
     ///
-    /// 0x606D:00, holding register 32782 of 32 bits, UNSIGNED16, rw, mappable into any PDO, range 0 to 65535.
+    /// 0x606D:00, holding register 32782 of 32 bits, number 0x800E behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 65535.
     ///
     /// Largest distance between speed wanted and speed
     ///
@@ -6271,34 +7996,59 @@ pub mod objects {
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 242, 3787.
-    pub const VELOCITY_WINDOW: ReadWrite<rt::OrNone<rt::Scaled<u16, 1>, 65535>> = ReadWriteU16Times1Per1OrNone65535::register(
-        0x606D,
-        0x00,
-        rt::Register::high_first(32782, 2).words_per_address(2),
+    pub const VELOCITY_WINDOW: ReadWrite<
+        rt::OrNone<rt::Scaled<u16, 1>, 65535>,
+        OnCanOpenCoEModbusImageWindows,
+    > = ReadWriteU16Times1Per1OrNone65535OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x606D, 0x00),
+            rt::Object::new(0x606D, 0x00),
+            rt::Register::high_first(32782, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x800E, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::unsigned(0x800E, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "velocity_window",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// velocity\_window\_time.
     ///
-    /// 0x606E:00, holding register 32783 of 32 bits, UNSIGNED16, rw, mappable into any PDO, range 0 to 32767.
+    /// 0x606E:00, holding register 32783 of 32 bits, number 0x800F behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 32767.
     ///
     /// How long the speed has to be in its window
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 243, 3788.
-    pub const VELOCITY_WINDOW_TIME: ReadWrite<u16> = ReadWriteU16::register_within(
-        0x606E,
-        0x00,
-        rt::Register::high_first(32783, 2).words_per_address(2),
+    pub const VELOCITY_WINDOW_TIME: ReadWrite<u16, OnCanOpenCoEModbusImageWindows> = ReadWriteU16OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x606E, 0x00),
+            rt::Object::new(0x606E, 0x00),
+            rt::Register::high_first(32783, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x800F, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::unsigned(0x800F, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "velocity_window_time",
         rt::Range::To(32767),
+        rt::Initial::Unknown,
         "",
         rt::Flags::PDO,
     );
     /// velocity\_threshold.
     ///
-    /// 0x606F:00, holding register 32784 of 32 bits, UNSIGNED16, rw, mappable into any PDO, range 0 to 65535.
+    /// 0x606F:00, holding register 32784 of 32 bits, number 0x8010 behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 65535.
     ///
     /// Speed below which the axis counts as still
     ///
@@ -6307,34 +8057,59 @@ pub mod objects {
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 244, 3789.
-    pub const VELOCITY_THRESHOLD: ReadWrite<rt::OrNone<rt::Scaled<u16, 1>, 65535>> = ReadWriteU16Times1Per1OrNone65535::register(
-        0x606F,
-        0x00,
-        rt::Register::high_first(32784, 2).words_per_address(2),
+    pub const VELOCITY_THRESHOLD: ReadWrite<
+        rt::OrNone<rt::Scaled<u16, 1>, 65535>,
+        OnCanOpenCoEModbusImageWindows,
+    > = ReadWriteU16Times1Per1OrNone65535OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x606F, 0x00),
+            rt::Object::new(0x606F, 0x00),
+            rt::Register::high_first(32784, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x8010, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::unsigned(0x8010, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "velocity_threshold",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// velocity\_threshold\_time.
     ///
-    /// 0x6070:00, holding register 32785 of 32 bits, UNSIGNED16, rw, mappable into any PDO, range 0 to 32767.
+    /// 0x6070:00, holding register 32785 of 32 bits, number 0x8011 behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 32767.
     ///
     /// How long the speed has to be below its threshold
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 245, 3790.
-    pub const VELOCITY_THRESHOLD_TIME: ReadWrite<u16> = ReadWriteU16::register_within(
-        0x6070,
-        0x00,
-        rt::Register::high_first(32785, 2).words_per_address(2),
+    pub const VELOCITY_THRESHOLD_TIME: ReadWrite<u16, OnCanOpenCoEModbusImageWindows> = ReadWriteU16OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x6070, 0x00),
+            rt::Object::new(0x6070, 0x00),
+            rt::Register::high_first(32785, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x8011, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::unsigned(0x8011, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "velocity_threshold_time",
         rt::Range::To(32767),
+        rt::Initial::Unknown,
         "",
         rt::Flags::PDO,
     );
     /// homing\_method.
     ///
-    /// 0x6098:00, holding register 32786 of 32 bits, UNSIGNED8, rw, mappable into any PDO, range 0 to 255.
+    /// 0x6098:00, holding register 32786 of 32 bits, number 0x8012 behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 0 to 255.
     ///
     /// How the axis looks for its zero
     ///
@@ -6343,204 +8118,357 @@ pub mod objects {
     /// Chapter Registers. Manual, line 246, 3804.
     ///
     /// Note: Written as u8 (L4262), where DSP 402 has a number with sign. Chosen: without sign (the limits are 0 and 0xFF).
-    pub const HOMING_METHOD: ReadWrite<super::types::HomingMethod> = ReadWriteNamedHomingMethod::register(
-        0x6098,
-        0x00,
-        rt::Register::high_first(32786, 2).words_per_address(2),
+    pub const HOMING_METHOD: ReadWrite<
+        super::types::HomingMethod,
+        OnCanOpenCoEModbusImageWindows,
+    > = ReadWriteNamedHomingMethodOnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x6098, 0x00),
+            rt::Object::new(0x6098, 0x00),
+            rt::Register::high_first(32786, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x8012, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::unsigned(0x8012, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "homing_method",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// home\_offset.
     ///
-    /// 0x607C:00, holding register 32787 of 32 bits, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
+    /// 0x607C:00, holding register 32787 of 32 bits, number 0x8013 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
     ///
     /// Distance from the home position to zero: -1000 makes the position 1000 (L4265)
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 247-250, 3792.
-    pub const HOME_OFFSET: ReadWrite<rt::PerItem<i32, 1>> = ReadWritePerItemI32Times1Per1::register_within(
-        0x607C,
-        0x00,
-        rt::Register::high_first(32787, 2).words_per_address(2),
+    pub const HOME_OFFSET: ReadWrite<
+        rt::PerItem<i32, 1>,
+        OnCanOpenCoEModbusImageWindows,
+    > = ReadWritePerItemI32Times1Per1OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x607C, 0x00),
+            rt::Object::new(0x607C, 0x00),
+            rt::Register::high_first(32787, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8013, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8013, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "home_offset",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "rev",
         rt::Flags::PDO,
     );
     /// homing\_acceleration.
     ///
-    /// 0x609A:00, holding register 32790 of 32 bits, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / feed\_constant rev/s².
+    /// 0x609A:00, holding register 32790 of 32 bits, number 0x8016 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / feed\_constant rev/s².
     ///
     /// Acceleration and deceleration of homing
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 258, 3812.
-    pub const HOMING_ACCELERATION: ReadWrite<rt::PerItem<u32, 1000>> = ReadWritePerItemU32Times1000Per1::register_within(
-        0x609A,
-        0x00,
-        rt::Register::high_first(32790, 2).words_per_address(2),
+    pub const HOMING_ACCELERATION: ReadWrite<
+        rt::PerItem<u32, 1000>,
+        OnCanOpenCoEModbusImageWindows,
+    > = ReadWritePerItemU32Times1000Per1OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x609A, 0x00),
+            rt::Object::new(0x609A, 0x00),
+            rt::Register::high_first(32790, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x8016, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::unsigned(0x8016, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "homing_acceleration",
         rt::Range::To(2147483647),
+        rt::Initial::Unknown,
         "rev/s²",
         rt::Flags::PDO,
     );
     /// velocity\_master\_sensor.
     ///
-    /// Holding register 32791 of 32 bits, INTEGER16, ro, range \-32768 to 32767.
+    /// Holding register 32791 of 32 bits, number 0x8017 behind a window on CANopen, EtherCAT, PROFINET, INTEGER16, ro, range \-32768 to 32767.
     ///
     /// Speed of the master axis, in increments a millisecond. 0x6069 shows it while bit 12 of 0x6040 is set (L3915-3918)
     ///
     /// Lost at power-off.
     ///
     /// Chapter Registers. Manual, line 259-262.
-    pub const VELOCITY_MASTER_SENSOR: ReadOnly<i16, rt::OnModbus> = ReadOnlyI16OnModbus::register(
-        rt::Register::high_first(32791, 2).sign_extended().words_per_address(2),
+    pub const VELOCITY_MASTER_SENSOR: ReadOnly<
+        i16,
+        OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
+    > = ReadOnlyI16OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
+        rt::Location::new(
+            rt::Split::reading(
+                rt::Through::signed(0x8017, &super::windows::REGISTER_READ_CANOPEN),
+            ),
+            rt::Split::reading(
+                rt::Through::signed(0x8017, &super::windows::REGISTER_READ_COE),
+            ),
+            rt::Register::high_first(32791, 2).sign_extended().words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::reading(
+                rt::Through::signed(0x8017, &super::windows::REGISTER_READ_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "velocity_master_sensor",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// master\_encoder\_increments.
     ///
-    /// 0x3000:00, holding register 32792 of 32 bits, UNSIGNED16, rw, range 1 to 32767.
+    /// 0x3000:00, holding register 32792 of 32 bits, number 0x8018 behind a window on PROFINET, UNSIGNED16, rw, range 1 to 32767.
     ///
     /// Pulses a turn of the master encoder, for the electric axis
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 264-267, 3878.
-    pub const MASTER_ENCODER_INCREMENTS: ReadWrite<u16> = ReadWriteU16::register_within(
-        0x3000,
-        0x00,
-        rt::Register::high_first(32792, 2).words_per_address(2),
+    pub const MASTER_ENCODER_INCREMENTS: ReadWrite<
+        u16,
+        OnCanOpenCoEModbusImageWindows,
+    > = ReadWriteU16OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3000, 0x00),
+            rt::Object::new(0x3000, 0x00),
+            rt::Register::high_first(32792, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x8018, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::unsigned(0x8018, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "master_encoder_increments",
         rt::Range::Between(1, 32767),
+        rt::Initial::Unknown,
         "",
         rt::Flags::NONE,
     );
     /// gear\_ratio\_numerator.
     ///
-    /// 0x3001:00, holding register 32793 of 32 bits, UNSIGNED8, rw, mappable into any PDO, range 1 to 32.
+    /// 0x3001:00, holding register 32793 of 32 bits, number 0x8019 behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 1 to 32.
     ///
     /// Numerator of the ratio to the master, for the electric axis
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 269, 3879.
-    pub const GEAR_RATIO_NUMERATOR: ReadWrite<u8> = ReadWriteU8::register_within(
-        0x3001,
-        0x00,
-        rt::Register::high_first(32793, 2).words_per_address(2),
+    pub const GEAR_RATIO_NUMERATOR: ReadWrite<u8, OnCanOpenCoEModbusImageWindows> = ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3001, 0x00),
+            rt::Object::new(0x3001, 0x00),
+            rt::Register::high_first(32793, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x8019, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::unsigned(0x8019, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "gear_ratio_numerator",
         rt::Range::Between(1, 32),
+        rt::Initial::Unknown,
         "",
         rt::Flags::PDO,
     );
     /// gear\_ratio\_divisor.
     ///
-    /// 0x3002:00, holding register 32794 of 32 bits, UNSIGNED8, rw, mappable into any PDO, range 1 to 255.
+    /// 0x3002:00, holding register 32794 of 32 bits, number 0x801A behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 1 to 255.
     ///
     /// Denominator of the ratio to the master, for the electric axis
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 270, 3880.
-    pub const GEAR_RATIO_DIVISOR: ReadWrite<u8> = ReadWriteU8::register_within(
-        0x3002,
-        0x00,
-        rt::Register::high_first(32794, 2).words_per_address(2),
+    pub const GEAR_RATIO_DIVISOR: ReadWrite<u8, OnCanOpenCoEModbusImageWindows> = ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3002, 0x00),
+            rt::Object::new(0x3002, 0x00),
+            rt::Register::high_first(32794, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x801A, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::unsigned(0x801A, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "gear_ratio_divisor",
         rt::Range::From(1),
+        rt::Initial::Unknown,
         "",
         rt::Flags::PDO,
     );
     /// motion\_profile\_type.
     ///
-    /// 0x6086:00, holding register 32795 of 32 bits, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
+    /// 0x6086:00, holding register 32795 of 32 bits, number 0x801B behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
     ///
     /// Shape of the ramps
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 271-274, 3796.
-    pub const MOTION_PROFILE_TYPE: ReadWrite<super::types::MotionProfile> = ReadWriteNamedMotionProfile::register(
-        0x6086,
-        0x00,
-        rt::Register::high_first(32795, 2).sign_extended().words_per_address(2),
+    pub const MOTION_PROFILE_TYPE: ReadWrite<
+        super::types::MotionProfile,
+        OnCanOpenCoEModbusImageWindows,
+    > = ReadWriteNamedMotionProfileOnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x6086, 0x00),
+            rt::Object::new(0x6086, 0x00),
+            rt::Register::high_first(32795, 2).sign_extended().words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x801B, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x801B, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "motion_profile_type",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// acceleration\_jerk.
     ///
-    /// 0x3100:00, holding register 32796 of 32 bits, UNSIGNED8, rw, mappable into any PDO, range 1 to 99.
+    /// 0x3100:00, holding register 32796 of 32 bits, number 0x801C behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 1 to 99.
     ///
     /// Jerk while accelerating; not every profile uses it
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 276, 3881.
-    pub const ACCELERATION_JERK: ReadWrite<u8> = ReadWriteU8::register_within(
-        0x3100,
-        0x00,
-        rt::Register::high_first(32796, 2).words_per_address(2),
+    pub const ACCELERATION_JERK: ReadWrite<u8, OnCanOpenCoEModbusImageWindows> = ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3100, 0x00),
+            rt::Object::new(0x3100, 0x00),
+            rt::Register::high_first(32796, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x801C, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::unsigned(0x801C, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "acceleration_jerk",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "",
         rt::Flags::PDO,
     );
     /// deceleration\_jerk.
     ///
-    /// 0x3101:00, holding register 32797 of 32 bits, UNSIGNED8, rw, mappable into any PDO, range 1 to 99.
+    /// 0x3101:00, holding register 32797 of 32 bits, number 0x801D behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 1 to 99.
     ///
     /// Jerk while decelerating; not every profile uses it
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 278, 3882.
-    pub const DECELERATION_JERK: ReadWrite<u8> = ReadWriteU8::register_within(
-        0x3101,
-        0x00,
-        rt::Register::high_first(32797, 2).words_per_address(2),
+    pub const DECELERATION_JERK: ReadWrite<u8, OnCanOpenCoEModbusImageWindows> = ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3101, 0x00),
+            rt::Object::new(0x3101, 0x00),
+            rt::Register::high_first(32797, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x801D, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::unsigned(0x801D, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "deceleration_jerk",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "",
         rt::Flags::PDO,
     );
     /// aux\_in\_1.
     ///
-    /// 0x3201:00, holding register 32798 of 32 bits, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
+    /// 0x3201:00, holding register 32798 of 32 bits, number 0x801E behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
     ///
     /// For any purpose. While the input Select is high, the target of the positioner, and the speed wanted (L1713, L1740)
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 279-282, 3883: Aux in 1.
-    pub const AUX_IN_1: ReadWrite<i32> = ReadWriteI32::register(
-        0x3201,
-        0x00,
-        rt::Register::high_first(32798, 2).words_per_address(2),
+    pub const AUX_IN_1: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3201, 0x00),
+            rt::Object::new(0x3201, 0x00),
+            rt::Register::high_first(32798, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x801E, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x801E, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_1",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// aux\_in\_2.
     ///
-    /// 0x3202:00, holding register 32799 of 32 bits, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
+    /// 0x3202:00, holding register 32799 of 32 bits, number 0x801F behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 284-287, 3884: Aux in 2.
-    pub const AUX_IN_2: ReadWrite<i32> = ReadWriteI32::register(
-        0x3202,
-        0x00,
-        rt::Register::high_first(32799, 2).words_per_address(2),
+    pub const AUX_IN_2: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3202, 0x00),
+            rt::Object::new(0x3202, 0x00),
+            rt::Register::high_first(32799, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x801F, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x801F, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_2",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// aux\_out\_1.
     ///
-    /// 0x3301:00, holding register 32800 of 32 bits, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647.
+    /// 0x3301:00, holding register 32800 of 32 bits, number 0x8020 behind a window on PROFINET, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
@@ -6549,16 +8477,27 @@ pub mod objects {
     /// Chapter Registers. Manual, line 289-292, 3885: Aux out 1.
     ///
     /// Note: Kept over power-off (L289), and ro and not in the list of saved objects (L3885, L3361-3407). Chosen: as printed (the register's own row says so).
-    pub const AUX_OUT_1: ReadOnly<i32> = ReadOnlyI32::register(
-        0x3301,
-        0x00,
-        rt::Register::high_first(32800, 2).words_per_address(2),
+    pub const AUX_OUT_1: ReadOnly<i32, OnCanOpenCoEModbusImageWindowIn> = ReadOnlyI32OnCanOpenCoEModbusImageWindowIn::new(
+        rt::Location::new(
+            rt::Object::new(0x3301, 0x00),
+            rt::Object::new(0x3301, 0x00),
+            rt::Register::high_first(32800, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::reading(
+                rt::Through::signed(0x8020, &super::windows::REGISTER_READ_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_out_1",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::TPDO,
     );
     /// aux\_out\_2.
     ///
-    /// 0x3302:00, holding register 32801 of 32 bits, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647.
+    /// 0x3302:00, holding register 32801 of 32 bits, number 0x8021 behind a window on PROFINET, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
@@ -6567,16 +8506,27 @@ pub mod objects {
     /// Chapter Registers. Manual, line 294-297, 3886: Aux out 2.
     ///
     /// Note: Kept over power-off (L294), and ro and not in the list of saved objects (L3886, L3361-3407). Chosen: as printed (the register's own row says so).
-    pub const AUX_OUT_2: ReadOnly<i32> = ReadOnlyI32::register(
-        0x3302,
-        0x00,
-        rt::Register::high_first(32801, 2).words_per_address(2),
+    pub const AUX_OUT_2: ReadOnly<i32, OnCanOpenCoEModbusImageWindowIn> = ReadOnlyI32OnCanOpenCoEModbusImageWindowIn::new(
+        rt::Location::new(
+            rt::Object::new(0x3302, 0x00),
+            rt::Object::new(0x3302, 0x00),
+            rt::Register::high_first(32801, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::reading(
+                rt::Through::signed(0x8021, &super::windows::REGISTER_READ_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_out_2",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::TPDO,
     );
     /// aux\_in\_3.
     ///
-    /// 0x3401:00, holding register 32802 of 32 bits, INTEGER16, rw, mappable into any PDO.
+    /// 0x3401:00, holding register 32802 of 32 bits, number 0x8022 behind a window on PROFINET, INTEGER16, rw, mappable into any PDO.
     ///
     /// For any purpose
     ///
@@ -6585,16 +8535,28 @@ pub mod objects {
     /// Chapter Registers. Manual, line 299-302, 3887: Aux in 3.
     ///
     /// Note: 0x80000000 to 0x7FFFFFFF in the register (L299-302), and two bytes in 0x3401, whose name is Aux16 In 3 (L3887). Chosen: 16 bits with sign (its neighbours R35 and R36 have them; what doesn't fit 16 bits can't go over CANopen).
-    pub const AUX_IN_3: ReadWrite<i16> = ReadWriteI16::register(
-        0x3401,
-        0x00,
-        rt::Register::high_first(32802, 2).sign_extended().words_per_address(2),
+    pub const AUX_IN_3: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3401, 0x00),
+            rt::Object::new(0x3401, 0x00),
+            rt::Register::high_first(32802, 2).sign_extended().words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8022, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8022, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_3",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// torque\_max.
     ///
-    /// 0x3402:00, holding register 32803 of 32 bits, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
+    /// 0x3402:00, holding register 32803 of 32 bits, number 0x8023 behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
     ///
     /// Largest torque; as an object, an input for any purpose
     ///
@@ -6603,16 +8565,28 @@ pub mod objects {
     /// Chapter Registers. Manual, line 304-307, 3888: Torque max.
     ///
     /// Note: Torque max, with Object CANopen (0x3402) in the cell of its name (L304), and Aux16 In 4 there (L3888). Chosen: both are one value (the row names the object).
-    pub const TORQUE_MAX: ReadWrite<i16> = ReadWriteI16::register(
-        0x3402,
-        0x00,
-        rt::Register::high_first(32803, 2).sign_extended().words_per_address(2),
+    pub const TORQUE_MAX: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3402, 0x00),
+            rt::Object::new(0x3402, 0x00),
+            rt::Register::high_first(32803, 2).sign_extended().words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8023, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8023, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "torque_max",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// aux16\_out\_3.
     ///
-    /// 0x3501:00, holding register 32804 of 32 bits, INTEGER16, ro, mappable into TPDOs, range \-32768 to 32767.
+    /// 0x3501:00, holding register 32804 of 32 bits, number 0x8024 behind a window on PROFINET, INTEGER16, ro, mappable into TPDOs, range \-32768 to 32767.
     ///
     /// For any purpose
     ///
@@ -6623,16 +8597,27 @@ pub mod objects {
     /// Note: Outputs are aux\_out\_1 and 2, then aux16\_out\_3 and 4 (L289-314): inputs and outputs have one numbering each, over both lengths. Chosen: the printed names (the objects have the same).
     ///
     /// Note: Kept over power-off (L309), and ro and not in the list of saved objects (L3889, L3361-3407). Chosen: as printed (the register's own row says so).
-    pub const AUX16_OUT_3: ReadOnly<i16> = ReadOnlyI16::register(
-        0x3501,
-        0x00,
-        rt::Register::high_first(32804, 2).sign_extended().words_per_address(2),
+    pub const AUX16_OUT_3: ReadOnly<i16, OnCanOpenCoEModbusImageWindowIn> = ReadOnlyI16OnCanOpenCoEModbusImageWindowIn::new(
+        rt::Location::new(
+            rt::Object::new(0x3501, 0x00),
+            rt::Object::new(0x3501, 0x00),
+            rt::Register::high_first(32804, 2).sign_extended().words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::reading(
+                rt::Through::signed(0x8024, &super::windows::REGISTER_READ_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux16_out_3",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::TPDO,
     );
     /// aux16\_out\_4.
     ///
-    /// 0x3502:00, holding register 32805 of 32 bits, INTEGER16, ro, mappable into TPDOs, range \-32768 to 32767.
+    /// 0x3502:00, holding register 32805 of 32 bits, number 0x8025 behind a window on PROFINET, INTEGER16, ro, mappable into TPDOs, range \-32768 to 32767.
     ///
     /// For any purpose
     ///
@@ -6641,80 +8626,139 @@ pub mod objects {
     /// Chapter Registers. Manual, line 314-317, 3890.
     ///
     /// Note: Kept over power-off (L314), and ro and not in the list of saved objects (L3890, L3361-3407). Chosen: as printed (the register's own row says so).
-    pub const AUX16_OUT_4: ReadOnly<i16> = ReadOnlyI16::register(
-        0x3502,
-        0x00,
-        rt::Register::high_first(32805, 2).sign_extended().words_per_address(2),
+    pub const AUX16_OUT_4: ReadOnly<i16, OnCanOpenCoEModbusImageWindowIn> = ReadOnlyI16OnCanOpenCoEModbusImageWindowIn::new(
+        rt::Location::new(
+            rt::Object::new(0x3502, 0x00),
+            rt::Object::new(0x3502, 0x00),
+            rt::Register::high_first(32805, 2).sign_extended().words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::reading(
+                rt::Through::signed(0x8025, &super::windows::REGISTER_READ_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux16_out_4",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::TPDO,
     );
     /// aux\_in\_5.
     ///
-    /// 0x3601:00, holding register 32806 of 32 bits, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
+    /// 0x3601:00, holding register 32806 of 32 bits, number 0x8026 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 319-322, 3891.
-    pub const AUX_IN_5: ReadWrite<i32> = ReadWriteI32::register(
-        0x3601,
-        0x00,
-        rt::Register::high_first(32806, 2).words_per_address(2),
+    pub const AUX_IN_5: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3601, 0x00),
+            rt::Object::new(0x3601, 0x00),
+            rt::Register::high_first(32806, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8026, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8026, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_5",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// aux\_in\_6.
     ///
-    /// 0x3602:00, holding register 32807 of 32 bits, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
+    /// 0x3602:00, holding register 32807 of 32 bits, number 0x8027 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 324-327, 3892.
-    pub const AUX_IN_6: ReadWrite<i32> = ReadWriteI32::register(
-        0x3602,
-        0x00,
-        rt::Register::high_first(32807, 2).words_per_address(2),
+    pub const AUX_IN_6: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3602, 0x00),
+            rt::Object::new(0x3602, 0x00),
+            rt::Register::high_first(32807, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8027, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8027, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_6",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// aux\_in\_7.
     ///
-    /// 0x3603:00, holding register 32808 of 32 bits, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
+    /// 0x3603:00, holding register 32808 of 32 bits, number 0x8028 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 329-332, 3893.
-    pub const AUX_IN_7: ReadWrite<i32> = ReadWriteI32::register(
-        0x3603,
-        0x00,
-        rt::Register::high_first(32808, 2).words_per_address(2),
+    pub const AUX_IN_7: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3603, 0x00),
+            rt::Object::new(0x3603, 0x00),
+            rt::Register::high_first(32808, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8028, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8028, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_7",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// aux\_in\_8.
     ///
-    /// 0x3604:00, holding register 32809 of 32 bits, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
+    /// 0x3604:00, holding register 32809 of 32 bits, number 0x8029 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 334-337, 3894.
-    pub const AUX_IN_8: ReadWrite<i32> = ReadWriteI32::register(
-        0x3604,
-        0x00,
-        rt::Register::high_first(32809, 2).words_per_address(2),
+    pub const AUX_IN_8: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3604, 0x00),
+            rt::Object::new(0x3604, 0x00),
+            rt::Register::high_first(32809, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8029, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8029, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_8",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// aux16\_in\_9.
     ///
-    /// 0x3701:00, holding register 32810 of 32 bits, INTEGER16, rw, mappable into any PDO.
+    /// 0x3701:00, holding register 32810 of 32 bits, number 0x802A behind a window on PROFINET, INTEGER16, rw, mappable into any PDO.
     ///
     /// For any purpose
     ///
@@ -6723,16 +8767,28 @@ pub mod objects {
     /// Chapter Registers. Manual, line 339-342, 3895: Aux16\_in\_9.
     ///
     /// Note: 0x80000000 to 0x7FFFFFFF in the register (L339-342), and two bytes in 0x3701, whose name is Aux16 In 9 (L3895). Chosen: 16 bits with sign (its name and its neighbours R43 to R45 have them).
-    pub const AUX16_IN_9: ReadWrite<i16> = ReadWriteI16::register(
-        0x3701,
-        0x00,
-        rt::Register::high_first(32810, 2).sign_extended().words_per_address(2),
+    pub const AUX16_IN_9: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3701, 0x00),
+            rt::Object::new(0x3701, 0x00),
+            rt::Register::high_first(32810, 2).sign_extended().words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x802A, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x802A, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux16_in_9",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// aux16\_in\_10.
     ///
-    /// 0x3702:00, holding register 32811 of 32 bits, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
+    /// 0x3702:00, holding register 32811 of 32 bits, number 0x802B behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
     ///
     /// For any purpose
     ///
@@ -6741,16 +8797,28 @@ pub mod objects {
     /// Chapter Registers. Manual, line 345-348, 3896.
     ///
     /// Note: Input 10 is 0x3701 in the list of saved objects, as input 9 (L3397). Chosen: 0x3702 (the table of objects has it so (L3896)).
-    pub const AUX16_IN_10: ReadWrite<i16> = ReadWriteI16::register(
-        0x3702,
-        0x00,
-        rt::Register::high_first(32811, 2).sign_extended().words_per_address(2),
+    pub const AUX16_IN_10: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3702, 0x00),
+            rt::Object::new(0x3702, 0x00),
+            rt::Register::high_first(32811, 2).sign_extended().words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x802B, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x802B, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux16_in_10",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// aux16\_in\_11.
     ///
-    /// 0x3703:00, holding register 32812 of 32 bits, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
+    /// 0x3703:00, holding register 32812 of 32 bits, number 0x802C behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
     ///
     /// For any purpose
     ///
@@ -6759,46 +8827,85 @@ pub mod objects {
     /// Chapter Registers. Manual, line 350-353, 3897.
     ///
     /// Note: Input 11 is 0x3701 in the list of saved objects, as input 9 (L3403). Chosen: 0x3703 (the table of objects has it so (L3897)).
-    pub const AUX16_IN_11: ReadWrite<i16> = ReadWriteI16::register(
-        0x3703,
-        0x00,
-        rt::Register::high_first(32812, 2).sign_extended().words_per_address(2),
+    pub const AUX16_IN_11: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3703, 0x00),
+            rt::Object::new(0x3703, 0x00),
+            rt::Register::high_first(32812, 2).sign_extended().words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x802C, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x802C, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux16_in_11",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// aux16\_in\_12.
     ///
-    /// 0x3704:00, holding register 32813 of 32 bits, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
+    /// 0x3704:00, holding register 32813 of 32 bits, number 0x802D behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 355-358, 3898.
-    pub const AUX16_IN_12: ReadWrite<i16> = ReadWriteI16::register(
-        0x3704,
-        0x00,
-        rt::Register::high_first(32813, 2).sign_extended().words_per_address(2),
+    pub const AUX16_IN_12: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
+        rt::Location::new(
+            rt::Object::new(0x3704, 0x00),
+            rt::Object::new(0x3704, 0x00),
+            rt::Register::high_first(32813, 2).sign_extended().words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x802D, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x802D, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux16_in_12",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::PDO,
     );
     /// alarm\_code.
     ///
-    /// Holding register 32814 of 32 bits, UNSIGNED8, ro, range 0 to 255.
+    /// Holding register 32814 of 32 bits, byte 7 of the image to the master, number 0x802E behind a window on CANopen, EtherCAT, UNSIGNED8, ro, range 0 to 255.
     ///
     /// The alarm that there is, 0 for none; \`general\_alarms\` has the codes, and each bus further ones. EtherCAT shows another code in 0x603F
     ///
     /// Lost at power-off.
     ///
     /// Chapter Registers. Manual, line 360.
-    pub const ALARM_CODE: ReadOnly<u8, rt::OnModbus> = ReadOnlyU8OnModbus::register(
-        rt::Register::high_first(32814, 2).words_per_address(2),
+    pub const ALARM_CODE: ReadOnly<u8, OnCanOpenWindowInCoEWindowInModbusImage> = ReadOnlyU8OnCanOpenWindowInCoEWindowInModbusImage::new(
+        rt::Location::new(
+            rt::Split::reading(
+                rt::Through::unsigned(0x802E, &super::windows::REGISTER_READ_CANOPEN),
+            ),
+            rt::Split::reading(
+                rt::Through::unsigned(0x802E, &super::windows::REGISTER_READ_COE),
+            ),
+            rt::Register::high_first(32814, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::ImageField::input(56, 8),
+            rt::Absent,
+        ),
         "alarm_code",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// digital\_inputs.
     ///
-    /// 0x60FD:00, holding register 32816 of 32 bits, UNSIGNED32, ro, mappable into TPDOs, range 0 to 4294967295.
+    /// 0x60FD:00, holding register 32816 of 32 bits, number 0x8030 behind a window on PROFINET, UNSIGNED32, ro, mappable into TPDOs, range 0 to 4294967295.
     ///
     /// Levels of the inputs of connector CN2
     ///
@@ -6807,156 +8914,370 @@ pub mod objects {
     /// Chapter Registers. Manual, line 362-365, 3832.
     ///
     /// Note: The bits of 0x60FD are the vendor's (L4621-4636), not those of DSP 402. Chosen: the vendor's (they are printed).
-    pub const DIGITAL_INPUTS: ReadOnly<super::types::DigitalInputs> = ReadOnlyNamedDigitalInputs::register(
-        0x60FD,
-        0x00,
-        rt::Register::high_first(32816, 2).words_per_address(2),
+    pub const DIGITAL_INPUTS: ReadOnly<
+        super::types::DigitalInputs,
+        OnCanOpenCoEModbusImageWindowIn,
+    > = ReadOnlyNamedDigitalInputsOnCanOpenCoEModbusImageWindowIn::new(
+        rt::Location::new(
+            rt::Object::new(0x60FD, 0x00),
+            rt::Object::new(0x60FD, 0x00),
+            rt::Register::high_first(32816, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::reading(
+                rt::Through::unsigned(0x8030, &super::windows::REGISTER_READ_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "digital_inputs",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::TPDO,
     );
     /// aux\_in\_13.
     ///
-    /// Holding register 32819 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32819 of 32 bits, number 0x8033 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 377-380.
-    pub const AUX_IN_13: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32819, 2).words_per_address(2),
+    pub const AUX_IN_13: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8033, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8033, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8033, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8033, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32819, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8033, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8033, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_13",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// aux\_in\_14.
     ///
-    /// Holding register 32820 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32820 of 32 bits, number 0x8034 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 382-385.
-    pub const AUX_IN_14: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32820, 2).words_per_address(2),
+    pub const AUX_IN_14: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8034, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8034, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8034, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8034, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32820, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8034, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8034, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_14",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// aux\_in\_15.
     ///
-    /// Holding register 32821 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32821 of 32 bits, number 0x8035 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 387-390.
-    pub const AUX_IN_15: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32821, 2).words_per_address(2),
+    pub const AUX_IN_15: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8035, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8035, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8035, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8035, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32821, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8035, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8035, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_15",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// aux\_in\_16.
     ///
-    /// Holding register 32822 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32822 of 32 bits, number 0x8036 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 392-395.
-    pub const AUX_IN_16: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32822, 2).words_per_address(2),
+    pub const AUX_IN_16: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8036, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8036, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8036, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8036, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32822, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8036, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8036, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_16",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// aux\_in\_17.
     ///
-    /// Holding register 32823 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32823 of 32 bits, number 0x8037 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 397-400.
-    pub const AUX_IN_17: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32823, 2).words_per_address(2),
+    pub const AUX_IN_17: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8037, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8037, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8037, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8037, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32823, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8037, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8037, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_17",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// aux\_in\_18.
     ///
-    /// Holding register 32824 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32824 of 32 bits, number 0x8038 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 402-405.
-    pub const AUX_IN_18: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32824, 2).words_per_address(2),
+    pub const AUX_IN_18: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8038, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8038, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8038, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8038, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32824, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8038, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8038, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_18",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// aux\_in\_19.
     ///
-    /// Holding register 32825 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32825 of 32 bits, number 0x8039 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 407-410.
-    pub const AUX_IN_19: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32825, 2).words_per_address(2),
+    pub const AUX_IN_19: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8039, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8039, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8039, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8039, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32825, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8039, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8039, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_19",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// aux\_in\_20.
     ///
-    /// Holding register 32826 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32826 of 32 bits, number 0x803A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 412-415.
-    pub const AUX_IN_20: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32826, 2).words_per_address(2),
+    pub const AUX_IN_20: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x803A, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x803A, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x803A, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x803A, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32826, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x803A, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x803A, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_20",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// aux\_in\_21.
     ///
-    /// Holding register 32827 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32827 of 32 bits, number 0x803B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 417-420.
-    pub const AUX_IN_21: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32827, 2).words_per_address(2),
+    pub const AUX_IN_21: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x803B, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x803B, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x803B, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x803B, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32827, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x803B, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x803B, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_21",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// aux\_in\_22.
     ///
-    /// Holding register 32828 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32828 of 32 bits, number 0x803C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// For any purpose
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 422-425.
-    pub const AUX_IN_22: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32828, 2).words_per_address(2),
+    pub const AUX_IN_22: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x803C, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x803C, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x803C, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x803C, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32828, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x803C, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x803C, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "aux_in_22",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// target\_window.
     ///
-    /// Holding register 32829 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
+    /// Holding register 32829 of 32 bits, number 0x803D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
     ///
     /// How near to its target the axis has to be for the output Target, which drives have from 2.40 on (L1782-1787)
     ///
@@ -6965,30 +9286,74 @@ pub mod objects {
     /// Chapter Registers. Manual, line 427-430.
     ///
     /// Note: 0x80000000 is the smallest value (L427), of a distance. Chosen: as printed (what a negative distance does isn't said).
-    pub const TARGET_WINDOW: ReadWrite<rt::PerItem<i32, 1>, rt::OnModbus> = ReadWritePerItemI32Times1Per1OnModbus::register_within(
-        rt::Register::high_first(32829, 2).words_per_address(2),
+    pub const TARGET_WINDOW: ReadWrite<
+        rt::PerItem<i32, 1>,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWritePerItemI32Times1Per1OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x803D, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x803D, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x803D, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x803D, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32829, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x803D, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x803D, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "target_window",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "rev",
         rt::Flags::NONE,
     );
     /// abs\_enc\_control.
     ///
-    /// Holding register 32830 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32830 of 32 bits, number 0x803E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the absolute encoder; its bits are in the companion manual
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 432-435: Abs\_enc\_control.
-    pub const ABS_ENC_CONTROL: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32830, 2).words_per_address(2),
+    pub const ABS_ENC_CONTROL: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x803E, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x803E, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x803E, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x803E, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32830, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x803E, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x803E, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "abs_enc_control",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// abs\_enc\_status.
     ///
-    /// Holding register 32831 of 32 bits, INTEGER32, ro, range \-2147483648 to 2147483647.
+    /// Holding register 32831 of 32 bits, number 0x803F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, ro, range \-2147483648 to 2147483647.
     ///
     /// Of the absolute encoder; its bits are in the companion manual
     ///
@@ -6997,140 +9362,367 @@ pub mod objects {
     /// Chapter Registers. Manual, line 437-440: Abs\_enc\_status.
     ///
     /// Note: Kept over power-off (L437), of a status. Chosen: as printed (the row says so).
-    pub const ABS_ENC_STATUS: ReadOnly<i32, rt::OnModbus> = ReadOnlyI32OnModbus::register(
-        rt::Register::high_first(32831, 2).words_per_address(2),
+    pub const ABS_ENC_STATUS: ReadOnly<
+        i32,
+        OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
+    > = ReadOnlyI32OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
+        rt::Location::new(
+            rt::Split::reading(
+                rt::Through::signed(0x803F, &super::windows::REGISTER_READ_CANOPEN),
+            ),
+            rt::Split::reading(
+                rt::Through::signed(0x803F, &super::windows::REGISTER_READ_COE),
+            ),
+            rt::Register::high_first(32831, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::reading(
+                rt::Through::signed(0x803F, &super::windows::REGISTER_READ_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "abs_enc_status",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// num\_ext\_enc.
     ///
-    /// Holding register 32832 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32832 of 32 bits, number 0x8040 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Numerator of the external encoder's ratio
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 442-445: NumExtEnc.
-    pub const NUM_EXT_ENC: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32832, 2).words_per_address(2),
+    pub const NUM_EXT_ENC: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8040, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8040, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8040, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8040, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32832, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8040, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8040, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "num_ext_enc",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// den\_ext\_enc.
     ///
-    /// Holding register 32833 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32833 of 32 bits, number 0x8041 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Denominator of the external encoder's ratio
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 447-450: DenExtEnc.
-    pub const DEN_EXT_ENC: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32833, 2).words_per_address(2),
+    pub const DEN_EXT_ENC: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8041, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8041, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8041, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8041, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32833, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8041, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8041, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "den_ext_enc",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_66.
     ///
-    /// Holding register 32834 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32834 of 32 bits, number 0x8042 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 452-459: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_66: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32834, 2).words_per_address(2),
+    pub const MECHATRONIC_66: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8042, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8042, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8042, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8042, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32834, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8042, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8042, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_66",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_67.
     ///
-    /// Holding register 32835 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32835 of 32 bits, number 0x8043 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 452-459: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_67: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32835, 2).words_per_address(2),
+    pub const MECHATRONIC_67: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8043, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8043, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8043, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8043, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32835, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8043, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8043, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_67",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_68.
     ///
-    /// Holding register 32836 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32836 of 32 bits, number 0x8044 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 452-459: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_68: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32836, 2).words_per_address(2),
+    pub const MECHATRONIC_68: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8044, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8044, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8044, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8044, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32836, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8044, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8044, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_68",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_69.
     ///
-    /// Holding register 32837 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32837 of 32 bits, number 0x8045 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 452-459: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_69: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32837, 2).words_per_address(2),
+    pub const MECHATRONIC_69: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8045, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8045, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8045, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8045, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32837, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8045, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8045, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_69",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_70.
     ///
-    /// Holding register 32838 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32838 of 32 bits, number 0x8046 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 452-459: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_70: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32838, 2).words_per_address(2),
+    pub const MECHATRONIC_70: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8046, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8046, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8046, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8046, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32838, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8046, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8046, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_70",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_71.
     ///
-    /// Holding register 32839 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32839 of 32 bits, number 0x8047 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 452-459: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_71: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32839, 2).words_per_address(2),
+    pub const MECHATRONIC_71: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8047, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8047, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8047, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8047, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32839, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8047, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8047, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_71",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_72.
     ///
-    /// Holding register 32840 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32840 of 32 bits, number 0x8048 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 452-459: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_72: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32840, 2).words_per_address(2),
+    pub const MECHATRONIC_72: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8048, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8048, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8048, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8048, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32840, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8048, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8048, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_72",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// velocity\_rpm.
     ///
-    /// Holding register 32841 of 32 bits, INTEGER32, ro, range \-2147483648 to 2147483647, in rpm.
+    /// Holding register 32841 of 32 bits, number 0x8049 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, ro, range \-2147483648 to 2147483647, in rpm.
     ///
     /// Speed in rpm
     ///
@@ -7139,856 +9731,2254 @@ pub mod objects {
     /// Chapter Registers. Manual, line 461-464: Lettura velocità rpm.
     ///
     /// Note: Kept over power-off (L461), of a measured value. Chosen: as printed (the row says so).
-    pub const VELOCITY_RPM: ReadOnly<i32, rt::OnModbus> = ReadOnlyI32OnModbus::register_within(
-        rt::Register::high_first(32841, 2).words_per_address(2),
+    pub const VELOCITY_RPM: ReadOnly<
+        i32,
+        OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
+    > = ReadOnlyI32OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
+        rt::Location::new(
+            rt::Split::reading(
+                rt::Through::signed(0x8049, &super::windows::REGISTER_READ_CANOPEN),
+            ),
+            rt::Split::reading(
+                rt::Through::signed(0x8049, &super::windows::REGISTER_READ_COE),
+            ),
+            rt::Register::high_first(32841, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::reading(
+                rt::Through::signed(0x8049, &super::windows::REGISTER_READ_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "velocity_rpm",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "rpm",
         rt::Flags::NONE,
     );
     /// mechatronic\_74.
     ///
-    /// Holding register 32842 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32842 of 32 bits, number 0x804A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_74: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32842, 2).words_per_address(2),
+    pub const MECHATRONIC_74: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x804A, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x804A, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x804A, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x804A, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32842, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x804A, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x804A, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_74",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_75.
     ///
-    /// Holding register 32843 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32843 of 32 bits, number 0x804B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_75: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32843, 2).words_per_address(2),
+    pub const MECHATRONIC_75: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x804B, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x804B, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x804B, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x804B, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32843, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x804B, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x804B, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_75",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_76.
     ///
-    /// Holding register 32844 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32844 of 32 bits, number 0x804C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_76: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32844, 2).words_per_address(2),
+    pub const MECHATRONIC_76: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x804C, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x804C, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x804C, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x804C, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32844, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x804C, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x804C, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_76",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_77.
     ///
-    /// Holding register 32845 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32845 of 32 bits, number 0x804D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_77: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32845, 2).words_per_address(2),
+    pub const MECHATRONIC_77: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x804D, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x804D, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x804D, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x804D, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32845, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x804D, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x804D, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_77",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_78.
     ///
-    /// Holding register 32846 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32846 of 32 bits, number 0x804E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_78: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32846, 2).words_per_address(2),
+    pub const MECHATRONIC_78: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x804E, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x804E, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x804E, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x804E, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32846, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x804E, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x804E, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_78",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_79.
     ///
-    /// Holding register 32847 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32847 of 32 bits, number 0x804F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_79: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32847, 2).words_per_address(2),
+    pub const MECHATRONIC_79: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x804F, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x804F, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x804F, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x804F, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32847, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x804F, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x804F, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_79",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_80.
     ///
-    /// Holding register 32848 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32848 of 32 bits, number 0x8050 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_80: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32848, 2).words_per_address(2),
+    pub const MECHATRONIC_80: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8050, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8050, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8050, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8050, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32848, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8050, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8050, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_80",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_81.
     ///
-    /// Holding register 32849 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32849 of 32 bits, number 0x8051 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_81: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32849, 2).words_per_address(2),
+    pub const MECHATRONIC_81: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8051, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8051, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8051, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8051, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32849, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8051, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8051, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_81",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_82.
     ///
-    /// Holding register 32850 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32850 of 32 bits, number 0x8052 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_82: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32850, 2).words_per_address(2),
+    pub const MECHATRONIC_82: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8052, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8052, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8052, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8052, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32850, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8052, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8052, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_82",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_83.
     ///
-    /// Holding register 32851 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32851 of 32 bits, number 0x8053 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_83: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32851, 2).words_per_address(2),
+    pub const MECHATRONIC_83: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8053, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8053, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8053, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8053, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32851, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8053, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8053, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_83",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_84.
     ///
-    /// Holding register 32852 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32852 of 32 bits, number 0x8054 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_84: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32852, 2).words_per_address(2),
+    pub const MECHATRONIC_84: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8054, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8054, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8054, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8054, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32852, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8054, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8054, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_84",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_85.
     ///
-    /// Holding register 32853 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32853 of 32 bits, number 0x8055 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_85: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32853, 2).words_per_address(2),
+    pub const MECHATRONIC_85: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8055, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8055, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8055, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8055, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32853, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8055, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8055, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_85",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_86.
     ///
-    /// Holding register 32854 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32854 of 32 bits, number 0x8056 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_86: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32854, 2).words_per_address(2),
+    pub const MECHATRONIC_86: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8056, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8056, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8056, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8056, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32854, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8056, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8056, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_86",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_87.
     ///
-    /// Holding register 32855 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32855 of 32 bits, number 0x8057 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_87: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32855, 2).words_per_address(2),
+    pub const MECHATRONIC_87: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8057, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8057, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8057, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8057, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32855, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8057, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8057, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_87",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_88.
     ///
-    /// Holding register 32856 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32856 of 32 bits, number 0x8058 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_88: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32856, 2).words_per_address(2),
+    pub const MECHATRONIC_88: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8058, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8058, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8058, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8058, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32856, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8058, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8058, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_88",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_89.
     ///
-    /// Holding register 32857 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32857 of 32 bits, number 0x8059 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_89: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32857, 2).words_per_address(2),
+    pub const MECHATRONIC_89: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8059, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8059, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8059, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8059, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32857, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8059, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8059, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_89",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_90.
     ///
-    /// Holding register 32858 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32858 of 32 bits, number 0x805A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_90: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32858, 2).words_per_address(2),
+    pub const MECHATRONIC_90: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x805A, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x805A, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x805A, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x805A, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32858, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x805A, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x805A, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_90",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_91.
     ///
-    /// Holding register 32859 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32859 of 32 bits, number 0x805B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_91: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32859, 2).words_per_address(2),
+    pub const MECHATRONIC_91: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x805B, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x805B, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x805B, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x805B, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32859, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x805B, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x805B, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_91",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_92.
     ///
-    /// Holding register 32860 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32860 of 32 bits, number 0x805C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_92: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32860, 2).words_per_address(2),
+    pub const MECHATRONIC_92: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x805C, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x805C, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x805C, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x805C, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32860, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x805C, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x805C, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_92",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_93.
     ///
-    /// Holding register 32861 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32861 of 32 bits, number 0x805D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_93: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32861, 2).words_per_address(2),
+    pub const MECHATRONIC_93: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x805D, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x805D, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x805D, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x805D, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32861, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x805D, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x805D, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_93",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_94.
     ///
-    /// Holding register 32862 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32862 of 32 bits, number 0x805E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_94: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32862, 2).words_per_address(2),
+    pub const MECHATRONIC_94: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x805E, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x805E, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x805E, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x805E, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32862, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x805E, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x805E, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_94",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_95.
     ///
-    /// Holding register 32863 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32863 of 32 bits, number 0x805F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_95: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32863, 2).words_per_address(2),
+    pub const MECHATRONIC_95: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x805F, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x805F, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x805F, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x805F, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32863, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x805F, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x805F, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_95",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_96.
     ///
-    /// Holding register 32864 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32864 of 32 bits, number 0x8060 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_96: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32864, 2).words_per_address(2),
+    pub const MECHATRONIC_96: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8060, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8060, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8060, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8060, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32864, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8060, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8060, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_96",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_97.
     ///
-    /// Holding register 32865 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32865 of 32 bits, number 0x8061 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_97: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32865, 2).words_per_address(2),
+    pub const MECHATRONIC_97: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8061, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8061, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8061, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8061, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32865, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8061, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8061, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_97",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_98.
     ///
-    /// Holding register 32866 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32866 of 32 bits, number 0x8062 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_98: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32866, 2).words_per_address(2),
+    pub const MECHATRONIC_98: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8062, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8062, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8062, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8062, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32866, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8062, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8062, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_98",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_99.
     ///
-    /// Holding register 32867 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32867 of 32 bits, number 0x8063 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_99: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32867, 2).words_per_address(2),
+    pub const MECHATRONIC_99: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8063, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8063, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8063, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8063, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32867, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8063, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8063, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_99",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_100.
     ///
-    /// Holding register 32868 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32868 of 32 bits, number 0x8064 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_100: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32868, 2).words_per_address(2),
+    pub const MECHATRONIC_100: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8064, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8064, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8064, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8064, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32868, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8064, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8064, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_100",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_101.
     ///
-    /// Holding register 32869 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32869 of 32 bits, number 0x8065 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_101: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32869, 2).words_per_address(2),
+    pub const MECHATRONIC_101: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8065, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8065, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8065, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8065, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32869, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8065, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8065, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_101",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_102.
     ///
-    /// Holding register 32870 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32870 of 32 bits, number 0x8066 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_102: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32870, 2).words_per_address(2),
+    pub const MECHATRONIC_102: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8066, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8066, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8066, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8066, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32870, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8066, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8066, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_102",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_103.
     ///
-    /// Holding register 32871 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32871 of 32 bits, number 0x8067 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_103: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32871, 2).words_per_address(2),
+    pub const MECHATRONIC_103: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8067, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8067, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8067, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8067, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32871, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8067, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8067, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_103",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_104.
     ///
-    /// Holding register 32872 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32872 of 32 bits, number 0x8068 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_104: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32872, 2).words_per_address(2),
+    pub const MECHATRONIC_104: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8068, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8068, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8068, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8068, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32872, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8068, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8068, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_104",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_105.
     ///
-    /// Holding register 32873 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32873 of 32 bits, number 0x8069 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_105: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32873, 2).words_per_address(2),
+    pub const MECHATRONIC_105: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8069, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8069, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8069, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8069, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32873, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8069, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8069, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_105",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_106.
     ///
-    /// Holding register 32874 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32874 of 32 bits, number 0x806A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_106: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32874, 2).words_per_address(2),
+    pub const MECHATRONIC_106: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x806A, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x806A, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x806A, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x806A, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32874, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x806A, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x806A, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_106",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_107.
     ///
-    /// Holding register 32875 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32875 of 32 bits, number 0x806B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_107: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32875, 2).words_per_address(2),
+    pub const MECHATRONIC_107: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x806B, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x806B, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x806B, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x806B, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32875, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x806B, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x806B, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_107",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_108.
     ///
-    /// Holding register 32876 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32876 of 32 bits, number 0x806C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_108: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32876, 2).words_per_address(2),
+    pub const MECHATRONIC_108: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x806C, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x806C, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x806C, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x806C, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32876, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x806C, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x806C, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_108",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_109.
     ///
-    /// Holding register 32877 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32877 of 32 bits, number 0x806D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_109: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32877, 2).words_per_address(2),
+    pub const MECHATRONIC_109: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x806D, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x806D, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x806D, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x806D, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32877, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x806D, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x806D, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_109",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_110.
     ///
-    /// Holding register 32878 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32878 of 32 bits, number 0x806E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_110: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32878, 2).words_per_address(2),
+    pub const MECHATRONIC_110: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x806E, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x806E, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x806E, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x806E, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32878, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x806E, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x806E, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_110",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_111.
     ///
-    /// Holding register 32879 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32879 of 32 bits, number 0x806F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_111: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32879, 2).words_per_address(2),
+    pub const MECHATRONIC_111: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x806F, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x806F, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x806F, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x806F, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32879, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x806F, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x806F, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_111",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_112.
     ///
-    /// Holding register 32880 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32880 of 32 bits, number 0x8070 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_112: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32880, 2).words_per_address(2),
+    pub const MECHATRONIC_112: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8070, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8070, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8070, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8070, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32880, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8070, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8070, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_112",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_113.
     ///
-    /// Holding register 32881 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32881 of 32 bits, number 0x8071 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_113: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32881, 2).words_per_address(2),
+    pub const MECHATRONIC_113: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8071, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8071, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8071, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8071, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32881, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8071, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8071, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_113",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_114.
     ///
-    /// Holding register 32882 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32882 of 32 bits, number 0x8072 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_114: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32882, 2).words_per_address(2),
+    pub const MECHATRONIC_114: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8072, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8072, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8072, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8072, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32882, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8072, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8072, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_114",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_115.
     ///
-    /// Holding register 32883 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32883 of 32 bits, number 0x8073 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_115: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32883, 2).words_per_address(2),
+    pub const MECHATRONIC_115: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8073, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8073, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8073, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8073, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32883, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8073, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8073, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_115",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_116.
     ///
-    /// Holding register 32884 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32884 of 32 bits, number 0x8074 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_116: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32884, 2).words_per_address(2),
+    pub const MECHATRONIC_116: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8074, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8074, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8074, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8074, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32884, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8074, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8074, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_116",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_117.
     ///
-    /// Holding register 32885 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32885 of 32 bits, number 0x8075 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_117: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32885, 2).words_per_address(2),
+    pub const MECHATRONIC_117: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8075, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8075, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8075, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8075, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32885, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8075, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8075, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_117",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_118.
     ///
-    /// Holding register 32886 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32886 of 32 bits, number 0x8076 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_118: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32886, 2).words_per_address(2),
+    pub const MECHATRONIC_118: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8076, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8076, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8076, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8076, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32886, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8076, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8076, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_118",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_119.
     ///
-    /// Holding register 32887 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32887 of 32 bits, number 0x8077 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_119: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32887, 2).words_per_address(2),
+    pub const MECHATRONIC_119: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8077, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8077, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8077, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8077, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32887, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8077, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8077, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_119",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_120.
     ///
-    /// Holding register 32888 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32888 of 32 bits, number 0x8078 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_120: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32888, 2).words_per_address(2),
+    pub const MECHATRONIC_120: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8078, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8078, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8078, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8078, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32888, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8078, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8078, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_120",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_121.
     ///
-    /// Holding register 32889 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32889 of 32 bits, number 0x8079 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_121: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32889, 2).words_per_address(2),
+    pub const MECHATRONIC_121: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8079, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8079, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8079, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8079, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32889, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8079, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8079, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_121",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_122.
     ///
-    /// Holding register 32890 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32890 of 32 bits, number 0x807A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_122: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32890, 2).words_per_address(2),
+    pub const MECHATRONIC_122: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x807A, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x807A, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x807A, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x807A, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32890, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x807A, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x807A, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_122",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_123.
     ///
-    /// Holding register 32891 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32891 of 32 bits, number 0x807B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_123: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32891, 2).words_per_address(2),
+    pub const MECHATRONIC_123: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x807B, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x807B, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x807B, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x807B, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32891, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x807B, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x807B, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_123",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_124.
     ///
-    /// Holding register 32892 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32892 of 32 bits, number 0x807C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_124: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32892, 2).words_per_address(2),
+    pub const MECHATRONIC_124: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x807C, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x807C, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x807C, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x807C, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32892, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x807C, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x807C, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_124",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_125.
     ///
-    /// Holding register 32893 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32893 of 32 bits, number 0x807D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_125: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32893, 2).words_per_address(2),
+    pub const MECHATRONIC_125: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x807D, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x807D, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x807D, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x807D, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32893, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x807D, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x807D, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_125",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_126.
     ///
-    /// Holding register 32894 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32894 of 32 bits, number 0x807E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_126: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32894, 2).words_per_address(2),
+    pub const MECHATRONIC_126: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x807E, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x807E, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x807E, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x807E, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32894, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x807E, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x807E, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_126",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_127.
     ///
-    /// Holding register 32895 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32895 of 32 bits, number 0x807F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_127: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32895, 2).words_per_address(2),
+    pub const MECHATRONIC_127: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x807F, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x807F, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x807F, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x807F, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32895, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x807F, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x807F, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_127",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_128.
     ///
-    /// Holding register 32896 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32896 of 32 bits, number 0x8080 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_128: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32896, 2).words_per_address(2),
+    pub const MECHATRONIC_128: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8080, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8080, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8080, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8080, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32896, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8080, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8080, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_128",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_129.
     ///
-    /// Holding register 32897 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32897 of 32 bits, number 0x8081 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_129: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32897, 2).words_per_address(2),
+    pub const MECHATRONIC_129: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8081, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8081, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8081, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8081, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32897, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8081, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8081, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_129",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_130.
     ///
-    /// Holding register 32898 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32898 of 32 bits, number 0x8082 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_130: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32898, 2).words_per_address(2),
+    pub const MECHATRONIC_130: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8082, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8082, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8082, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8082, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32898, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8082, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8082, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_130",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_131.
     ///
-    /// Holding register 32899 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32899 of 32 bits, number 0x8083 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_131: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32899, 2).words_per_address(2),
+    pub const MECHATRONIC_131: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8083, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8083, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8083, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8083, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32899, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8083, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8083, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_131",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_132.
     ///
-    /// Holding register 32900 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32900 of 32 bits, number 0x8084 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_132: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32900, 2).words_per_address(2),
+    pub const MECHATRONIC_132: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8084, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8084, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8084, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8084, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32900, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8084, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8084, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_132",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// mechatronic\_133.
     ///
-    /// Holding register 32901 of 32 bits, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Holding register 32901 of 32 bits, number 0x8085 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     ///
     /// Of the functions for mechatronics
     ///
     /// Kept over power-off once save was given.
     ///
     /// Chapter Registers. Manual, line 467-474: Auxiliary register for Mechatronic Functions.
-    pub const MECHATRONIC_133: ReadWrite<i32, rt::OnModbus> = ReadWriteI32OnModbus::register(
-        rt::Register::high_first(32901, 2).words_per_address(2),
+    pub const MECHATRONIC_133: ReadWrite<
+        i32,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(0x8085, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(0x8085, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(0x8085, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(0x8085, &super::windows::REGISTER_WRITE_COE),
+            ),
+            rt::Register::high_first(32901, 2).words_per_address(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(0x8085, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(0x8085, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "mechatronic_133",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// d1.
     ///
-    /// Holding register 1, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 1, number 0x0001 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Proportional gain of the velocity loop
     ///
@@ -7997,158 +11987,340 @@ pub mod objects {
     /// Chapter Parameters. Manual, line 480, 4508: Guadagno proporzionale dell'anello di velocità, KP.
     ///
     /// Note: divelocità, in one word (L480). Chosen: di velocità (a space is lost).
-    pub const D1: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(1),
+    pub const D1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0001, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0001, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0001, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0001, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(1),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0001, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0001, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "d1",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// d2.
     ///
-    /// Holding register 2, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 2, number 0x0002 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Integral gain of the velocity loop
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 481, 4511: Guadagno integrale dell'anello di velocità, KI.
-    pub const D2: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(2),
+    pub const D2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0002, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0002, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0002, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0002, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(2),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0002, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0002, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "d2",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// d3.
     ///
-    /// Holding register 3, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 3, number 0x0003 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Greatest speed of the motor
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 482: Velocità massima del motore, Vmax.
-    pub const D3: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(3),
+    pub const D3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0003, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0003, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0003, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0003, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(3),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0003, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0003, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "d3",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// d4.
     ///
-    /// Holding register 4, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 4, number 0x0004 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Adjusts the offset of the speed
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 483: Regolazione offset di velocità.
-    pub const D4: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(4),
+    pub const D4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0004, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0004, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0004, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0004, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(4),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0004, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0004, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "d4",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// d5.
     ///
-    /// Holding register 5, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 5, number 0x0005 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Greatest current of the motor
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 484: Corrente massima del motore.
-    pub const D5: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(5),
+    pub const D5: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0005, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0005, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0005, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0005, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(5),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0005, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0005, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "d5",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// d6.
     ///
-    /// Holding register 6, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 6, number 0x0006 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Ratio of peak to rated current
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 485: Rapporto corrente di picco/corrente nominale.
-    pub const D6: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(6),
+    pub const D6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0006, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0006, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0006, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0006, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(6),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0006, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0006, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "d6",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// d7.
     ///
-    /// Holding register 7, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 7, number 0x0007 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Sets the I²t function
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 486: Funzione I²T.
-    pub const D7: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(7),
+    pub const D7: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0007, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0007, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0007, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0007, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(7),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0007, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0007, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "d7",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// d8.
     ///
-    /// Holding register 8, UNSIGNED16, rw.
+    /// Holding register 8, number 0x0008 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// The motor: has to be chosen for the drive to work
     ///
     /// Kept over power-off once save was given. Takes effect at: saved and switched on again.
     ///
     /// Chapter Parameters. Manual, line 487, 1436, 4198, 5744-5746: Selezione motore.
-    pub const D8: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(8),
+    pub const D8: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0008, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0008, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0008, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0008, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(8),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0008, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0008, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "d8",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// E1.
     ///
-    /// Holding register 9, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 9, number 0x0009 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Greatest rated speed
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 491: Velocità nominale massima.
-    pub const E1: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(9),
+    pub const E1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0009, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0009, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0009, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0009, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(9),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0009, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0009, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "E1",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// E2.
     ///
-    /// Holding register 10, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 10, number 0x000A behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Filter of the reference input
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 492: Filtro sul riferimento di entrata.
-    pub const E2: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(10),
+    pub const E2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x000A, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x000A, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x000A, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x000A, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(10),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x000A, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x000A, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "E2",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// E3.
     ///
-    /// Holding register 58, UNSIGNED16, rw.
+    /// Holding register 58, number 0x003A behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Exceptions from how the drive works otherwise
     ///
@@ -8157,14 +12329,37 @@ pub mod objects {
     /// Chapter Parameters. Manual, line 493, 627-629, 1023: Parametro Eccezioni.
     ///
     /// Note: One number for no parity (6, L628) and for the map of Siemens (9, L1023). Chosen: both names (a device can't have both at once).
-    pub const E3: ReadWrite<super::types::Exceptions, rt::OnModbus> = ReadWriteNamedExceptionsOnModbus::register(
-        rt::Register::holding(58),
+    pub const E3: ReadWrite<
+        super::types::Exceptions,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteNamedExceptionsOnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x003A, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x003A, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x003A, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x003A, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(58),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x003A, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x003A, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "E3",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// E4.
     ///
-    /// Holding register 55, UNSIGNED16, rw.
+    /// Holding register 55, number 0x0037 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Reserved
     ///
@@ -8173,146 +12368,340 @@ pub mod objects {
     /// Chapter Parameters. Manual, line 494: Riservato.
     ///
     /// Note: Reserved, with an address (L494). Chosen: a row, hidden (it can be reached).
-    pub const E4: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(55),
+    pub const E4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0037, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0037, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0037, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0037, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(55),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0037, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0037, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "E4",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// F1.
     ///
-    /// Holding register 11, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 11, number 0x000B behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Steepest acceleration
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 498: Rampa di massima accelerazione.
-    pub const F1: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(11),
+    pub const F1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x000B, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x000B, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x000B, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x000B, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(11),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x000B, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x000B, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "F1",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// F2.
     ///
-    /// Holding register 12, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 12, number 0x000C behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Steepest deceleration
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 499: Rampa di massima decelerazione.
-    pub const F2: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(12),
+    pub const F2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x000C, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x000C, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x000C, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x000C, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(12),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x000C, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x000C, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "F2",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// F3.
     ///
-    /// Holding register 13, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 13, number 0x000D behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Ramp of an emergency stop
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 500: Rampa di emergenza.
-    pub const F3: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(13),
+    pub const F3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x000D, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x000D, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x000D, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x000D, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(13),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x000D, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x000D, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "F3",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// c1.
     ///
-    /// Holding register 14, UNSIGNED16, rw.
+    /// Holding register 14, number 0x000E behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Pulses of the output RTE
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 505: Selezione impulsi uscita RTE.
-    pub const C1: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(14),
+    pub const C1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x000E, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x000E, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x000E, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x000E, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(14),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x000E, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x000E, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "c1",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// c2.
     ///
-    /// Holding register 15, UNSIGNED16, rw.
+    /// Holding register 15, number 0x000F behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Direction in which the motor turns
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 506: Verso rotazione motore.
-    pub const C2: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(15),
+    pub const C2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x000F, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x000F, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x000F, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x000F, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(15),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x000F, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x000F, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "c2",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// c3.
     ///
-    /// Holding register 16, UNSIGNED16, rw.
+    /// Holding register 16, number 0x0010 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Control of speed or of torque
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 507: Selezione tipo di controllo (velocità/coppia).
-    pub const C3: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(16),
+    pub const C3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0010, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0010, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0010, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0010, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(16),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0010, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0010, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "c3",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// c4.
     ///
-    /// Holding register 17, UNSIGNED16, rw.
+    /// Holding register 17, number 0x0011 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Pole pairs of the resolver
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 508: Selezione coppie polari Resolver.
-    pub const C4: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(17),
+    pub const C4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0011, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0011, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0011, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0011, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(17),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0011, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0011, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "c4",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// c5.
     ///
-    /// Holding register 18, UNSIGNED16, rw.
+    /// Holding register 18, number 0x0012 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Pulses a turn of the encoder
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 509: Selezione impulsi giro Encoder.
-    pub const C5: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(18),
+    pub const C5: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0012, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0012, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0012, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0012, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(18),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0012, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0012, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "c5",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// c6.
     ///
-    /// Holding register 19, UNSIGNED16, rw.
+    /// Holding register 19, number 0x0013 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Kind of sensor
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 510: Selezione tipo di trasduttore.
-    pub const C6: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(19),
+    pub const C6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0013, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0013, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0013, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0013, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(19),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0013, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0013, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "c6",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// c7.
     ///
-    /// Holding register 20, UNSIGNED16, rw, default 1, range 1 to 99.
+    /// Holding register 20, number 0x0014 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, default 1, range 1 to 99.
     ///
     /// Number of the node: on Modbus 1 to 90, on CANopen 1 to 99; EtherCAT and PROFINET don't use it
     ///
@@ -8321,8 +12710,25 @@ pub mod objects {
     /// On modbus: range 1 to 90.
     ///
     /// Chapter Parameters. Manual, line 511, 623-626, 3415-3418: Numero nodo della rete.
-    pub const C7: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::new(
-        rt::OnModbus::modbus(rt::Register::holding(20)),
+    pub const C7: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusLimitedImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusLimitedImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0014, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0014, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0014, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0014, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Limited::new(rt::Register::holding(20), false, &[(1, 90)]),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0014, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0014, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "c7",
         rt::Range::Between(1, 99),
         rt::Initial::Value(1),
@@ -8331,7 +12737,7 @@ pub mod objects {
     );
     /// c8.
     ///
-    /// Holding register 21, UNSIGNED16, rw, default 6.
+    /// Holding register 21, number 0x0015 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, default 6.
     ///
     /// What the three inputs of the miniECO do; \`mini\_inputs\` has pins and functions
     ///
@@ -8340,8 +12746,28 @@ pub mod objects {
     /// Chapter Parameters. Manual, line 512, 1832-1900, 4637-4705: NON UTILIZZATO.
     ///
     /// Note: Not used (L512), and 0 to 6 choose the functions of inputs, 6 by default (L1838-1900). Chosen: 0 to 6 (the table of functions is printed twice).
-    pub const C8: ReadWrite<super::types::MiniInputs, rt::OnModbus> = ReadWriteNamedMiniInputsOnModbus::new(
-        rt::OnModbus::modbus(rt::Register::holding(21)),
+    pub const C8: ReadWrite<
+        super::types::MiniInputs,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteNamedMiniInputsOnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0015, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0015, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0015, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0015, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(21),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0015, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0015, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "c8",
         rt::Range::Full,
         rt::Initial::Value(super::types::MiniInputs::from_raw(6)),
@@ -8350,115 +12776,251 @@ pub mod objects {
     );
     /// c9.
     ///
-    /// Holding register 22, UNSIGNED16, rw.
+    /// Holding register 22, number 0x0016 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// What controls the drive
     ///
     /// Kept over power-off once save was given. Takes effect at: saved and switched on again.
     ///
     /// Chapter Parameters. Manual, line 513, 622, 3414, 5522, 6022-6023: Selezione modalità di funzionamento.
-    pub const C9: ReadWrite<super::types::Network, rt::OnModbus> = ReadWriteNamedNetworkOnModbus::register(
-        rt::Register::holding(22),
+    pub const C9: ReadWrite<
+        super::types::Network,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteNamedNetworkOnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0016, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0016, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0016, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0016, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(22),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0016, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0016, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "c9",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// I1.
     ///
-    /// Holding register 35, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 35, number 0x0023 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Proportional gain of the position loop
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 517: Guadagno proporzionale dell'anello di spazio.
-    pub const I1: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(35),
+    pub const I1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0023, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0023, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0023, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0023, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(35),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0023, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0023, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "I1",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// I2.
     ///
-    /// Holding register 36, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 36, number 0x0024 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Integral gain of the position loop
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 518: Guadagno integrale dell'anello di spazio.
-    pub const I2: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(36),
+    pub const I2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0024, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0024, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0024, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0024, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(36),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0024, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0024, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "I2",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// I3.
     ///
-    /// Holding register 37, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 37, number 0x0025 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Derivative gain of the position loop
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 519: Guadagno derivativo dell'anello di spazio.
-    pub const I3: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(37),
+    pub const I3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0025, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0025, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0025, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0025, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(37),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0025, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0025, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "I3",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// I4.
     ///
-    /// Holding register 38, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 38, number 0x0026 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Compensation of inertia
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 520: Valore di compensazione inerzia.
-    pub const I4: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(38),
+    pub const I4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0026, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0026, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0026, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0026, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(38),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0026, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0026, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "I4",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// I5.
     ///
-    /// Holding register 39, UNSIGNED16, rw, in 0.01 s.
+    /// Holding register 39, number 0x0027 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in 0.01 s.
     ///
     /// How long the position may be wrong
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 521-524: Timeout su errore di Posizione (in centesimi di secondo).
-    pub const I5: ReadWrite<rt::Scaled<u16, 1, 100>, rt::OnModbus> = ReadWriteU16Times1Per100OnModbus::register_within(
-        rt::Register::holding(39),
+    pub const I5: ReadWrite<
+        rt::Scaled<u16, 1, 100>,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteU16Times1Per100OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0027, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0027, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0027, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0027, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(39),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0027, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0027, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "I5",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "s",
         rt::Flags::NONE,
     );
     /// I6.
     ///
-    /// Holding register 90, UNSIGNED16, rw.
+    /// Holding register 90, number 0x005A behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// How an external encoder is used
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 526: Selezione modalità encoder esterno.
-    pub const I6: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(90),
+    pub const I6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x005A, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x005A, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x005A, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x005A, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(90),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x005A, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x005A, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "I6",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// I7.
     ///
-    /// Holding register 99, UNSIGNED16, rw.
+    /// Holding register 99, number 0x0063 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Reserved
     ///
@@ -8467,58 +13029,127 @@ pub mod objects {
     /// Chapter Parameters. Manual, line 527: Riservato.
     ///
     /// Note: Reserved, with an address (L527). Chosen: a row, hidden (it can be reached).
-    pub const I7: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(99),
+    pub const I7: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0063, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0063, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0063, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0063, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(99),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0063, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0063, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "I7",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// O1.
     ///
-    /// Holding register 81, UNSIGNED16, ro.
+    /// Holding register 81, number 0x0051 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, ro.
     ///
     /// Current at this moment. That it can only be read isn't said of it
     ///
     /// Lost at power-off. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 530: Corrente istantanea.
-    pub const O1: ReadOnly<u16, rt::OnModbus> = ReadOnlyU16OnModbus::register(
-        rt::Register::holding(81),
+    pub const O1: ReadOnly<u16, OnCanOpenWindowInCoEWindowInModbusImageWindowIn> = ReadOnlyU16OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
+        rt::Location::new(
+            rt::Split::reading(
+                rt::Through::unsigned(0x0051, &super::windows::PARAMETER_READ_CANOPEN_0),
+            ),
+            rt::Split::reading(
+                rt::Through::unsigned(0x0051, &super::windows::PARAMETER_READ_COE_0),
+            ),
+            rt::Register::holding(81),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::reading(
+                rt::Through::unsigned(0x0051, &super::windows::PARAMETER_READ_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "O1",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// O2.
     ///
-    /// Holding register 82, UNSIGNED16, ro.
+    /// Holding register 82, number 0x0052 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, ro.
     ///
     /// Effective current. That it can only be read isn't said of it
     ///
     /// Lost at power-off. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 531: Corrente efficace.
-    pub const O2: ReadOnly<u16, rt::OnModbus> = ReadOnlyU16OnModbus::register(
-        rt::Register::holding(82),
+    pub const O2: ReadOnly<u16, OnCanOpenWindowInCoEWindowInModbusImageWindowIn> = ReadOnlyU16OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
+        rt::Location::new(
+            rt::Split::reading(
+                rt::Through::unsigned(0x0052, &super::windows::PARAMETER_READ_CANOPEN_0),
+            ),
+            rt::Split::reading(
+                rt::Through::unsigned(0x0052, &super::windows::PARAMETER_READ_COE_0),
+            ),
+            rt::Register::holding(82),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::reading(
+                rt::Through::unsigned(0x0052, &super::windows::PARAMETER_READ_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "O2",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// O3.
     ///
-    /// Holding register 83, UNSIGNED16, ro, in %.
+    /// Holding register 83, number 0x0053 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, ro, in %.
     ///
     /// Overload, of I²t. That it can only be read isn't said of it
     ///
     /// Lost at power-off. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 532: Sovraccarico (% di I2T).
-    pub const O3: ReadOnly<u16, rt::OnModbus> = ReadOnlyU16OnModbus::register_within(
-        rt::Register::holding(83),
+    pub const O3: ReadOnly<u16, OnCanOpenWindowInCoEWindowInModbusImageWindowIn> = ReadOnlyU16OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
+        rt::Location::new(
+            rt::Split::reading(
+                rt::Through::unsigned(0x0053, &super::windows::PARAMETER_READ_CANOPEN_0),
+            ),
+            rt::Split::reading(
+                rt::Through::unsigned(0x0053, &super::windows::PARAMETER_READ_COE_0),
+            ),
+            rt::Register::holding(83),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::reading(
+                rt::Through::unsigned(0x0053, &super::windows::PARAMETER_READ_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "O3",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// P1.
     ///
-    /// Holding register 41, UNSIGNED16, rw.
+    /// Holding register 41, number 0x0029 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Pulses a turn of the motor, hundreds: P1   100 + P2
     ///
@@ -8527,14 +13158,34 @@ pub mod objects {
     /// Chapter Parameters. Manual, line 536: Impulsi/giro albero motore (parte più significativa).
     ///
     /// Note: A closing bracket without its opening one (L536). Chosen: more significant part (as of P3 and A1).
-    pub const P1: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(41),
+    pub const P1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0029, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0029, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0029, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0029, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(41),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0029, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0029, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "P1",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// P2.
     ///
-    /// Holding register 42, UNSIGNED16, rw.
+    /// Holding register 42, number 0x002A behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Pulses a turn of the motor, units: P1   100 + P2
     ///
@@ -8543,212 +13194,479 @@ pub mod objects {
     /// Chapter Parameters. Manual, line 537: Impulsi/giro albero motore (parte meno significativa).
     ///
     /// Note: An opening bracket without its closing one (L537). Chosen: less significant part (as of P4 and A2).
-    pub const P2: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(42),
+    pub const P2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x002A, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x002A, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x002A, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x002A, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(42),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x002A, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x002A, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "P2",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// P3.
     ///
-    /// Holding register 43, UNSIGNED16, rw, in °.
+    /// Holding register 43, number 0x002B behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in °.
     ///
     /// Largest following error, hundreds: P3   100 + P4
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 538-541: Massimo errore di inseguimento (gradi) (parte più significativa).
-    pub const P3: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(43),
+    pub const P3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x002B, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x002B, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x002B, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x002B, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(43),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x002B, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x002B, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "P3",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "°",
         rt::Flags::NONE,
     );
     /// P4.
     ///
-    /// Holding register 44, UNSIGNED16, rw, in °.
+    /// Holding register 44, number 0x002C behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in °.
     ///
     /// Largest following error, units: P3   100 + P4
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 543-546: Massimo errore di inseguimento (gradi) (parte meno significativa).
-    pub const P4: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(44),
+    pub const P4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x002C, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x002C, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x002C, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x002C, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(44),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x002C, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x002C, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "P4",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "°",
         rt::Flags::NONE,
     );
     /// P5.
     ///
-    /// Holding register 45, UNSIGNED16, rw, in ms/100rpm.
+    /// Holding register 45, number 0x002D behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in ms/100rpm.
     ///
     /// Acceleration
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 548: Rampa accelerazione (in ms/100 RPM).
-    pub const P5: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(45),
+    pub const P5: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x002D, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x002D, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x002D, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x002D, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(45),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x002D, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x002D, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "P5",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "ms/100rpm",
         rt::Flags::NONE,
     );
     /// P6.
     ///
-    /// Holding register 46, UNSIGNED16, rw, in ms/100rpm.
+    /// Holding register 46, number 0x002E behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in ms/100rpm.
     ///
     /// Deceleration
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 549: Rampa decelerazione (in ms/100 RPM).
-    pub const P6: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(46),
+    pub const P6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x002E, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x002E, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x002E, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x002E, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(46),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x002E, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x002E, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "P6",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "ms/100rpm",
         rt::Flags::NONE,
     );
     /// P7.
     ///
-    /// Holding register 47, UNSIGNED16, rw, in 100 rpm.
+    /// Holding register 47, number 0x002F behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in 100 rpm.
     ///
     /// Greatest speed
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 550: Velocità massima (in RPM/100).
-    pub const P7: ReadWrite<rt::Scaled<u16, 100>, rt::OnModbus> = ReadWriteU16Times100Per1OnModbus::register_within(
-        rt::Register::holding(47),
+    pub const P7: ReadWrite<
+        rt::Scaled<u16, 100>,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteU16Times100Per1OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x002F, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x002F, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x002F, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x002F, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(47),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x002F, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x002F, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "P7",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "rpm",
         rt::Flags::NONE,
     );
     /// A1.
     ///
-    /// Holding register 48, UNSIGNED16, rw.
+    /// Holding register 48, number 0x0030 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Marks of the master encoder, hundreds: A1   100 + A2
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 553: Tacche Encoder Master hi (parte più significativa).
-    pub const A1: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(48),
+    pub const A1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0030, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0030, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0030, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0030, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(48),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0030, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0030, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "A1",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// A2.
     ///
-    /// Holding register 49, UNSIGNED16, rw.
+    /// Holding register 49, number 0x0031 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Marks of the master encoder, units: A1   100 + A2
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 554: Tacche Encoder Master lo (parte meno significativa).
-    pub const A2: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(49),
+    pub const A2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0031, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0031, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0031, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0031, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(49),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0031, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0031, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "A2",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// A3.
     ///
-    /// Holding register 50, UNSIGNED16, rw.
+    /// Holding register 50, number 0x0032 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Numerator of the ratio
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 555: Numeratore Rapporto di Riduzione.
-    pub const A3: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(50),
+    pub const A3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0032, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0032, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0032, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0032, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(50),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0032, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0032, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "A3",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// A4.
     ///
-    /// Holding register 51, UNSIGNED16, rw.
+    /// Holding register 51, number 0x0033 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Denominator of the ratio
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 556: Denominatore Rapporto di Riduzione.
-    pub const A4: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(51),
+    pub const A4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0033, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0033, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0033, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0033, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(51),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0033, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0033, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "A4",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// A5.
     ///
-    /// Holding register 52, UNSIGNED16, rw, in °.
+    /// Holding register 52, number 0x0034 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in °.
     ///
     /// Largest following error, hundreds: A5   100 + A6
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 557-560: Errore inseguimento massimo (in gradi) hi (parte più significativa).
-    pub const A5: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(52),
+    pub const A5: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0034, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0034, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0034, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0034, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(52),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0034, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0034, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "A5",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "°",
         rt::Flags::NONE,
     );
     /// A6.
     ///
-    /// Holding register 53, UNSIGNED16, rw, in °.
+    /// Holding register 53, number 0x0035 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in °.
     ///
     /// Largest following error, units: A5   100 + A6
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 562-565: Errore inseguimento massimo (in gradi) lo (parte meno significativa).
-    pub const A6: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(53),
+    pub const A6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0035, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0035, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0035, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0035, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(53),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0035, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0035, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "A6",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "°",
         rt::Flags::NONE,
     );
     /// H1.
     ///
-    /// Holding register 59, UNSIGNED16, rw.
+    /// Holding register 59, number 0x003B behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// How the axis looks for its zero
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 568: Metodo per effettuare lo zero assi.
-    pub const H1: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(59),
+    pub const H1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x003B, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x003B, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x003B, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x003B, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(59),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x003B, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x003B, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "H1",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// H2.
     ///
-    /// Holding register 60, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Holding register 60, number 0x003C behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     ///
     /// Speed towards the switch, of the rated speed
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 569-572: Velocità di ricerca switch in % della velocità nominale.
-    pub const H2: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(60),
+    pub const H2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x003C, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x003C, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x003C, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x003C, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(60),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x003C, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x003C, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "H2",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// H3.
     ///
-    /// Holding register 61, UNSIGNED16, rw, range 1 to 99 (0.1 to 9.9 %), in 0.1 %.
+    /// Holding register 61, number 0x003D behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99 (0.1 to 9.9 %), in 0.1 %.
     ///
     /// Speed towards the marker, of the rated speed
     ///
@@ -8757,111 +13675,273 @@ pub mod objects {
     /// Chapter Parameters. Manual, line 574-577: Velocità di ricerca Marker in millesimi della velocità nominale.
     ///
     /// Note: Thousandths of the rated speed, and the content is % 1-99 (L574-577). Chosen: thousandths, from 1 to 99 (the marker is looked for more slowly than the switch).
-    pub const H3: ReadWrite<rt::Scaled<u16, 1, 10>, rt::OnModbus> = ReadWriteU16Times1Per10OnModbus::register_within(
-        rt::Register::holding(61),
+    pub const H3: ReadWrite<
+        rt::Scaled<u16, 1, 10>,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteU16Times1Per10OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x003D, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x003D, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x003D, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x003D, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(61),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x003D, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x003D, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "H3",
         rt::Range::Between(1, 99),
+        rt::Initial::Unknown,
         "%",
         rt::Flags::NONE,
     );
     /// H4.
     ///
-    /// Holding register 62, UNSIGNED16, rw, in ms/100rpm.
+    /// Holding register 62, number 0x003E behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in ms/100rpm.
     ///
     /// Acceleration and deceleration of homing
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 579-582: Tempo di rampa di accelerazione/decelerazione (in ms/100 RPM).
-    pub const H4: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register_within(
-        rt::Register::holding(62),
+    pub const H4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x003E, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x003E, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x003E, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x003E, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(62),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x003E, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x003E, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "H4",
         rt::Range::Full,
+        rt::Initial::Unknown,
         "ms/100rpm",
         rt::Flags::NONE,
     );
     /// H5.
     ///
-    /// Holding register 63, UNSIGNED16, rw.
+    /// Holding register 63, number 0x003F behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Sign of the offset whose amount is H6   10000 + H7   100 + H8
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 584: Segno offset di spazio.
-    pub const H5: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(63),
+    pub const H5: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x003F, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x003F, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x003F, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x003F, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(63),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x003F, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x003F, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "H5",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// H6.
     ///
-    /// Holding register 64, UNSIGNED16, rw.
+    /// Holding register 64, number 0x0040 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Offset in pulses of the master encoder, ten thousands; its sign is H5
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 585-588: Offset di spazio in impulsi encoder master (hi), decine di migliaia.
-    pub const H6: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(64),
+    pub const H6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0040, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0040, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0040, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0040, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(64),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0040, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0040, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "H6",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// H7.
     ///
-    /// Holding register 65, UNSIGNED16, rw.
+    /// Holding register 65, number 0x0041 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Offset in pulses of the master encoder, hundreds; its sign is H5
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 590-593: Offset di spazio in impulsi encoder master (mid), centinaia.
-    pub const H7: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(65),
+    pub const H7: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0041, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0041, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0041, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0041, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(65),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0041, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0041, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "H7",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// H8.
     ///
-    /// Holding register 66, UNSIGNED16, rw.
+    /// Holding register 66, number 0x0042 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Offset in pulses of the master encoder, units; its sign is H5
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 595-598: Offset di spazio in impulsi encoder master (lo), unità.
-    pub const H8: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(66),
+    pub const H8: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0042, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0042, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0042, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0042, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(66),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0042, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0042, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "H8",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// H9.
     ///
-    /// Holding register 67, UNSIGNED16, rw.
+    /// Holding register 67, number 0x0043 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Adjusts the offset by hand
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
     /// Chapter Parameters. Manual, line 600: Utility per la taratura manuale dell'Offset di spazio.
-    pub const H9: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
-        rt::Register::holding(67),
+    pub const H9: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0043, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0043, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0043, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0043, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(67),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0043, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0043, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "H9",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// n1.
     ///
-    /// Holding register 40, UNSIGNED16, rw.
+    /// Holding register 40, number 0x0028 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     ///
     /// Bit rate of CANopen
     ///
     /// Kept over power-off once save was given. Takes effect at: power cycle.
     ///
     /// Chapter Parameters. Manual, line 603, 3420-3432, 4199-4203: CANbus Baud rate.
-    pub const N1: ReadWrite<super::types::BitRate, rt::OnModbus> = ReadWriteNamedBitRateOnModbus::register(
-        rt::Register::holding(40),
+    pub const N1: ReadWrite<
+        super::types::BitRate,
+        OnCanOpenWindowsCoEWindowsModbusImageWindows,
+    > = ReadWriteNamedBitRateOnCanOpenWindowsCoEWindowsModbusImageWindows::new(
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(0x0028, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(0x0028, &super::windows::PARAMETER_WRITE_CANOPEN_1),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(0x0028, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(0x0028, &super::windows::PARAMETER_WRITE_COE_1),
+            ),
+            rt::Register::holding(40),
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(0x0028, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(0x0028, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        ),
         "n1",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::NONE,
     );
     /// save\_to\_flash.
@@ -8903,7 +13983,7 @@ pub mod objects {
     /// 0x1000:00, UNSIGNED32, const.
     ///
     /// Manual, line 3457.
-    pub const DEVICE_TYPE: Constant<super::types::DeviceType, rt::OnCanOpenAndCoE> = ConstantNamedDeviceTypeOnCanOpenCoE::shared_object(
+    pub const DEVICE_TYPE: Constant<super::types::DeviceType> = ConstantNamedDeviceType::shared_object(
         0x1000,
         0x00,
         "Device Type",
@@ -8913,10 +13993,7 @@ pub mod objects {
     /// 0x1001:00, UNSIGNED8, ro.
     ///
     /// Manual, line 3466, 2977-2999.
-    pub const ERROR_REGISTER: ReadOnly<
-        super::types::ErrorRegister,
-        rt::OnCanOpenAndCoE,
-    > = ReadOnlyNamedErrorRegisterOnCanOpenCoE::shared_object(
+    pub const ERROR_REGISTER: ReadOnly<super::types::ErrorRegister> = ReadOnlyNamedErrorRegister::shared_object(
         0x1001,
         0x00,
         "Error Register",
@@ -8925,7 +14002,6 @@ pub mod objects {
     ///
     /// ARRAY 0x1003.
     pub mod pre_defined_error_field {
-        use ::lexibus as rt;
         /// Number Of Error.
         ///
         /// 0x1003:00, UNSIGNED8, rw.
@@ -8935,7 +14011,7 @@ pub mod objects {
         /// Manual, line 3476, 4152-4153.
         ///
         /// Note: 4 bytes (L3480), where sub-index 0 of other objects has 1. Chosen: one byte (DS 301 has it so).
-        pub const NUMBER_OF_ERROR: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ERROR: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
             0x1003,
             0x00,
             "Number Of Error",
@@ -8947,8 +14023,7 @@ pub mod objects {
         /// Manual, line 3482.
         pub const STANDARD_OF_ERROR_TYPE: super::ReadOnly<
             super::super::types::ErrorFieldEntry,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyNamedErrorFieldEntryOnCanOpenCoE::shared_object(
+        > = super::ReadOnlyNamedErrorFieldEntry::shared_object(
             0x1003,
             0x01,
             "Standard Of Error Type",
@@ -8959,20 +14034,13 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number Of Error: 0x1003:00.
-            pub fn number_of_error(
-                &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            pub fn number_of_error(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_ERROR.at(self.client)
             }
             /// Standard Of Error Type: 0x1003:01.
             pub fn standard_of_error_type(
                 &mut self,
-            ) -> super::ReadOnlyAccess<
-                '_,
-                C,
-                super::super::types::ErrorFieldEntry,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
                 STANDARD_OF_ERROR_TYPE.at(self.client)
             }
         }
@@ -8982,10 +14050,7 @@ pub mod objects {
     /// 0x1005:00, UNSIGNED32, rw, default 128.
     ///
     /// Manual, line 3511, 4466, 4579.
-    pub const COB_ID_SYNC: ReadWrite<
-        super::types::SyncIdentifier,
-        rt::OnCanOpenAndCoE,
-    > = ReadWriteNamedSyncIdentifierOnCanOpenCoE::shared_object_with_default(
+    pub const COB_ID_SYNC: ReadWrite<super::types::SyncIdentifier> = ReadWriteNamedSyncIdentifier::shared_object_with_default(
         0x1005,
         0x00,
         "Cob-Id Sync",
@@ -8996,10 +14061,7 @@ pub mod objects {
     /// 0x1008:00, VISIBLE_STRING, const.
     ///
     /// Manual, line 3516-3518.
-    pub const MANUFACTURER_DEVICE_NAME: Constant<
-        rt::VisibleString,
-        rt::OnCanOpenAndCoE,
-    > = ConstantVisibleStringOnCanOpenCoE::shared_object(
+    pub const MANUFACTURER_DEVICE_NAME: Constant<rt::VisibleString> = ConstantVisibleString::shared_object(
         0x1008,
         0x00,
         "Manufacturer Device Name",
@@ -9009,10 +14071,7 @@ pub mod objects {
     /// 0x1009:00, VISIBLE_STRING, const.
     ///
     /// Manual, line 3523-3525.
-    pub const MANUFACTURER_HARDWARE_VERSION: Constant<
-        rt::VisibleString,
-        rt::OnCanOpenAndCoE,
-    > = ConstantVisibleStringOnCanOpenCoE::shared_object(
+    pub const MANUFACTURER_HARDWARE_VERSION: Constant<rt::VisibleString> = ConstantVisibleString::shared_object(
         0x1009,
         0x00,
         "Manufacturer Hardware Version",
@@ -9022,10 +14081,7 @@ pub mod objects {
     /// 0x100A:00, VISIBLE_STRING, const.
     ///
     /// Manual, line 3530-3532.
-    pub const MANUFACTURER_SOFTWARE_VERSION: Constant<
-        rt::VisibleString,
-        rt::OnCanOpenAndCoE,
-    > = ConstantVisibleStringOnCanOpenCoE::shared_object(
+    pub const MANUFACTURER_SOFTWARE_VERSION: Constant<rt::VisibleString> = ConstantVisibleString::shared_object(
         0x100A,
         0x00,
         "Manufacturer Software Version",
@@ -9037,10 +14093,7 @@ pub mod objects {
     /// 0 means: no guarding.
     ///
     /// Manual, line 3539, 4134, 4239.
-    pub const GUARD_TIME: ReadWrite<
-        rt::OrNone<rt::Scaled<u16, 1>, 0>,
-        rt::OnCanOpenAndCoE,
-    > = ReadWriteU16Times1Per1OrNone0OnCanOpenCoE::new(
+    pub const GUARD_TIME: ReadWrite<rt::OrNone<rt::Scaled<u16, 1>, 0>> = ReadWriteU16Times1Per1OrNone0::new(
         rt::OnCanOpenAndCoE::object(0x100C, 0x00),
         "Guard Time",
         rt::Range::Full,
@@ -9057,10 +14110,7 @@ pub mod objects {
     /// 0 means: not watched.
     ///
     /// Manual, line 3544, 4138-4142, 4242.
-    pub const LIFE_TIME_FACTOR: ReadWrite<
-        rt::OrNone<rt::Scaled<u8, 1>, 0>,
-        rt::OnCanOpenAndCoE,
-    > = ReadWriteU8Times1Per1OrNone0OnCanOpenCoE::shared_object(
+    pub const LIFE_TIME_FACTOR: ReadWrite<rt::OrNone<rt::Scaled<u8, 1>, 0>> = ReadWriteU8Times1Per1OrNone0::shared_object(
         0x100D,
         0x00,
         "Life Time Factor",
@@ -9069,7 +14119,6 @@ pub mod objects {
     ///
     /// ARRAY 0x1010.
     pub mod store_parameter_field {
-        use ::lexibus as rt;
         /// Number of entries of the store parameters.
         ///
         /// 0x1010:00, UNSIGNED8, ro.
@@ -9077,10 +14126,7 @@ pub mod objects {
         /// Manual, line 3550.
         ///
         /// Note: 4 bytes (L3550), where sub-index 0 of other objects has 1. Chosen: one byte (DS 301 has it so).
-        pub const NUMBER_OF_ENTRIES_OF_THE_STORE_PARAMETERS: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_STORE_PARAMETERS: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x1010,
             0x00,
             "Number of entries of the store parameters",
@@ -9096,8 +14142,7 @@ pub mod objects {
         /// Manual, line 3551, 3337-3351, 4391.
         pub const SAVE_ALL_PARAMETERS: super::ReadWrite<
             super::super::types::StoreParameters,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedStoreParametersOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedStoreParameters::shared_object(
             0x1010,
             0x01,
             "Save All Parameters",
@@ -9110,18 +14155,13 @@ pub mod objects {
             /// Number of entries of the store parameters: 0x1010:00.
             pub fn number_of_entries_of_the_store_parameters(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_STORE_PARAMETERS.at(self.client)
             }
             /// Save All Parameters: 0x1010:01.
             pub fn save_all_parameters(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::StoreParameters,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::StoreParameters> {
                 SAVE_ALL_PARAMETERS.at(self.client)
             }
         }
@@ -9131,10 +14171,7 @@ pub mod objects {
     /// 0x1014:00, UNSIGNED32, rw.
     ///
     /// Manual, line 3556.
-    pub const COB_ID_EMCY: ReadWrite<
-        super::types::EmergencyIdentifier,
-        rt::OnCanOpenAndCoE,
-    > = ReadWriteNamedEmergencyIdentifierOnCanOpenCoE::shared_object(
+    pub const COB_ID_EMCY: ReadWrite<super::types::EmergencyIdentifier> = ReadWriteNamedEmergencyIdentifier::shared_object(
         0x1014,
         0x00,
         "Cob Id Emcy",
@@ -9144,7 +14181,7 @@ pub mod objects {
     /// 0x1015:00, UNSIGNED16, rw, in 100 µs.
     ///
     /// Manual, line 3561.
-    pub const INHIBIT_EMCY: ReadWrite<rt::Scaled<u16, 100>, rt::OnCanOpenAndCoE> = ReadWriteU16Times100Per1OnCanOpenCoE::new(
+    pub const INHIBIT_EMCY: ReadWrite<rt::Scaled<u16, 100>> = ReadWriteU16Times100Per1::new(
         rt::OnCanOpenAndCoE::object(0x1015, 0x00),
         "Inhibit Emcy",
         rt::Range::Full,
@@ -9159,10 +14196,7 @@ pub mod objects {
     /// 0 means: no heartbeat.
     ///
     /// Manual, line 3566, 3103-3104, 4130.
-    pub const PRODUCER_HEARTBEAT_TIME: ReadWrite<
-        rt::OrNone<rt::Scaled<u16, 1>, 0>,
-        rt::OnCanOpenAndCoE,
-    > = ReadWriteU16Times1Per1OrNone0OnCanOpenCoE::new(
+    pub const PRODUCER_HEARTBEAT_TIME: ReadWrite<rt::OrNone<rt::Scaled<u16, 1>, 0>> = ReadWriteU16Times1Per1OrNone0::new(
         rt::OnCanOpenAndCoE::object(0x1017, 0x00),
         "Producer Heartbeat Time",
         rt::Range::Full,
@@ -9174,16 +14208,12 @@ pub mod objects {
     ///
     /// RECORD 0x1018.
     pub mod identity_object {
-        use ::lexibus as rt;
         /// Number of entries of the identity.
         ///
         /// 0x1018:00, UNSIGNED8, ro.
         ///
         /// Manual, line 3492.
-        pub const NUMBER_OF_ENTRIES_OF_THE_IDENTITY: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_IDENTITY: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x1018,
             0x00,
             "Number of entries of the identity",
@@ -9195,7 +14225,7 @@ pub mod objects {
         /// Manual, line 3497.
         ///
         /// Note: 0x0000078F is the vendor-ID of ETG (L5459), 6 one of an example (L2558). Chosen: no value (that of CANopen isn't printed).
-        pub const VENDOR_ID: super::ReadOnly<u32, rt::OnCanOpenAndCoE> = super::ReadOnlyU32OnCanOpenCoE::shared_object(
+        pub const VENDOR_ID: super::ReadOnly<u32> = super::ReadOnlyU32::shared_object(
             0x1018,
             0x01,
             "Vendor Id",
@@ -9208,13 +14238,11 @@ pub mod objects {
             /// Number of entries of the identity: 0x1018:00.
             pub fn number_of_entries_of_the_identity(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_IDENTITY.at(self.client)
             }
             /// Vendor Id: 0x1018:01.
-            pub fn vendor_id(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
+            pub fn vendor_id(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
                 VENDOR_ID.at(self.client)
             }
         }
@@ -9229,10 +14257,7 @@ pub mod objects {
         /// 0x1400:00, UNSIGNED8, ro.
         ///
         /// Manual, line 3571.
-        pub const NUMBER_OF_ENTRIES_OF_RPDO_1: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_RPDO_1: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x1400,
             0x00,
             "Number of entries of RPDO 1",
@@ -9244,8 +14269,7 @@ pub mod objects {
         /// Manual, line 3572, 4432-4434.
         pub const COB_ID_OF_RPDO_1: super::ReadWrite<
             super::super::types::ReceivePdoIdentifier,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedReceivePdoIdentifierOnCanOpenCoE::new(
+        > = super::ReadWriteNamedReceivePdoIdentifier::new(
             rt::OnCanOpenAndCoE::object(0x1400, 0x01),
             "COB-ID of RPDO 1",
             rt::Range::Full,
@@ -9262,8 +14286,7 @@ pub mod objects {
         /// Manual, line 3573, 4423.
         pub const TRANSMISSION_TYPE_OF_RPDO_1: super::ReadWrite<
             super::super::types::TransmissionType,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedTransmissionType::shared_object(
             0x1400,
             0x02,
             "Transmission type of RPDO 1",
@@ -9276,7 +14299,7 @@ pub mod objects {
             /// Number of entries of RPDO 1: 0x1400:00.
             pub fn number_of_entries_of_rpdo_1(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_RPDO_1.at(self.client)
             }
             /// COB-ID of RPDO 1: 0x1400:01.
@@ -9286,19 +14309,13 @@ pub mod objects {
                 '_,
                 C,
                 super::super::types::ReceivePdoIdentifier,
-                rt::OnCanOpenAndCoE,
             > {
                 COB_ID_OF_RPDO_1.at(self.client)
             }
             /// Transmission type of RPDO 1: 0x1400:02.
             pub fn transmission_type_of_rpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
                 TRANSMISSION_TYPE_OF_RPDO_1.at(self.client)
             }
         }
@@ -9307,16 +14324,12 @@ pub mod objects {
     ///
     /// RECORD 0x1401.
     pub mod receive_pdo_2_communication_parameter {
-        use ::lexibus as rt;
         /// Number of entries of RPDO 2.
         ///
         /// 0x1401:00, UNSIGNED8, ro.
         ///
         /// Manual, line 3580.
-        pub const NUMBER_OF_ENTRIES_OF_RPDO_2: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_RPDO_2: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x1401,
             0x00,
             "Number of entries of RPDO 2",
@@ -9328,8 +14341,7 @@ pub mod objects {
         /// Manual, line 3581.
         pub const COB_ID_OF_RPDO_2: super::ReadWrite<
             super::super::types::ReceivePdoIdentifier,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedReceivePdoIdentifierOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedReceivePdoIdentifier::shared_object(
             0x1401,
             0x01,
             "COB-ID of RPDO 2",
@@ -9341,8 +14353,7 @@ pub mod objects {
         /// Manual, line 3583.
         pub const TRANSMISSION_TYPE_OF_RPDO_2: super::ReadWrite<
             super::super::types::TransmissionType,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedTransmissionType::shared_object(
             0x1401,
             0x02,
             "Transmission type of RPDO 2",
@@ -9355,7 +14366,7 @@ pub mod objects {
             /// Number of entries of RPDO 2: 0x1401:00.
             pub fn number_of_entries_of_rpdo_2(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_RPDO_2.at(self.client)
             }
             /// COB-ID of RPDO 2: 0x1401:01.
@@ -9365,19 +14376,13 @@ pub mod objects {
                 '_,
                 C,
                 super::super::types::ReceivePdoIdentifier,
-                rt::OnCanOpenAndCoE,
             > {
                 COB_ID_OF_RPDO_2.at(self.client)
             }
             /// Transmission type of RPDO 2: 0x1401:02.
             pub fn transmission_type_of_rpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
                 TRANSMISSION_TYPE_OF_RPDO_2.at(self.client)
             }
         }
@@ -9386,7 +14391,6 @@ pub mod objects {
     ///
     /// RECORD 0x1402.
     pub mod receive_pdo_3_communication_parameter {
-        use ::lexibus as rt;
         /// Number of entries of RPDO 3.
         ///
         /// 0x1402:00, UNSIGNED8, ro.
@@ -9394,10 +14398,7 @@ pub mod objects {
         /// From firmware 3\.00 on.
         ///
         /// Manual, line 3590.
-        pub const NUMBER_OF_ENTRIES_OF_RPDO_3: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_RPDO_3: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x1402,
             0x00,
             "Number of entries of RPDO 3",
@@ -9411,8 +14412,7 @@ pub mod objects {
         /// Manual, line 3592.
         pub const COB_ID_OF_RPDO_3: super::ReadWrite<
             super::super::types::ReceivePdoIdentifier,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedReceivePdoIdentifierOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedReceivePdoIdentifier::shared_object(
             0x1402,
             0x01,
             "COB-ID of RPDO 3",
@@ -9426,8 +14426,7 @@ pub mod objects {
         /// Manual, line 3594.
         pub const TRANSMISSION_TYPE_OF_RPDO_3: super::ReadWrite<
             super::super::types::TransmissionType,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedTransmissionType::shared_object(
             0x1402,
             0x02,
             "Transmission type of RPDO 3",
@@ -9440,7 +14439,7 @@ pub mod objects {
             /// Number of entries of RPDO 3: 0x1402:00.
             pub fn number_of_entries_of_rpdo_3(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_RPDO_3.at(self.client)
             }
             /// COB-ID of RPDO 3: 0x1402:01.
@@ -9450,19 +14449,13 @@ pub mod objects {
                 '_,
                 C,
                 super::super::types::ReceivePdoIdentifier,
-                rt::OnCanOpenAndCoE,
             > {
                 COB_ID_OF_RPDO_3.at(self.client)
             }
             /// Transmission type of RPDO 3: 0x1402:02.
             pub fn transmission_type_of_rpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
                 TRANSMISSION_TYPE_OF_RPDO_3.at(self.client)
             }
         }
@@ -9471,7 +14464,6 @@ pub mod objects {
     ///
     /// RECORD 0x1403.
     pub mod receive_pdo_4_communication_parameter {
-        use ::lexibus as rt;
         /// Number of entries of RPDO 4.
         ///
         /// 0x1403:00, UNSIGNED8, ro.
@@ -9479,10 +14471,7 @@ pub mod objects {
         /// From firmware 3\.00 on.
         ///
         /// Manual, line 3600.
-        pub const NUMBER_OF_ENTRIES_OF_RPDO_4: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_RPDO_4: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x1403,
             0x00,
             "Number of entries of RPDO 4",
@@ -9496,8 +14485,7 @@ pub mod objects {
         /// Manual, line 3601.
         pub const COB_ID_OF_RPDO_4: super::ReadWrite<
             super::super::types::ReceivePdoIdentifier,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedReceivePdoIdentifierOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedReceivePdoIdentifier::shared_object(
             0x1403,
             0x01,
             "COB-ID of RPDO 4",
@@ -9511,8 +14499,7 @@ pub mod objects {
         /// Manual, line 3602.
         pub const TRANSMISSION_TYPE_OF_RPDO_4: super::ReadWrite<
             super::super::types::TransmissionType,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedTransmissionType::shared_object(
             0x1403,
             0x02,
             "Transmission type of RPDO 4",
@@ -9525,7 +14512,7 @@ pub mod objects {
             /// Number of entries of RPDO 4: 0x1403:00.
             pub fn number_of_entries_of_rpdo_4(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_RPDO_4.at(self.client)
             }
             /// COB-ID of RPDO 4: 0x1403:01.
@@ -9535,19 +14522,13 @@ pub mod objects {
                 '_,
                 C,
                 super::super::types::ReceivePdoIdentifier,
-                rt::OnCanOpenAndCoE,
             > {
                 COB_ID_OF_RPDO_4.at(self.client)
             }
             /// Transmission type of RPDO 4: 0x1403:02.
             pub fn transmission_type_of_rpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
                 TRANSMISSION_TYPE_OF_RPDO_4.at(self.client)
             }
         }
@@ -9566,10 +14547,7 @@ pub mod objects {
         /// On ethercat: default 2.
         ///
         /// Manual, line 3607.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1: super::ReadWrite<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1: super::ReadWrite<u8> = super::ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1600, 0x00),
             "Number of mapped objects of RPDO 1",
             rt::Range::To(8),
@@ -9586,8 +14564,7 @@ pub mod objects {
         /// Manual, line 3608.
         pub const MAPPED_OBJECT_1_OF_RPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x01,
             "Mapped object 1 of RPDO 1",
@@ -9601,8 +14578,7 @@ pub mod objects {
         /// Manual, line 3609.
         pub const MAPPED_OBJECT_2_OF_RPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x02,
             "Mapped object 2 of RPDO 1",
@@ -9614,8 +14590,7 @@ pub mod objects {
         /// Manual, line 3610.
         pub const MAPPED_OBJECT_3_OF_RPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x03,
             "Mapped object 3 of RPDO 1",
@@ -9627,8 +14602,7 @@ pub mod objects {
         /// Manual, line 3611.
         pub const MAPPED_OBJECT_4_OF_RPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x04,
             "Mapped object 4 of RPDO 1",
@@ -9640,8 +14614,7 @@ pub mod objects {
         /// Manual, line 3612.
         pub const MAPPED_OBJECT_5_OF_RPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x05,
             "Mapped object 5 of RPDO 1",
@@ -9653,8 +14626,7 @@ pub mod objects {
         /// Manual, line 3613.
         pub const MAPPED_OBJECT_6_OF_RPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x06,
             "Mapped object 6 of RPDO 1",
@@ -9666,8 +14638,7 @@ pub mod objects {
         /// Manual, line 3614.
         pub const MAPPED_OBJECT_7_OF_RPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x07,
             "Mapped object 7 of RPDO 1",
@@ -9679,8 +14650,7 @@ pub mod objects {
         /// Manual, line 3615.
         pub const MAPPED_OBJECT_8_OF_RPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1600,
             0x08,
             "Mapped object 8 of RPDO 1",
@@ -9693,95 +14663,55 @@ pub mod objects {
             /// Number of mapped objects of RPDO 1: 0x1600:00.
             pub fn number_of_mapped_objects_of_rpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 1 of RPDO 1: 0x1600:01.
             pub fn mapped_object_1_of_rpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 2 of RPDO 1: 0x1600:02.
             pub fn mapped_object_2_of_rpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 3 of RPDO 1: 0x1600:03.
             pub fn mapped_object_3_of_rpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 4 of RPDO 1: 0x1600:04.
             pub fn mapped_object_4_of_rpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 5 of RPDO 1: 0x1600:05.
             pub fn mapped_object_5_of_rpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 6 of RPDO 1: 0x1600:06.
             pub fn mapped_object_6_of_rpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 7 of RPDO 1: 0x1600:07.
             pub fn mapped_object_7_of_rpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 8 of RPDO 1: 0x1600:08.
             pub fn mapped_object_8_of_rpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_8_OF_RPDO_1.at(self.client)
             }
         }
@@ -9800,10 +14730,7 @@ pub mod objects {
         /// On ethercat: default 2.
         ///
         /// Manual, line 3621.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_2: super::ReadWrite<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_2: super::ReadWrite<u8> = super::ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1601, 0x00),
             "Number of mapped objects of RPDO 2",
             rt::Range::To(8),
@@ -9820,8 +14747,7 @@ pub mod objects {
         /// Manual, line 3622.
         pub const MAPPED_OBJECT_1_OF_RPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x01,
             "Mapped object 1 of RPDO 2",
@@ -9835,8 +14761,7 @@ pub mod objects {
         /// Manual, line 3623.
         pub const MAPPED_OBJECT_2_OF_RPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x02,
             "Mapped object 2 of RPDO 2",
@@ -9848,8 +14773,7 @@ pub mod objects {
         /// Manual, line 3624.
         pub const MAPPED_OBJECT_3_OF_RPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x03,
             "Mapped object 3 of RPDO 2",
@@ -9861,8 +14785,7 @@ pub mod objects {
         /// Manual, line 3625.
         pub const MAPPED_OBJECT_4_OF_RPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x04,
             "Mapped object 4 of RPDO 2",
@@ -9874,8 +14797,7 @@ pub mod objects {
         /// Manual, line 3626.
         pub const MAPPED_OBJECT_5_OF_RPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x05,
             "Mapped object 5 of RPDO 2",
@@ -9887,8 +14809,7 @@ pub mod objects {
         /// Manual, line 3627.
         pub const MAPPED_OBJECT_6_OF_RPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x06,
             "Mapped object 6 of RPDO 2",
@@ -9900,8 +14821,7 @@ pub mod objects {
         /// Manual, line 3628.
         pub const MAPPED_OBJECT_7_OF_RPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x07,
             "Mapped object 7 of RPDO 2",
@@ -9913,8 +14833,7 @@ pub mod objects {
         /// Manual, line 3629.
         pub const MAPPED_OBJECT_8_OF_RPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1601,
             0x08,
             "Mapped object 8 of RPDO 2",
@@ -9927,95 +14846,55 @@ pub mod objects {
             /// Number of mapped objects of RPDO 2: 0x1601:00.
             pub fn number_of_mapped_objects_of_rpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 1 of RPDO 2: 0x1601:01.
             pub fn mapped_object_1_of_rpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 2 of RPDO 2: 0x1601:02.
             pub fn mapped_object_2_of_rpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 3 of RPDO 2: 0x1601:03.
             pub fn mapped_object_3_of_rpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 4 of RPDO 2: 0x1601:04.
             pub fn mapped_object_4_of_rpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 5 of RPDO 2: 0x1601:05.
             pub fn mapped_object_5_of_rpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 6 of RPDO 2: 0x1601:06.
             pub fn mapped_object_6_of_rpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 7 of RPDO 2: 0x1601:07.
             pub fn mapped_object_7_of_rpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 8 of RPDO 2: 0x1601:08.
             pub fn mapped_object_8_of_rpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_8_OF_RPDO_2.at(self.client)
             }
         }
@@ -10036,10 +14915,7 @@ pub mod objects {
         /// From firmware 3\.00 on.
         ///
         /// Manual, line 3635.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_3: super::ReadWrite<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_3: super::ReadWrite<u8> = super::ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1602, 0x00),
             "Number of mapped objects of RPDO 3",
             rt::Range::To(8),
@@ -10058,8 +14934,7 @@ pub mod objects {
         /// Manual, line 3636.
         pub const MAPPED_OBJECT_1_OF_RPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x01,
             "Mapped object 1 of RPDO 3",
@@ -10075,8 +14950,7 @@ pub mod objects {
         /// Manual, line 3637.
         pub const MAPPED_OBJECT_2_OF_RPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x02,
             "Mapped object 2 of RPDO 3",
@@ -10090,8 +14964,7 @@ pub mod objects {
         /// Manual, line 3638.
         pub const MAPPED_OBJECT_3_OF_RPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x03,
             "Mapped object 3 of RPDO 3",
@@ -10105,8 +14978,7 @@ pub mod objects {
         /// Manual, line 3639.
         pub const MAPPED_OBJECT_4_OF_RPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x04,
             "Mapped object 4 of RPDO 3",
@@ -10120,8 +14992,7 @@ pub mod objects {
         /// Manual, line 3640.
         pub const MAPPED_OBJECT_5_OF_RPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x05,
             "Mapped object 5 of RPDO 3",
@@ -10135,8 +15006,7 @@ pub mod objects {
         /// Manual, line 3641.
         pub const MAPPED_OBJECT_6_OF_RPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x06,
             "Mapped object 6 of RPDO 3",
@@ -10150,8 +15020,7 @@ pub mod objects {
         /// Manual, line 3642.
         pub const MAPPED_OBJECT_7_OF_RPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x07,
             "Mapped object 7 of RPDO 3",
@@ -10165,8 +15034,7 @@ pub mod objects {
         /// Manual, line 3644.
         pub const MAPPED_OBJECT_8_OF_RPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1602,
             0x08,
             "Mapped object 8 of RPDO 3",
@@ -10179,95 +15047,55 @@ pub mod objects {
             /// Number of mapped objects of RPDO 3: 0x1602:00.
             pub fn number_of_mapped_objects_of_rpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 1 of RPDO 3: 0x1602:01.
             pub fn mapped_object_1_of_rpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 2 of RPDO 3: 0x1602:02.
             pub fn mapped_object_2_of_rpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 3 of RPDO 3: 0x1602:03.
             pub fn mapped_object_3_of_rpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 4 of RPDO 3: 0x1602:04.
             pub fn mapped_object_4_of_rpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 5 of RPDO 3: 0x1602:05.
             pub fn mapped_object_5_of_rpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 6 of RPDO 3: 0x1602:06.
             pub fn mapped_object_6_of_rpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 7 of RPDO 3: 0x1602:07.
             pub fn mapped_object_7_of_rpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 8 of RPDO 3: 0x1602:08.
             pub fn mapped_object_8_of_rpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_8_OF_RPDO_3.at(self.client)
             }
         }
@@ -10288,10 +15116,7 @@ pub mod objects {
         /// From firmware 3\.00 on.
         ///
         /// Manual, line 3650.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_4: super::ReadWrite<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_4: super::ReadWrite<u8> = super::ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1603, 0x00),
             "Number of mapped objects of RPDO 4",
             rt::Range::To(8),
@@ -10310,8 +15135,7 @@ pub mod objects {
         /// Manual, line 3651.
         pub const MAPPED_OBJECT_1_OF_RPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x01,
             "Mapped object 1 of RPDO 4",
@@ -10327,8 +15151,7 @@ pub mod objects {
         /// Manual, line 3652.
         pub const MAPPED_OBJECT_2_OF_RPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x02,
             "Mapped object 2 of RPDO 4",
@@ -10342,8 +15165,7 @@ pub mod objects {
         /// Manual, line 3653.
         pub const MAPPED_OBJECT_3_OF_RPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x03,
             "Mapped object 3 of RPDO 4",
@@ -10357,8 +15179,7 @@ pub mod objects {
         /// Manual, line 3654.
         pub const MAPPED_OBJECT_4_OF_RPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x04,
             "Mapped object 4 of RPDO 4",
@@ -10372,8 +15193,7 @@ pub mod objects {
         /// Manual, line 3655.
         pub const MAPPED_OBJECT_5_OF_RPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x05,
             "Mapped object 5 of RPDO 4",
@@ -10387,8 +15207,7 @@ pub mod objects {
         /// Manual, line 3656.
         pub const MAPPED_OBJECT_6_OF_RPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x06,
             "Mapped object 6 of RPDO 4",
@@ -10402,8 +15221,7 @@ pub mod objects {
         /// Manual, line 3657.
         pub const MAPPED_OBJECT_7_OF_RPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x07,
             "Mapped object 7 of RPDO 4",
@@ -10417,8 +15235,7 @@ pub mod objects {
         /// Manual, line 3658.
         pub const MAPPED_OBJECT_8_OF_RPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1603,
             0x08,
             "Mapped object 8 of RPDO 4",
@@ -10431,95 +15248,55 @@ pub mod objects {
             /// Number of mapped objects of RPDO 4: 0x1603:00.
             pub fn number_of_mapped_objects_of_rpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 1 of RPDO 4: 0x1603:01.
             pub fn mapped_object_1_of_rpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 2 of RPDO 4: 0x1603:02.
             pub fn mapped_object_2_of_rpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 3 of RPDO 4: 0x1603:03.
             pub fn mapped_object_3_of_rpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 4 of RPDO 4: 0x1603:04.
             pub fn mapped_object_4_of_rpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 5 of RPDO 4: 0x1603:05.
             pub fn mapped_object_5_of_rpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 6 of RPDO 4: 0x1603:06.
             pub fn mapped_object_6_of_rpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 7 of RPDO 4: 0x1603:07.
             pub fn mapped_object_7_of_rpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 8 of RPDO 4: 0x1603:08.
             pub fn mapped_object_8_of_rpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_8_OF_RPDO_4.at(self.client)
             }
         }
@@ -10534,10 +15311,7 @@ pub mod objects {
         /// 0x1800:00, UNSIGNED8, ro.
         ///
         /// Manual, line 3666.
-        pub const NUMBER_OF_ENTRIES_OF_TPDO_1: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_TPDO_1: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x1800,
             0x00,
             "Number of entries of TPDO 1",
@@ -10549,8 +15323,7 @@ pub mod objects {
         /// Manual, line 3667.
         pub const COB_ID_OF_TPDO_1: super::ReadWrite<
             super::super::types::TransmitPdoIdentifier,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmitPdoIdentifierOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedTransmitPdoIdentifier::shared_object(
             0x1800,
             0x01,
             "COB-ID of TPDO 1",
@@ -10562,8 +15335,7 @@ pub mod objects {
         /// Manual, line 3668, 4439.
         pub const TRANSMISSION_TYPE_OF_TPDO_1: super::ReadWrite<
             super::super::types::TransmissionType,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedTransmissionType::shared_object(
             0x1800,
             0x02,
             "Transmission type of TPDO 1",
@@ -10577,10 +15349,7 @@ pub mod objects {
         /// Manual, line 3669, 2820.
         ///
         /// Note: In ms (L2792), and in multiples of 100 microseconds (L2820, L2836). Chosen: 100 microseconds (DS 301 has it so, and the text says it twice).
-        pub const INHIBIT_TIME_OF_TPDO_1: super::ReadWrite<
-            rt::Scaled<u16, 100>,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU16Times100Per1OnCanOpenCoE::new(
+        pub const INHIBIT_TIME_OF_TPDO_1: super::ReadWrite<rt::Scaled<u16, 100>> = super::ReadWriteU16Times100Per1::new(
             rt::OnCanOpenAndCoE::object(0x1800, 0x03),
             "Inhibit time of TPDO 1",
             rt::Range::Full,
@@ -10593,10 +15362,7 @@ pub mod objects {
         /// 0x1800:04, UNSIGNED8, rw.
         ///
         /// Manual, line 3670.
-        pub const COMPATIBILITY_ENTRY_OF_TPDO_1: super::ReadWrite<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU8OnCanOpenCoE::shared_object(
+        pub const COMPATIBILITY_ENTRY_OF_TPDO_1: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
             0x1800,
             0x04,
             "Compatibility entry of TPDO 1",
@@ -10612,8 +15378,7 @@ pub mod objects {
         /// Manual, line 3671, 2828-2833.
         pub const EVENT_TIMER_OF_TPDO_1: super::ReadWrite<
             rt::OrNone<rt::Scaled<u16, 1>, 0>,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU16Times1Per1OrNone0OnCanOpenCoE::new(
+        > = super::ReadWriteU16Times1Per1OrNone0::new(
             rt::OnCanOpenAndCoE::object(0x1800, 0x05),
             "Event timer of TPDO 1",
             rt::Range::Full,
@@ -10629,7 +15394,7 @@ pub mod objects {
             /// Number of entries of TPDO 1: 0x1800:00.
             pub fn number_of_entries_of_tpdo_1(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_TPDO_1.at(self.client)
             }
             /// COB-ID of TPDO 1: 0x1800:01.
@@ -10639,47 +15404,31 @@ pub mod objects {
                 '_,
                 C,
                 super::super::types::TransmitPdoIdentifier,
-                rt::OnCanOpenAndCoE,
             > {
                 COB_ID_OF_TPDO_1.at(self.client)
             }
             /// Transmission type of TPDO 1: 0x1800:02.
             pub fn transmission_type_of_tpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
                 TRANSMISSION_TYPE_OF_TPDO_1.at(self.client)
             }
             /// Inhibit time of TPDO 1: 0x1800:03.
             pub fn inhibit_time_of_tpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::Scaled<u16, 100>,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
                 INHIBIT_TIME_OF_TPDO_1.at(self.client)
             }
             /// Compatibility entry of TPDO 1: 0x1800:04.
             pub fn compatibility_entry_of_tpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u8> {
                 COMPATIBILITY_ENTRY_OF_TPDO_1.at(self.client)
             }
             /// Event timer of TPDO 1: 0x1800:05.
             pub fn event_timer_of_tpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::OrNone<rt::Scaled<u16, 1>, 0>,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
                 EVENT_TIMER_OF_TPDO_1.at(self.client)
             }
         }
@@ -10694,10 +15443,7 @@ pub mod objects {
         /// 0x1801:00, UNSIGNED8, ro.
         ///
         /// Manual, line 3680.
-        pub const NUMBER_OF_ENTRIES_OF_TPDO_2: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_TPDO_2: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x1801,
             0x00,
             "Number of entries of TPDO 2",
@@ -10709,8 +15455,7 @@ pub mod objects {
         /// Manual, line 3681.
         pub const COB_ID_OF_TPDO_2: super::ReadWrite<
             super::super::types::TransmitPdoIdentifier,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmitPdoIdentifierOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedTransmitPdoIdentifier::shared_object(
             0x1801,
             0x01,
             "COB-ID of TPDO 2",
@@ -10722,8 +15467,7 @@ pub mod objects {
         /// Manual, line 3682.
         pub const TRANSMISSION_TYPE_OF_TPDO_2: super::ReadWrite<
             super::super::types::TransmissionType,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedTransmissionType::shared_object(
             0x1801,
             0x02,
             "Transmission type of TPDO 2",
@@ -10735,10 +15479,7 @@ pub mod objects {
         /// Least time between two PDOs
         ///
         /// Manual, line 3683, 2820.
-        pub const INHIBIT_TIME_OF_TPDO_2: super::ReadWrite<
-            rt::Scaled<u16, 100>,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU16Times100Per1OnCanOpenCoE::new(
+        pub const INHIBIT_TIME_OF_TPDO_2: super::ReadWrite<rt::Scaled<u16, 100>> = super::ReadWriteU16Times100Per1::new(
             rt::OnCanOpenAndCoE::object(0x1801, 0x03),
             "Inhibit time of TPDO 2",
             rt::Range::Full,
@@ -10751,10 +15492,7 @@ pub mod objects {
         /// 0x1801:04, UNSIGNED8, rw.
         ///
         /// Manual, line 3684.
-        pub const COMPATIBILITY_ENTRY_OF_TPDO_2: super::ReadWrite<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU8OnCanOpenCoE::shared_object(
+        pub const COMPATIBILITY_ENTRY_OF_TPDO_2: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
             0x1801,
             0x04,
             "Compatibility entry of TPDO 2",
@@ -10770,8 +15508,7 @@ pub mod objects {
         /// Manual, line 3685, 2828-2833.
         pub const EVENT_TIMER_OF_TPDO_2: super::ReadWrite<
             rt::OrNone<rt::Scaled<u16, 1>, 0>,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU16Times1Per1OrNone0OnCanOpenCoE::new(
+        > = super::ReadWriteU16Times1Per1OrNone0::new(
             rt::OnCanOpenAndCoE::object(0x1801, 0x05),
             "Event timer of TPDO 2",
             rt::Range::Full,
@@ -10787,7 +15524,7 @@ pub mod objects {
             /// Number of entries of TPDO 2: 0x1801:00.
             pub fn number_of_entries_of_tpdo_2(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_TPDO_2.at(self.client)
             }
             /// COB-ID of TPDO 2: 0x1801:01.
@@ -10797,47 +15534,31 @@ pub mod objects {
                 '_,
                 C,
                 super::super::types::TransmitPdoIdentifier,
-                rt::OnCanOpenAndCoE,
             > {
                 COB_ID_OF_TPDO_2.at(self.client)
             }
             /// Transmission type of TPDO 2: 0x1801:02.
             pub fn transmission_type_of_tpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
                 TRANSMISSION_TYPE_OF_TPDO_2.at(self.client)
             }
             /// Inhibit time of TPDO 2: 0x1801:03.
             pub fn inhibit_time_of_tpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::Scaled<u16, 100>,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
                 INHIBIT_TIME_OF_TPDO_2.at(self.client)
             }
             /// Compatibility entry of TPDO 2: 0x1801:04.
             pub fn compatibility_entry_of_tpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u8> {
                 COMPATIBILITY_ENTRY_OF_TPDO_2.at(self.client)
             }
             /// Event timer of TPDO 2: 0x1801:05.
             pub fn event_timer_of_tpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::OrNone<rt::Scaled<u16, 1>, 0>,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
                 EVENT_TIMER_OF_TPDO_2.at(self.client)
             }
         }
@@ -10854,10 +15575,7 @@ pub mod objects {
         /// From firmware 3\.00 on.
         ///
         /// Manual, line 3694.
-        pub const NUMBER_OF_ENTRIES_OF_TPDO_3: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_TPDO_3: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x1802,
             0x00,
             "Number of entries of TPDO 3",
@@ -10871,8 +15589,7 @@ pub mod objects {
         /// Manual, line 3695.
         pub const COB_ID_OF_TPDO_3: super::ReadWrite<
             super::super::types::TransmitPdoIdentifier,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmitPdoIdentifierOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedTransmitPdoIdentifier::shared_object(
             0x1802,
             0x01,
             "COB-ID of TPDO 3",
@@ -10886,8 +15603,7 @@ pub mod objects {
         /// Manual, line 3696.
         pub const TRANSMISSION_TYPE_OF_TPDO_3: super::ReadWrite<
             super::super::types::TransmissionType,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedTransmissionType::shared_object(
             0x1802,
             0x02,
             "Transmission type of TPDO 3",
@@ -10901,10 +15617,7 @@ pub mod objects {
         /// From firmware 3\.05 on.
         ///
         /// Manual, line 3697, 2820.
-        pub const INHIBIT_TIME_OF_TPDO_3: super::ReadWrite<
-            rt::Scaled<u16, 100>,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU16Times100Per1OnCanOpenCoE::new(
+        pub const INHIBIT_TIME_OF_TPDO_3: super::ReadWrite<rt::Scaled<u16, 100>> = super::ReadWriteU16Times100Per1::new(
             rt::OnCanOpenAndCoE::object(0x1802, 0x03),
             "Inhibit time of TPDO 3",
             rt::Range::Full,
@@ -10919,10 +15632,7 @@ pub mod objects {
         /// From firmware 3\.05 on.
         ///
         /// Manual, line 3698.
-        pub const COMPATIBILITY_ENTRY_OF_TPDO_3: super::ReadWrite<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU8OnCanOpenCoE::shared_object(
+        pub const COMPATIBILITY_ENTRY_OF_TPDO_3: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
             0x1802,
             0x04,
             "Compatibility entry of TPDO 3",
@@ -10940,8 +15650,7 @@ pub mod objects {
         /// Manual, line 3699, 2828-2833.
         pub const EVENT_TIMER_OF_TPDO_3: super::ReadWrite<
             rt::OrNone<rt::Scaled<u16, 1>, 0>,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU16Times1Per1OrNone0OnCanOpenCoE::new(
+        > = super::ReadWriteU16Times1Per1OrNone0::new(
             rt::OnCanOpenAndCoE::object(0x1802, 0x05),
             "Event timer of TPDO 3",
             rt::Range::Full,
@@ -10957,7 +15666,7 @@ pub mod objects {
             /// Number of entries of TPDO 3: 0x1802:00.
             pub fn number_of_entries_of_tpdo_3(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_TPDO_3.at(self.client)
             }
             /// COB-ID of TPDO 3: 0x1802:01.
@@ -10967,47 +15676,31 @@ pub mod objects {
                 '_,
                 C,
                 super::super::types::TransmitPdoIdentifier,
-                rt::OnCanOpenAndCoE,
             > {
                 COB_ID_OF_TPDO_3.at(self.client)
             }
             /// Transmission type of TPDO 3: 0x1802:02.
             pub fn transmission_type_of_tpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
                 TRANSMISSION_TYPE_OF_TPDO_3.at(self.client)
             }
             /// Inhibit time of TPDO 3: 0x1802:03.
             pub fn inhibit_time_of_tpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::Scaled<u16, 100>,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
                 INHIBIT_TIME_OF_TPDO_3.at(self.client)
             }
             /// Compatibility entry of TPDO 3: 0x1802:04.
             pub fn compatibility_entry_of_tpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u8> {
                 COMPATIBILITY_ENTRY_OF_TPDO_3.at(self.client)
             }
             /// Event timer of TPDO 3: 0x1802:05.
             pub fn event_timer_of_tpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::OrNone<rt::Scaled<u16, 1>, 0>,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
                 EVENT_TIMER_OF_TPDO_3.at(self.client)
             }
         }
@@ -11024,10 +15717,7 @@ pub mod objects {
         /// From firmware 3\.00 on.
         ///
         /// Manual, line 3710.
-        pub const NUMBER_OF_ENTRIES_OF_TPDO_4: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_TPDO_4: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x1803,
             0x00,
             "Number of entries of TPDO 4",
@@ -11041,8 +15731,7 @@ pub mod objects {
         /// Manual, line 3711.
         pub const COB_ID_OF_TPDO_4: super::ReadWrite<
             super::super::types::TransmitPdoIdentifier,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmitPdoIdentifierOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedTransmitPdoIdentifier::shared_object(
             0x1803,
             0x01,
             "COB-ID of TPDO 4",
@@ -11056,8 +15745,7 @@ pub mod objects {
         /// Manual, line 3712.
         pub const TRANSMISSION_TYPE_OF_TPDO_4: super::ReadWrite<
             super::super::types::TransmissionType,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedTransmissionTypeOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedTransmissionType::shared_object(
             0x1803,
             0x02,
             "Transmission type of TPDO 4",
@@ -11071,10 +15759,7 @@ pub mod objects {
         /// From firmware 3\.05 on.
         ///
         /// Manual, line 3713, 2820.
-        pub const INHIBIT_TIME_OF_TPDO_4: super::ReadWrite<
-            rt::Scaled<u16, 100>,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU16Times100Per1OnCanOpenCoE::new(
+        pub const INHIBIT_TIME_OF_TPDO_4: super::ReadWrite<rt::Scaled<u16, 100>> = super::ReadWriteU16Times100Per1::new(
             rt::OnCanOpenAndCoE::object(0x1803, 0x03),
             "Inhibit time of TPDO 4",
             rt::Range::Full,
@@ -11089,10 +15774,7 @@ pub mod objects {
         /// From firmware 3\.05 on.
         ///
         /// Manual, line 3714.
-        pub const COMPATIBILITY_ENTRY_OF_TPDO_4: super::ReadWrite<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU8OnCanOpenCoE::shared_object(
+        pub const COMPATIBILITY_ENTRY_OF_TPDO_4: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
             0x1803,
             0x04,
             "Compatibility entry of TPDO 4",
@@ -11110,8 +15792,7 @@ pub mod objects {
         /// Manual, line 3716, 2828-2833.
         pub const EVENT_TIMER_OF_TPDO_4: super::ReadWrite<
             rt::OrNone<rt::Scaled<u16, 1>, 0>,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU16Times1Per1OrNone0OnCanOpenCoE::new(
+        > = super::ReadWriteU16Times1Per1OrNone0::new(
             rt::OnCanOpenAndCoE::object(0x1803, 0x05),
             "Event timer of TPDO 4",
             rt::Range::Full,
@@ -11127,7 +15808,7 @@ pub mod objects {
             /// Number of entries of TPDO 4: 0x1803:00.
             pub fn number_of_entries_of_tpdo_4(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_TPDO_4.at(self.client)
             }
             /// COB-ID of TPDO 4: 0x1803:01.
@@ -11137,47 +15818,31 @@ pub mod objects {
                 '_,
                 C,
                 super::super::types::TransmitPdoIdentifier,
-                rt::OnCanOpenAndCoE,
             > {
                 COB_ID_OF_TPDO_4.at(self.client)
             }
             /// Transmission type of TPDO 4: 0x1803:02.
             pub fn transmission_type_of_tpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::TransmissionType,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
                 TRANSMISSION_TYPE_OF_TPDO_4.at(self.client)
             }
             /// Inhibit time of TPDO 4: 0x1803:03.
             pub fn inhibit_time_of_tpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::Scaled<u16, 100>,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
                 INHIBIT_TIME_OF_TPDO_4.at(self.client)
             }
             /// Compatibility entry of TPDO 4: 0x1803:04.
             pub fn compatibility_entry_of_tpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u8> {
                 COMPATIBILITY_ENTRY_OF_TPDO_4.at(self.client)
             }
             /// Event timer of TPDO 4: 0x1803:05.
             pub fn event_timer_of_tpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                rt::OrNone<rt::Scaled<u16, 1>, 0>,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
                 EVENT_TIMER_OF_TPDO_4.at(self.client)
             }
         }
@@ -11196,10 +15861,7 @@ pub mod objects {
         /// On ethercat: default 1.
         ///
         /// Manual, line 3721.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1: super::ReadWrite<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1: super::ReadWrite<u8> = super::ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1A00, 0x00),
             "Number of mapped objects of TPDO 1",
             rt::Range::To(8),
@@ -11216,8 +15878,7 @@ pub mod objects {
         /// Manual, line 3722.
         pub const MAPPED_OBJECT_1_OF_TPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x01,
             "Mapped object 1 of TPDO 1",
@@ -11229,8 +15890,7 @@ pub mod objects {
         /// Manual, line 3723.
         pub const MAPPED_OBJECT_2_OF_TPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x02,
             "Mapped object 2 of TPDO 1",
@@ -11242,8 +15902,7 @@ pub mod objects {
         /// Manual, line 3724.
         pub const MAPPED_OBJECT_3_OF_TPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x03,
             "Mapped object 3 of TPDO 1",
@@ -11255,8 +15914,7 @@ pub mod objects {
         /// Manual, line 3725.
         pub const MAPPED_OBJECT_4_OF_TPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x04,
             "Mapped object 4 of TPDO 1",
@@ -11268,8 +15926,7 @@ pub mod objects {
         /// Manual, line 3726.
         pub const MAPPED_OBJECT_5_OF_TPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x05,
             "Mapped object 5 of TPDO 1",
@@ -11281,8 +15938,7 @@ pub mod objects {
         /// Manual, line 3727.
         pub const MAPPED_OBJECT_6_OF_TPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x06,
             "Mapped object 6 of TPDO 1",
@@ -11294,8 +15950,7 @@ pub mod objects {
         /// Manual, line 3728.
         pub const MAPPED_OBJECT_7_OF_TPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x07,
             "Mapped object 7 of TPDO 1",
@@ -11307,8 +15962,7 @@ pub mod objects {
         /// Manual, line 3729.
         pub const MAPPED_OBJECT_8_OF_TPDO_1: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A00,
             0x08,
             "Mapped object 8 of TPDO 1",
@@ -11321,95 +15975,55 @@ pub mod objects {
             /// Number of mapped objects of TPDO 1: 0x1A00:00.
             pub fn number_of_mapped_objects_of_tpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 1 of TPDO 1: 0x1A00:01.
             pub fn mapped_object_1_of_tpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 2 of TPDO 1: 0x1A00:02.
             pub fn mapped_object_2_of_tpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 3 of TPDO 1: 0x1A00:03.
             pub fn mapped_object_3_of_tpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 4 of TPDO 1: 0x1A00:04.
             pub fn mapped_object_4_of_tpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 5 of TPDO 1: 0x1A00:05.
             pub fn mapped_object_5_of_tpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 6 of TPDO 1: 0x1A00:06.
             pub fn mapped_object_6_of_tpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 7 of TPDO 1: 0x1A00:07.
             pub fn mapped_object_7_of_tpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 8 of TPDO 1: 0x1A00:08.
             pub fn mapped_object_8_of_tpdo_1(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_8_OF_TPDO_1.at(self.client)
             }
         }
@@ -11428,10 +16042,7 @@ pub mod objects {
         /// On ethercat: default 2.
         ///
         /// Manual, line 3735.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_2: super::ReadWrite<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_2: super::ReadWrite<u8> = super::ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1A01, 0x00),
             "Number of mapped objects of TPDO 2",
             rt::Range::To(8),
@@ -11448,8 +16059,7 @@ pub mod objects {
         /// Manual, line 3736.
         pub const MAPPED_OBJECT_1_OF_TPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x01,
             "Mapped object 1 of TPDO 2",
@@ -11463,8 +16073,7 @@ pub mod objects {
         /// Manual, line 3737.
         pub const MAPPED_OBJECT_2_OF_TPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x02,
             "Mapped object 2 of TPDO 2",
@@ -11476,8 +16085,7 @@ pub mod objects {
         /// Manual, line 3738.
         pub const MAPPED_OBJECT_3_OF_TPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x03,
             "Mapped object 3 of TPDO 2",
@@ -11489,8 +16097,7 @@ pub mod objects {
         /// Manual, line 3739.
         pub const MAPPED_OBJECT_4_OF_TPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x04,
             "Mapped object 4 of TPDO 2",
@@ -11502,8 +16109,7 @@ pub mod objects {
         /// Manual, line 3740.
         pub const MAPPED_OBJECT_5_OF_TPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x05,
             "Mapped object 5 of TPDO 2",
@@ -11515,8 +16121,7 @@ pub mod objects {
         /// Manual, line 3741.
         pub const MAPPED_OBJECT_6_OF_TPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x06,
             "Mapped object 6 of TPDO 2",
@@ -11528,8 +16133,7 @@ pub mod objects {
         /// Manual, line 3742.
         pub const MAPPED_OBJECT_7_OF_TPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x07,
             "Mapped object 7 of TPDO 2",
@@ -11541,8 +16145,7 @@ pub mod objects {
         /// Manual, line 3743.
         pub const MAPPED_OBJECT_8_OF_TPDO_2: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A01,
             0x08,
             "Mapped object 8 of TPDO 2",
@@ -11555,95 +16158,55 @@ pub mod objects {
             /// Number of mapped objects of TPDO 2: 0x1A01:00.
             pub fn number_of_mapped_objects_of_tpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 1 of TPDO 2: 0x1A01:01.
             pub fn mapped_object_1_of_tpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 2 of TPDO 2: 0x1A01:02.
             pub fn mapped_object_2_of_tpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 3 of TPDO 2: 0x1A01:03.
             pub fn mapped_object_3_of_tpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 4 of TPDO 2: 0x1A01:04.
             pub fn mapped_object_4_of_tpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 5 of TPDO 2: 0x1A01:05.
             pub fn mapped_object_5_of_tpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 6 of TPDO 2: 0x1A01:06.
             pub fn mapped_object_6_of_tpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 7 of TPDO 2: 0x1A01:07.
             pub fn mapped_object_7_of_tpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 8 of TPDO 2: 0x1A01:08.
             pub fn mapped_object_8_of_tpdo_2(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_8_OF_TPDO_2.at(self.client)
             }
         }
@@ -11664,10 +16227,7 @@ pub mod objects {
         /// From firmware 3\.00 on.
         ///
         /// Manual, line 3749.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_3: super::ReadWrite<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_3: super::ReadWrite<u8> = super::ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1A02, 0x00),
             "Number of mapped objects of TPDO 3",
             rt::Range::To(8),
@@ -11686,8 +16246,7 @@ pub mod objects {
         /// Manual, line 3750.
         pub const MAPPED_OBJECT_1_OF_TPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x01,
             "Mapped object 1 of TPDO 3",
@@ -11703,8 +16262,7 @@ pub mod objects {
         /// Manual, line 3751.
         pub const MAPPED_OBJECT_2_OF_TPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x02,
             "Mapped object 2 of TPDO 3",
@@ -11718,8 +16276,7 @@ pub mod objects {
         /// Manual, line 3752.
         pub const MAPPED_OBJECT_3_OF_TPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x03,
             "Mapped object 3 of TPDO 3",
@@ -11733,8 +16290,7 @@ pub mod objects {
         /// Manual, line 3753.
         pub const MAPPED_OBJECT_4_OF_TPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x04,
             "Mapped object 4 of TPDO 3",
@@ -11748,8 +16304,7 @@ pub mod objects {
         /// Manual, line 3754.
         pub const MAPPED_OBJECT_5_OF_TPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x05,
             "Mapped object 5 of TPDO 3",
@@ -11763,8 +16318,7 @@ pub mod objects {
         /// Manual, line 3755.
         pub const MAPPED_OBJECT_6_OF_TPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x06,
             "Mapped object 6 of TPDO 3",
@@ -11778,8 +16332,7 @@ pub mod objects {
         /// Manual, line 3756.
         pub const MAPPED_OBJECT_7_OF_TPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x07,
             "Mapped object 7 of TPDO 3",
@@ -11793,8 +16346,7 @@ pub mod objects {
         /// Manual, line 3758.
         pub const MAPPED_OBJECT_8_OF_TPDO_3: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A02,
             0x08,
             "Mapped object 8 of TPDO 3",
@@ -11807,95 +16359,55 @@ pub mod objects {
             /// Number of mapped objects of TPDO 3: 0x1A02:00.
             pub fn number_of_mapped_objects_of_tpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 1 of TPDO 3: 0x1A02:01.
             pub fn mapped_object_1_of_tpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 2 of TPDO 3: 0x1A02:02.
             pub fn mapped_object_2_of_tpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 3 of TPDO 3: 0x1A02:03.
             pub fn mapped_object_3_of_tpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 4 of TPDO 3: 0x1A02:04.
             pub fn mapped_object_4_of_tpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 5 of TPDO 3: 0x1A02:05.
             pub fn mapped_object_5_of_tpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 6 of TPDO 3: 0x1A02:06.
             pub fn mapped_object_6_of_tpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 7 of TPDO 3: 0x1A02:07.
             pub fn mapped_object_7_of_tpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 8 of TPDO 3: 0x1A02:08.
             pub fn mapped_object_8_of_tpdo_3(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_8_OF_TPDO_3.at(self.client)
             }
         }
@@ -11916,10 +16428,7 @@ pub mod objects {
         /// From firmware 3\.00 on.
         ///
         /// Manual, line 3764.
-        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_4: super::ReadWrite<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteU8OnCanOpenCoE::new(
+        pub const NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_4: super::ReadWrite<u8> = super::ReadWriteU8::new(
             rt::OnCanOpenAndCoE::object(0x1A03, 0x00),
             "Number of mapped objects of TPDO 4",
             rt::Range::To(8),
@@ -11938,8 +16447,7 @@ pub mod objects {
         /// Manual, line 3765.
         pub const MAPPED_OBJECT_1_OF_TPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x01,
             "Mapped object 1 of TPDO 4",
@@ -11955,8 +16463,7 @@ pub mod objects {
         /// Manual, line 3766.
         pub const MAPPED_OBJECT_2_OF_TPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x02,
             "Mapped object 2 of TPDO 4",
@@ -11970,8 +16477,7 @@ pub mod objects {
         /// Manual, line 3767.
         pub const MAPPED_OBJECT_3_OF_TPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x03,
             "Mapped object 3 of TPDO 4",
@@ -11985,8 +16491,7 @@ pub mod objects {
         /// Manual, line 3768.
         pub const MAPPED_OBJECT_4_OF_TPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x04,
             "Mapped object 4 of TPDO 4",
@@ -12000,8 +16505,7 @@ pub mod objects {
         /// Manual, line 3769.
         pub const MAPPED_OBJECT_5_OF_TPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x05,
             "Mapped object 5 of TPDO 4",
@@ -12015,8 +16519,7 @@ pub mod objects {
         /// Manual, line 3770.
         pub const MAPPED_OBJECT_6_OF_TPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x06,
             "Mapped object 6 of TPDO 4",
@@ -12030,8 +16533,7 @@ pub mod objects {
         /// Manual, line 3771.
         pub const MAPPED_OBJECT_7_OF_TPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x07,
             "Mapped object 7 of TPDO 4",
@@ -12045,8 +16547,7 @@ pub mod objects {
         /// Manual, line 3772.
         pub const MAPPED_OBJECT_8_OF_TPDO_4: super::ReadWrite<
             super::super::types::MappedObject,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadWriteNamedMappedObjectOnCanOpenCoE::shared_object(
+        > = super::ReadWriteNamedMappedObject::shared_object(
             0x1A03,
             0x08,
             "Mapped object 8 of TPDO 4",
@@ -12059,95 +16560,55 @@ pub mod objects {
             /// Number of mapped objects of TPDO 4: 0x1A03:00.
             pub fn number_of_mapped_objects_of_tpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 1 of TPDO 4: 0x1A03:01.
             pub fn mapped_object_1_of_tpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 2 of TPDO 4: 0x1A03:02.
             pub fn mapped_object_2_of_tpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 3 of TPDO 4: 0x1A03:03.
             pub fn mapped_object_3_of_tpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 4 of TPDO 4: 0x1A03:04.
             pub fn mapped_object_4_of_tpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 5 of TPDO 4: 0x1A03:05.
             pub fn mapped_object_5_of_tpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 6 of TPDO 4: 0x1A03:06.
             pub fn mapped_object_6_of_tpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 7 of TPDO 4: 0x1A03:07.
             pub fn mapped_object_7_of_tpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 8 of TPDO 4: 0x1A03:08.
             pub fn mapped_object_8_of_tpdo_4(
                 &mut self,
-            ) -> super::ReadWriteAccess<
-                '_,
-                C,
-                super::super::types::MappedObject,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_8_OF_TPDO_4.at(self.client)
             }
         }
@@ -12248,16 +16709,12 @@ pub mod objects {
     ///
     /// RECORD 0x2000.
     pub mod drive_parameters_settings {
-        use ::lexibus as rt;
         /// Number of entries of the parameter window.
         ///
         /// 0x2000:00, UNSIGNED8, ro.
         ///
         /// Manual, line 3849.
-        pub const NUMBER_OF_ENTRIES_OF_THE_PARAMETER_WINDOW: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_PARAMETER_WINDOW: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x2000,
             0x00,
             "Number of entries of the parameter window",
@@ -12271,7 +16728,7 @@ pub mod objects {
         /// The device clears it by itself.
         ///
         /// Manual, line 3850, 4005-4008.
-        pub const PARAMETER_WRITE_ADDRESS: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::shared_object(
+        pub const PARAMETER_WRITE_ADDRESS: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
             0x2000,
             0x01,
             "Parameter Write Address",
@@ -12283,7 +16740,7 @@ pub mod objects {
         /// Manual, line 3851, 4004.
         ///
         /// Note: 1 byte (L3851, L3853), and parameters have 16 bits (L18-20). Chosen: as printed (0x2005 and 0x2006 carry all bits).
-        pub const PARAMETER_WRITE_VALUE: super::WriteOnly<u8, rt::OnCanOpenAndCoE> = super::WriteOnlyU8OnCanOpenCoE::shared_object(
+        pub const PARAMETER_WRITE_VALUE: super::WriteOnly<u8> = super::WriteOnlyU8::shared_object(
             0x2000,
             0x02,
             "Parameter Write Value",
@@ -12297,7 +16754,7 @@ pub mod objects {
         /// The device clears it by itself.
         ///
         /// Manual, line 3852, 4008-4015.
-        pub const PARAMETER_READ_ADDRESS: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::shared_object(
+        pub const PARAMETER_READ_ADDRESS: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
             0x2000,
             0x03,
             "Parameter Read Address",
@@ -12307,7 +16764,7 @@ pub mod objects {
         /// 0x2000:04, UNSIGNED8, ro.
         ///
         /// Manual, line 3853.
-        pub const PARAMETER_READ_VALUE: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const PARAMETER_READ_VALUE: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x2000,
             0x04,
             "Parameter Read Value",
@@ -12320,31 +16777,29 @@ pub mod objects {
             /// Number of entries of the parameter window: 0x2000:00.
             pub fn number_of_entries_of_the_parameter_window(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_PARAMETER_WINDOW.at(self.client)
             }
             /// Parameter Write Address: 0x2000:01.
             pub fn parameter_write_address(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u8> {
                 PARAMETER_WRITE_ADDRESS.at(self.client)
             }
             /// Parameter Write Value: 0x2000:02.
             pub fn parameter_write_value(
                 &mut self,
-            ) -> super::WriteOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::WriteOnlyAccess<'_, C, u8> {
                 PARAMETER_WRITE_VALUE.at(self.client)
             }
             /// Parameter Read Address: 0x2000:03.
             pub fn parameter_read_address(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u8> {
                 PARAMETER_READ_ADDRESS.at(self.client)
             }
             /// Parameter Read Value: 0x2000:04.
-            pub fn parameter_read_value(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            pub fn parameter_read_value(&mut self) -> super::ReadOnlyAccess<'_, C, u8> {
                 PARAMETER_READ_VALUE.at(self.client)
             }
         }
@@ -12356,7 +16811,7 @@ pub mod objects {
     /// Next position of the interpolator, in 16 bits: 0x60C1:1 has 32
     ///
     /// Manual, line 3861, 4022-4025.
-    pub const IP_SET_POINT_16: WriteOnly<rt::PerItem<i16, 1>, rt::OnCanOpenAndCoE> = WriteOnlyPerItemI16Times1Per1OnCanOpenCoE::new(
+    pub const IP_SET_POINT_16: WriteOnly<rt::PerItem<i16, 1>> = WriteOnlyPerItemI16Times1Per1::new(
         rt::OnCanOpenAndCoE::object(0x2002, 0x00),
         "IP Set Point 16",
         rt::Range::Full,
@@ -12373,10 +16828,7 @@ pub mod objects {
     /// Manual, line 3862, 4027-4030.
     ///
     /// Note: rw (L3862), of a measured value that is ro in 0x6064 (L3781). Chosen: as printed (what writing does isn't said).
-    pub const POSITION_ACTUAL_VALUE_16: ReadWrite<
-        rt::PerItem<i16, 1>,
-        rt::OnCanOpenAndCoE,
-    > = ReadWritePerItemI16Times1Per1OnCanOpenCoE::new(
+    pub const POSITION_ACTUAL_VALUE_16: ReadWrite<rt::PerItem<i16, 1>> = ReadWritePerItemI16Times1Per1::new(
         rt::OnCanOpenAndCoE::object(0x2003, 0x00),
         "Position Actual Value 16",
         rt::Range::Full,
@@ -12391,10 +16843,7 @@ pub mod objects {
     /// Lower half of the latched position
     ///
     /// Manual, line 3863, 4032-4036.
-    pub const LATCHED_USER_POSITION_16: ReadWrite<
-        rt::PerItem<i16, 1>,
-        rt::OnCanOpenAndCoE,
-    > = ReadWritePerItemI16Times1Per1OnCanOpenCoE::new(
+    pub const LATCHED_USER_POSITION_16: ReadWrite<rt::PerItem<i16, 1>> = ReadWritePerItemI16Times1Per1::new(
         rt::OnCanOpenAndCoE::object(0x2004, 0x00),
         "Latched User Position 16",
         rt::Range::Full,
@@ -12412,10 +16861,7 @@ pub mod objects {
         /// 0x2005:00, UNSIGNED8, ro.
         ///
         /// Manual, line 3865.
-        pub const NUMBER_OF_ENTRIES_OF_THE_READ_WINDOW: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_READ_WINDOW: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x2005,
             0x00,
             "Number of entries of the read window",
@@ -12429,7 +16875,7 @@ pub mod objects {
         /// The device clears it by itself.
         ///
         /// Manual, line 3866, 4039-4048.
-        pub const VARIABLE_READ_ADDRESS: super::ReadWrite<u16, rt::OnCanOpenAndCoE> = super::ReadWriteU16OnCanOpenCoE::new(
+        pub const VARIABLE_READ_ADDRESS: super::ReadWrite<u16> = super::ReadWriteU16::new(
             rt::OnCanOpenAndCoE::object(0x2005, 0x01),
             "Variable Read Address",
             rt::Range::OneOf(&[(0, 0), (1, 99), (32768, 36863)]),
@@ -12442,7 +16888,7 @@ pub mod objects {
         /// 0x2005:02, UNSIGNED32, ro, mappable into TPDOs.
         ///
         /// Manual, line 3867.
-        pub const VARIABLE_READ_VALUE: super::ReadOnly<u32, rt::OnCanOpenAndCoE> = super::ReadOnlyU32OnCanOpenCoE::flagged_shared_object(
+        pub const VARIABLE_READ_VALUE: super::ReadOnly<u32> = super::ReadOnlyU32::flagged_shared_object(
             0x2005,
             0x02,
             "Variable Read Value",
@@ -12456,19 +16902,17 @@ pub mod objects {
             /// Number of entries of the read window: 0x2005:00.
             pub fn number_of_entries_of_the_read_window(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_READ_WINDOW.at(self.client)
             }
             /// Variable Read Address: 0x2005:01.
             pub fn variable_read_address(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u16> {
                 VARIABLE_READ_ADDRESS.at(self.client)
             }
             /// Variable Read Value: 0x2005:02.
-            pub fn variable_read_value(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
+            pub fn variable_read_value(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
                 VARIABLE_READ_VALUE.at(self.client)
             }
         }
@@ -12483,10 +16927,7 @@ pub mod objects {
         /// 0x2006:00, UNSIGNED8, ro.
         ///
         /// Manual, line 3872.
-        pub const NUMBER_OF_ENTRIES_OF_THE_WRITE_WINDOW: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_WRITE_WINDOW: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x2006,
             0x00,
             "Number of entries of the write window",
@@ -12500,7 +16941,7 @@ pub mod objects {
         /// The device clears it by itself.
         ///
         /// Manual, line 3873, 4051-4057.
-        pub const VARIABLE_WRITE_ADDRESS: super::ReadWrite<u16, rt::OnCanOpenAndCoE> = super::ReadWriteU16OnCanOpenCoE::new(
+        pub const VARIABLE_WRITE_ADDRESS: super::ReadWrite<u16> = super::ReadWriteU16::new(
             rt::OnCanOpenAndCoE::object(0x2006, 0x01),
             "Variable Write Address",
             rt::Range::OneOf(&[(0, 0), (1, 99), (32768, 36863)]),
@@ -12515,7 +16956,7 @@ pub mod objects {
         /// Manual, line 3874.
         ///
         /// Note: On CANopen the value first, then the address (L4054-4056); on EtherCAT the address, then the value (L5735-5736). Chosen: the value first (the address starts the write: with it first, the value of the last write would be written).
-        pub const VARIABLE_WRITE_VALUE: super::ReadWrite<u32, rt::OnCanOpenAndCoE> = super::ReadWriteU32OnCanOpenCoE::flagged_shared_object(
+        pub const VARIABLE_WRITE_VALUE: super::ReadWrite<u32> = super::ReadWriteU32::flagged_shared_object(
             0x2006,
             0x02,
             "Variable Write Value",
@@ -12529,19 +16970,19 @@ pub mod objects {
             /// Number of entries of the write window: 0x2006:00.
             pub fn number_of_entries_of_the_write_window(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_WRITE_WINDOW.at(self.client)
             }
             /// Variable Write Address: 0x2006:01.
             pub fn variable_write_address(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u16> {
                 VARIABLE_WRITE_ADDRESS.at(self.client)
             }
             /// Variable Write Value: 0x2006:02.
             pub fn variable_write_value(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadWriteAccess<'_, C, u32> {
                 VARIABLE_WRITE_VALUE.at(self.client)
             }
         }
@@ -12583,7 +17024,7 @@ pub mod objects {
     /// Commands of DSP 402; control\_word has the vendor's own
     ///
     /// Manual, line 3776, 3911-3921, 4284-4289.
-    pub const CONTROLWORD: ReadWrite<super::types::Controlword, rt::OnCanOpenAndCoE> = ReadWriteNamedControlwordOnCanOpenCoE::flagged_shared_object(
+    pub const CONTROLWORD: ReadWrite<super::types::Controlword> = ReadWriteNamedControlword::flagged_shared_object(
         0x6040,
         0x00,
         "Controlword",
@@ -12596,7 +17037,7 @@ pub mod objects {
     /// State by DSP 402; status\_word has the vendor's own
     ///
     /// Manual, line 3778, 3923-3939.
-    pub const STATUSWORD: ReadOnly<super::types::Statusword, rt::OnCanOpenAndCoE> = ReadOnlyNamedStatuswordOnCanOpenCoE::flagged_shared_object(
+    pub const STATUSWORD: ReadOnly<super::types::Statusword> = ReadOnlyNamedStatusword::flagged_shared_object(
         0x6041,
         0x00,
         "Statusword",
@@ -12611,10 +17052,7 @@ pub mod objects {
     /// Manual, line 3779, 3941-3952, 5643-5660: Modes Of Operation.
     ///
     /// Note: The list of 0x6060 (L3946-3952) lacks -50, which R01 has (L79). Chosen: as printed (CANopen saves by 0x1010 and EtherCAT by 0x2007 instead).
-    pub const MODES_OF_OPERATION_OF_DSP_402: WriteOnly<
-        super::types::Mode402,
-        rt::OnCanOpenAndCoE,
-    > = WriteOnlyNamedMode402OnCanOpenCoE::flagged_shared_object(
+    pub const MODES_OF_OPERATION_OF_DSP_402: WriteOnly<super::types::Mode402> = WriteOnlyNamedMode402::flagged_shared_object(
         0x6060,
         0x00,
         "Modes Of Operation of DSP 402",
@@ -12622,18 +17060,28 @@ pub mod objects {
     );
     /// Modes Of Operation Display.
     ///
-    /// 0x6061:00, INTEGER8, ro, mappable into TPDOs.
+    /// 0x6061:00, byte 2 of the image to the master, INTEGER8, ro, mappable into TPDOs.
     ///
     /// The mode that is
     ///
     /// Manual, line 3780, 5660, 6113.
     pub const MODES_OF_OPERATION_DISPLAY: ReadOnly<
         super::types::Mode,
-        rt::OnCanOpenAndCoE,
-    > = ReadOnlyNamedModeOnCanOpenCoE::flagged_shared_object(
-        0x6061,
-        0x00,
+        OnCanOpenCoEImage,
+    > = ReadOnlyNamedModeOnCanOpenCoEImage::new(
+        rt::Location::new(
+            rt::Object::new(0x6061, 0x00),
+            rt::Object::new(0x6061, 0x00),
+            rt::Absent,
+            rt::Absent,
+            rt::Absent,
+            rt::ImageField::input(16, 8),
+            rt::Absent,
+        ),
         "Modes Of Operation Display",
+        rt::Range::Full,
+        rt::Initial::Unknown,
+        "",
         rt::Flags::TPDO,
     );
     /// Velocity Sensor Actual Value.
@@ -12643,7 +17091,7 @@ pub mod objects {
     /// Speed of a sensor with 8192 pulses a turn; that of the master axis in increments a millisecond, while bit 12 of the Controlword is set
     ///
     /// Manual, line 3784, 3915-3918, 3959-3961.
-    pub const VELOCITY_SENSOR_ACTUAL_VALUE: ReadOnly<i32, rt::OnCanOpenAndCoE> = ReadOnlyI32OnCanOpenCoE::flagged_shared_object(
+    pub const VELOCITY_SENSOR_ACTUAL_VALUE: ReadOnly<i32> = ReadOnlyI32::flagged_shared_object(
         0x6069,
         0x00,
         "Velocity Sensor Actual Value",
@@ -12654,10 +17102,7 @@ pub mod objects {
     /// 0x606B:00, INTEGER32, ro, mappable into TPDOs, stands for raw × 60 / feed\_constant rpm.
     ///
     /// Manual, line 3785.
-    pub const VELOCITY_DEMAND_VALUE: ReadOnly<
-        rt::PerItem<i32, 60>,
-        rt::OnCanOpenAndCoE,
-    > = ReadOnlyPerItemI32Times60Per1OnCanOpenCoE::new(
+    pub const VELOCITY_DEMAND_VALUE: ReadOnly<rt::PerItem<i32, 60>> = ReadOnlyPerItemI32Times60Per1::new(
         rt::OnCanOpenAndCoE::object(0x606B, 0x00),
         "Velocity Demand Value",
         rt::Range::Full,
@@ -12677,29 +17122,45 @@ pub mod objects {
         /// Manual, line 3798.
         ///
         /// Note: 4 bytes, as 0x1003:0, 0x1010:0 and 0x6099:0 (L3798), where sub-index 0 of all other objects has 1. Chosen: one byte (DS 301 has it so, and the other objects do).
-        pub const NUMBER_OF_ENTRIES_OF_THE_FEED_CONSTANT: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_FEED_CONSTANT: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x6092,
             0x00,
             "Number of entries of the feed constant",
         );
         /// feed\_constant.
         ///
-        /// 0x6092:01, holding register 32770 of 32 bits, UNSIGNED32, rw, range 0 to 262143.
+        /// 0x6092:01, holding register 32770 of 32 bits, number 0x8002 behind a window on PROFINET, UNSIGNED32, rw, range 0 to 262143.
         ///
         /// User units a turn of the motor: the unit of positions, of speeds (u/s) and of accelerations (u/s/ms)
         ///
         /// Kept over power-off once save was given.
         ///
         /// Manual, line 128, 3799, 3977-3988: Feed.
-        pub const FEED_CONSTANT: super::ReadWrite<u32> = super::ReadWriteU32::register_within(
-            0x6092,
-            0x01,
-            rt::Register::high_first(32770, 2).words_per_address(2),
+        pub const FEED_CONSTANT: super::ReadWrite<
+            u32,
+            super::OnCanOpenCoEModbusImageWindows,
+        > = super::ReadWriteU32OnCanOpenCoEModbusImageWindows::new(
+            rt::Location::new(
+                rt::Object::new(0x6092, 0x01),
+                rt::Object::new(0x6092, 0x01),
+                rt::Register::high_first(32770, 2).words_per_address(2),
+                rt::Absent,
+                rt::Absent,
+                rt::Split::new(
+                    rt::Through::unsigned(
+                        0x8002,
+                        &super::super::windows::REGISTER_READ_IMAGE,
+                    ),
+                    rt::Through::unsigned(
+                        0x8002,
+                        &super::super::windows::REGISTER_WRITE_IMAGE,
+                    ),
+                ),
+                rt::Absent,
+            ),
             "feed_constant",
             rt::Range::To(262143),
+            rt::Initial::Unknown,
             "",
             rt::Flags::NONE,
         );
@@ -12710,7 +17171,7 @@ pub mod objects {
         /// Turns that the feed is for
         ///
         /// Manual, line 3800, 3980.
-        pub const SHAFT_REVOLUTIONS: super::ReadOnly<u32, rt::OnCanOpenAndCoE> = super::ReadOnlyU32OnCanOpenCoE::new(
+        pub const SHAFT_REVOLUTIONS: super::ReadOnly<u32> = super::ReadOnlyU32::new(
             rt::OnCanOpenAndCoE::object(0x6092, 0x02),
             "Shaft Revolutions",
             rt::Range::Between(1, 1),
@@ -12726,17 +17187,22 @@ pub mod objects {
             /// Number of entries of the feed constant: 0x6092:00.
             pub fn number_of_entries_of_the_feed_constant(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_FEED_CONSTANT.at(self.client)
             }
             /// feed\_constant: 0x6092:01, register 32770.
-            pub fn feed_constant(&mut self) -> super::ReadWriteAccess<'_, C, u32> {
+            pub fn feed_constant(
+                &mut self,
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                u32,
+                super::OnCanOpenCoEModbusImageWindows,
+            > {
                 FEED_CONSTANT.at(self.client)
             }
             /// Shaft Revolutions: 0x6092:02.
-            pub fn shaft_revolutions(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
+            pub fn shaft_revolutions(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
                 SHAFT_REVOLUTIONS.at(self.client)
             }
         }
@@ -12753,17 +17219,14 @@ pub mod objects {
         /// Manual, line 3806.
         ///
         /// Note: 4 bytes (L3806), where sub-index 0 of other objects has 1. Chosen: one byte (DS 301 has it so).
-        pub const NUMBER_OF_ENTRIES_OF_THE_HOMING_SPEEDS: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_HOMING_SPEEDS: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x6099,
             0x00,
             "Number of entries of the homing speeds",
         );
         /// homing\_fast\_speed.
         ///
-        /// 0x6099:01, holding register 32788 of 32 bits, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw × 60 / feed\_constant rpm.
+        /// 0x6099:01, holding register 32788 of 32 bits, number 0x8014 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw × 60 / feed\_constant rpm.
         ///
         /// Speed towards the switch
         ///
@@ -12772,30 +17235,68 @@ pub mod objects {
         /// Manual, line 252-255, 3807: Fast Homing Speed.
         ///
         /// Note: From 0x80000000 on (L252-255), and homing\_slow\_speed from 0 on (L257). Chosen: as printed (a negative speed may mean the direction).
-        pub const HOMING_FAST_SPEED: super::ReadWrite<rt::PerItem<i32, 60>> = super::ReadWritePerItemI32Times60Per1::register_within(
-            0x6099,
-            0x01,
-            rt::Register::high_first(32788, 2).words_per_address(2),
+        pub const HOMING_FAST_SPEED: super::ReadWrite<
+            rt::PerItem<i32, 60>,
+            super::OnCanOpenCoEModbusImageWindows,
+        > = super::ReadWritePerItemI32Times60Per1OnCanOpenCoEModbusImageWindows::new(
+            rt::Location::new(
+                rt::Object::new(0x6099, 0x01),
+                rt::Object::new(0x6099, 0x01),
+                rt::Register::high_first(32788, 2).words_per_address(2),
+                rt::Absent,
+                rt::Absent,
+                rt::Split::new(
+                    rt::Through::signed(
+                        0x8014,
+                        &super::super::windows::REGISTER_READ_IMAGE,
+                    ),
+                    rt::Through::signed(
+                        0x8014,
+                        &super::super::windows::REGISTER_WRITE_IMAGE,
+                    ),
+                ),
+                rt::Absent,
+            ),
             "homing_fast_speed",
             rt::Range::Full,
+            rt::Initial::Unknown,
             "rpm",
             rt::Flags::PDO,
         );
         /// homing\_slow\_speed.
         ///
-        /// 0x6099:02, holding register 32789 of 32 bits, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 60 / feed\_constant rpm.
+        /// 0x6099:02, holding register 32789 of 32 bits, number 0x8015 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 60 / feed\_constant rpm.
         ///
         /// Speed towards the marker
         ///
         /// Kept over power-off once save was given.
         ///
         /// Manual, line 257, 3808: Slow Homing Speed.
-        pub const HOMING_SLOW_SPEED: super::ReadWrite<rt::PerItem<u32, 60>> = super::ReadWritePerItemU32Times60Per1::register_within(
-            0x6099,
-            0x02,
-            rt::Register::high_first(32789, 2).words_per_address(2),
+        pub const HOMING_SLOW_SPEED: super::ReadWrite<
+            rt::PerItem<u32, 60>,
+            super::OnCanOpenCoEModbusImageWindows,
+        > = super::ReadWritePerItemU32Times60Per1OnCanOpenCoEModbusImageWindows::new(
+            rt::Location::new(
+                rt::Object::new(0x6099, 0x02),
+                rt::Object::new(0x6099, 0x02),
+                rt::Register::high_first(32789, 2).words_per_address(2),
+                rt::Absent,
+                rt::Absent,
+                rt::Split::new(
+                    rt::Through::unsigned(
+                        0x8015,
+                        &super::super::windows::REGISTER_READ_IMAGE,
+                    ),
+                    rt::Through::unsigned(
+                        0x8015,
+                        &super::super::windows::REGISTER_WRITE_IMAGE,
+                    ),
+                ),
+                rt::Absent,
+            ),
             "homing_slow_speed",
             rt::Range::To(2147483647),
+            rt::Initial::Unknown,
             "rpm",
             rt::Flags::PDO,
         );
@@ -12807,19 +17308,29 @@ pub mod objects {
             /// Number of entries of the homing speeds: 0x6099:00.
             pub fn number_of_entries_of_the_homing_speeds(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_HOMING_SPEEDS.at(self.client)
             }
             /// homing\_fast\_speed: 0x6099:01, register 32788.
             pub fn homing_fast_speed(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, rt::PerItem<i32, 60>> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                rt::PerItem<i32, 60>,
+                super::OnCanOpenCoEModbusImageWindows,
+            > {
                 HOMING_FAST_SPEED.at(self.client)
             }
             /// homing\_slow\_speed: 0x6099:02, register 32789.
             pub fn homing_slow_speed(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, rt::PerItem<u32, 60>> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                rt::PerItem<u32, 60>,
+                super::OnCanOpenCoEModbusImageWindows,
+            > {
                 HOMING_SLOW_SPEED.at(self.client)
             }
         }
@@ -12834,10 +17345,7 @@ pub mod objects {
         /// 0x60C1:00, UNSIGNED8, ro.
         ///
         /// Manual, line 3814.
-        pub const NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_DATA: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_DATA: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x60C1,
             0x00,
             "Number of entries of the interpolation data",
@@ -12849,10 +17357,7 @@ pub mod objects {
         /// Next position of the interpolator
         ///
         /// Manual, line 3815, 3993, 4422, 5543.
-        pub const POSITION_SET_POINT: super::WriteOnly<
-            rt::PerItem<i32, 1>,
-            rt::OnCanOpenAndCoE,
-        > = super::WriteOnlyPerItemI32Times1Per1OnCanOpenCoE::new(
+        pub const POSITION_SET_POINT: super::WriteOnly<rt::PerItem<i32, 1>> = super::WriteOnlyPerItemI32Times1Per1::new(
             rt::OnCanOpenAndCoE::object(0x60C1, 0x01),
             "Position Set-Point",
             rt::Range::Full,
@@ -12868,18 +17373,13 @@ pub mod objects {
             /// Number of entries of the interpolation data: 0x60C1:00.
             pub fn number_of_entries_of_the_interpolation_data(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_DATA.at(self.client)
             }
             /// Position Set-Point: 0x60C1:01.
             pub fn position_set_point(
                 &mut self,
-            ) -> super::WriteOnlyAccess<
-                '_,
-                C,
-                rt::PerItem<i32, 1>,
-                rt::OnCanOpenAndCoE,
-            > {
+            ) -> super::WriteOnlyAccess<'_, C, rt::PerItem<i32, 1>> {
                 POSITION_SET_POINT.at(self.client)
             }
         }
@@ -12894,17 +17394,14 @@ pub mod objects {
         /// 0x60C2:00, UNSIGNED8, ro.
         ///
         /// Manual, line 3825.
-        pub const NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_TIME: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_TIME: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x60C2,
             0x00,
             "Number of entries of the interpolation time",
         );
         /// ip\_time\_units.
         ///
-        /// 0x60C2:01, holding register 32815 of 32 bits, UNSIGNED8, rw, range 0 to 255, in ms.
+        /// 0x60C2:01, holding register 32815 of 32 bits, number 0x802F behind a window on PROFINET, UNSIGNED8, rw, range 0 to 255, in ms.
         ///
         /// Time between two set-points of the interpolator
         ///
@@ -12913,12 +17410,31 @@ pub mod objects {
         /// Manual, line 361, 3826, 3996: Time Period.
         ///
         /// Note: The time is at sub-index 2 (L3996-3997), which is ro (L3827); the examples write sub-index 1 (L4414, L4495). Chosen: sub-index 1 (what is ro can't be chosen).
-        pub const IP_TIME_UNITS: super::ReadWrite<u8> = super::ReadWriteU8::register_within(
-            0x60C2,
-            0x01,
-            rt::Register::high_first(32815, 2).words_per_address(2),
+        pub const IP_TIME_UNITS: super::ReadWrite<
+            u8,
+            super::OnCanOpenCoEModbusImageWindows,
+        > = super::ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
+            rt::Location::new(
+                rt::Object::new(0x60C2, 0x01),
+                rt::Object::new(0x60C2, 0x01),
+                rt::Register::high_first(32815, 2).words_per_address(2),
+                rt::Absent,
+                rt::Absent,
+                rt::Split::new(
+                    rt::Through::unsigned(
+                        0x802F,
+                        &super::super::windows::REGISTER_READ_IMAGE,
+                    ),
+                    rt::Through::unsigned(
+                        0x802F,
+                        &super::super::windows::REGISTER_WRITE_IMAGE,
+                    ),
+                ),
+                rt::Absent,
+            ),
             "ip_time_units",
             rt::Range::Full,
+            rt::Initial::Unknown,
             "ms",
             rt::Flags::NONE,
         );
@@ -12929,7 +17445,7 @@ pub mod objects {
         /// Power of ten of the time; its value isn't printed
         ///
         /// Manual, line 3827.
-        pub const TIME_INDEX: super::ReadOnly<i8, rt::OnCanOpenAndCoE> = super::ReadOnlyI8OnCanOpenCoE::shared_object(
+        pub const TIME_INDEX: super::ReadOnly<i8> = super::ReadOnlyI8::shared_object(
             0x60C2,
             0x02,
             "Time Index",
@@ -12942,17 +17458,22 @@ pub mod objects {
             /// Number of entries of the interpolation time: 0x60C2:00.
             pub fn number_of_entries_of_the_interpolation_time(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_TIME.at(self.client)
             }
             /// ip\_time\_units: 0x60C2:01, register 32815.
-            pub fn ip_time_units(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
+            pub fn ip_time_units(
+                &mut self,
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                u8,
+                super::OnCanOpenCoEModbusImageWindows,
+            > {
                 IP_TIME_UNITS.at(self.client)
             }
             /// Time Index: 0x60C2:02.
-            pub fn time_index(
-                &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, i8, rt::OnCanOpenAndCoE> {
+            pub fn time_index(&mut self) -> super::ReadOnlyAccess<'_, C, i8> {
                 TIME_INDEX.at(self.client)
             }
         }
@@ -12962,7 +17483,7 @@ pub mod objects {
     /// 0x60F8:00, INTEGER32, rw, mappable into any PDO.
     ///
     /// Manual, line 3831.
-    pub const MAX_SLIPPAGE: ReadWrite<i32, rt::OnCanOpenAndCoE> = ReadWriteI32OnCanOpenCoE::flagged_shared_object(
+    pub const MAX_SLIPPAGE: ReadWrite<i32> = ReadWriteI32::flagged_shared_object(
         0x60F8,
         0x00,
         "Max Slippage",
@@ -12978,17 +17499,14 @@ pub mod objects {
         /// 0x60FE:00, UNSIGNED8, ro.
         ///
         /// Manual, line 3834.
-        pub const NUMBER_OF_ENTRIES_OF_THE_DIGITAL_OUTPUTS: super::ReadOnly<
-            u8,
-            rt::OnCanOpenAndCoE,
-        > = super::ReadOnlyU8OnCanOpenCoE::shared_object(
+        pub const NUMBER_OF_ENTRIES_OF_THE_DIGITAL_OUTPUTS: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
             0x60FE,
             0x00,
             "Number of entries of the digital outputs",
         );
         /// digital\_outputs.
         ///
-        /// 0x60FE:01, holding register 32818 of 32 bits, UNSIGNED32, rw, mappable into any PDO, range 0 to 4294967295.
+        /// 0x60FE:01, holding register 32818 of 32 bits, number 0x8032 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 4294967295.
         ///
         /// Levels of the outputs of connector CN2
         ///
@@ -12999,16 +17517,35 @@ pub mod objects {
         /// Note: digital\_outputs (L372), and digital\_output (L1902, L1912). Chosen: digital\_outputs (the table of registers has it).
         pub const DIGITAL_OUTPUTS: super::ReadWrite<
             super::super::types::DigitalOutputs,
-        > = super::ReadWriteNamedDigitalOutputs::register(
-            0x60FE,
-            0x01,
-            rt::Register::high_first(32818, 2).words_per_address(2),
+            super::OnCanOpenCoEModbusImageWindows,
+        > = super::ReadWriteNamedDigitalOutputsOnCanOpenCoEModbusImageWindows::new(
+            rt::Location::new(
+                rt::Object::new(0x60FE, 0x01),
+                rt::Object::new(0x60FE, 0x01),
+                rt::Register::high_first(32818, 2).words_per_address(2),
+                rt::Absent,
+                rt::Absent,
+                rt::Split::new(
+                    rt::Through::unsigned(
+                        0x8032,
+                        &super::super::windows::REGISTER_READ_IMAGE,
+                    ),
+                    rt::Through::unsigned(
+                        0x8032,
+                        &super::super::windows::REGISTER_WRITE_IMAGE,
+                    ),
+                ),
+                rt::Absent,
+            ),
             "digital_outputs",
+            rt::Range::Full,
+            rt::Initial::Unknown,
+            "",
             rt::Flags::PDO,
         );
         /// digital\_out\_mask.
         ///
-        /// 0x60FE:02, holding register 32817 of 32 bits, UNSIGNED32, rw, mappable into any PDO, range 0 to 4294967295.
+        /// 0x60FE:02, holding register 32817 of 32 bits, number 0x8031 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 4294967295.
         ///
         /// Pins that are outputs; the others aren't used
         ///
@@ -13017,11 +17554,30 @@ pub mod objects {
         /// Manual, line 367-370, 3837, 4742-4747: Bitmask.
         pub const DIGITAL_OUT_MASK: super::ReadWrite<
             super::super::types::DigitalOutputs,
-        > = super::ReadWriteNamedDigitalOutputs::register(
-            0x60FE,
-            0x02,
-            rt::Register::high_first(32817, 2).words_per_address(2),
+            super::OnCanOpenCoEModbusImageWindows,
+        > = super::ReadWriteNamedDigitalOutputsOnCanOpenCoEModbusImageWindows::new(
+            rt::Location::new(
+                rt::Object::new(0x60FE, 0x02),
+                rt::Object::new(0x60FE, 0x02),
+                rt::Register::high_first(32817, 2).words_per_address(2),
+                rt::Absent,
+                rt::Absent,
+                rt::Split::new(
+                    rt::Through::unsigned(
+                        0x8031,
+                        &super::super::windows::REGISTER_READ_IMAGE,
+                    ),
+                    rt::Through::unsigned(
+                        0x8031,
+                        &super::super::windows::REGISTER_WRITE_IMAGE,
+                    ),
+                ),
+                rt::Absent,
+            ),
             "digital_out_mask",
+            rt::Range::Full,
+            rt::Initial::Unknown,
+            "",
             rt::Flags::PDO,
         );
         /// Access to the entries of Digital Outputs: 0x60FE.
@@ -13032,19 +17588,29 @@ pub mod objects {
             /// Number of entries of the digital outputs: 0x60FE:00.
             pub fn number_of_entries_of_the_digital_outputs(
                 &mut self,
-            ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
+            ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_DIGITAL_OUTPUTS.at(self.client)
             }
             /// digital\_outputs: 0x60FE:01, register 32818.
             pub fn digital_outputs(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::DigitalOutputs> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::DigitalOutputs,
+                super::OnCanOpenCoEModbusImageWindows,
+            > {
                 DIGITAL_OUTPUTS.at(self.client)
             }
             /// digital\_out\_mask: 0x60FE:02, register 32817.
             pub fn digital_out_mask(
                 &mut self,
-            ) -> super::ReadWriteAccess<'_, C, super::super::types::DigitalOutputs> {
+            ) -> super::ReadWriteAccess<
+                '_,
+                C,
+                super::super::types::DigitalOutputs,
+                super::OnCanOpenCoEModbusImageWindows,
+            > {
                 DIGITAL_OUT_MASK.at(self.client)
             }
         }
@@ -13054,10 +17620,7 @@ pub mod objects {
     /// 0x6502:00, UNSIGNED32, ro.
     ///
     /// Manual, line 3842.
-    pub const SUPPORTED_DRIVE_MODES: ReadOnly<
-        super::types::SupportedDriveModes,
-        rt::OnCanOpenAndCoE,
-    > = ReadOnlyNamedSupportedDriveModesOnCanOpenCoE::shared_object(
+    pub const SUPPORTED_DRIVE_MODES: ReadOnly<super::types::SupportedDriveModes> = ReadOnlyNamedSupportedDriveModes::shared_object(
         0x6502,
         0x00,
         "Supported Drive Modes",
@@ -13067,7 +17630,7 @@ pub mod objects {
     /// 0x6504:00, VISIBLE_STRING, ro.
     ///
     /// Manual, line 3843.
-    pub const DRIVE_MANUFACTURER: ReadOnly<rt::VisibleString, rt::OnCanOpenAndCoE> = ReadOnlyVisibleStringOnCanOpenCoE::shared_object(
+    pub const DRIVE_MANUFACTURER: ReadOnly<rt::VisibleString> = ReadOnlyVisibleString::shared_object(
         0x6504,
         0x00,
         "Drive Manufacturer",
@@ -13077,10 +17640,7 @@ pub mod objects {
     /// 0x6505:00, VISIBLE_STRING, ro.
     ///
     /// Manual, line 3844.
-    pub const HTTP_DRIVE_CATALOG_ADDRESS: ReadOnly<
-        rt::VisibleString,
-        rt::OnCanOpenAndCoE,
-    > = ReadOnlyVisibleStringOnCanOpenCoE::shared_object(
+    pub const HTTP_DRIVE_CATALOG_ADDRESS: ReadOnly<rt::VisibleString> = ReadOnlyVisibleString::shared_object(
         0x6505,
         0x00,
         "Http Drive Catalog Address",
@@ -13092,7 +17652,7 @@ pub mod objects {
     /// Manual, line 3845.
     ///
     /// Note: rw (L3845), of the type of the device. Chosen: as printed (what writing does isn't said).
-    pub const SINGLE_DEVICE_TYPE: ReadWrite<u32, rt::OnCanOpenAndCoE> = ReadWriteU32OnCanOpenCoE::shared_object(
+    pub const SINGLE_DEVICE_TYPE: ReadWrite<u32> = ReadWriteU32::shared_object(
         0x67FF,
         0x00,
         "Single Device Type",
@@ -13371,6 +17931,14 @@ pub mod pdo {
     /// RxPDO 0x1600: Interpolated position.
     ///
     /// Mapping 0x1600, 48 bits.
+    ///
+    /// With mode 7. CANopen's example has the set-point in front of the control word.
+    ///
+    /// Manual, line 5540-5543, 5581-5583, 5621-5625.
+    ///
+    /// Note: The control word first (L5541-5543), and last in the mapping of CANopen's example (L4425-4426). Chosen: the control word first (each bus has its own mapping).
+    ///
+    /// Note: The numbers of the sync managers aren't printed (L5577-5583). Chosen: 2 and 3 (ETG.1000.4 has process data there where there is a mailbox).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct InterpolatedPosition {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
@@ -13432,6 +18000,12 @@ pub mod pdo {
     /// RxPDO 0x1601: Mode.
     ///
     /// Mapping 0x1601, 32 bits.
+    ///
+    /// Besides another RxPDO, where the mode has to change while the bus runs.
+    ///
+    /// Manual, line 5544-5547.
+    ///
+    /// Note: Modes of Operation has two bytes here (L5547), and one as an object (L3779). Chosen: one byte and one of padding (both lengths hold then).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Mode {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
@@ -13496,6 +18070,10 @@ pub mod pdo {
     /// RxPDO 0x1602: Position.
     ///
     /// Mapping 0x1602, 48 bits.
+    ///
+    /// With mode 1.
+    ///
+    /// Manual, line 5549-5552, 5607-5611.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Position {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
@@ -13557,6 +18135,10 @@ pub mod pdo {
     /// RxPDO 0x1603: Velocity.
     ///
     /// Mapping 0x1603, 48 bits.
+    ///
+    /// With mode 3.
+    ///
+    /// Manual, line 5553-5556, 5636-5640.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Velocity {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
@@ -13618,6 +18200,8 @@ pub mod pdo {
     /// TxPDO 0x1A00: Status.
     ///
     /// Mapping 0x1A00, 16 bits.
+    ///
+    /// Manual, line 5561-5562.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Status {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
@@ -13673,6 +18257,10 @@ pub mod pdo {
     /// TxPDO 0x1A01: Mode display.
     ///
     /// Mapping 0x1A01, 32 bits.
+    ///
+    /// Manual, line 5564-5566.
+    ///
+    /// Note: Modes of Operation Display has two bytes here (L5566), and one as an object (L3780). Chosen: one byte and one of padding (both lengths hold then).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct ModeDisplay {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
@@ -13737,6 +18325,10 @@ pub mod pdo {
     /// TxPDO 0x1A02: Actual position.
     ///
     /// Mapping 0x1A02, 48 bits.
+    ///
+    /// With modes 1 and 7.
+    ///
+    /// Manual, line 5568-5570, 5581-5583, 5601-5605.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct ActualPosition {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
@@ -13798,6 +18390,10 @@ pub mod pdo {
     /// TxPDO 0x1A03: Actual velocity.
     ///
     /// Mapping 0x1A03, 48 bits.
+    ///
+    /// With mode 3.
+    ///
+    /// Manual, line 5572-5574, 5630-5634.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct ActualVelocity {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
@@ -13863,6 +18459,14 @@ pub mod view {
     /// RxPDO 0x1600: Interpolated position.
     ///
     /// Mapping 0x1600, 48 bits.
+    ///
+    /// With mode 7. CANopen's example has the set-point in front of the control word.
+    ///
+    /// Manual, line 5540-5543, 5581-5583, 5621-5625.
+    ///
+    /// Note: The control word first (L5541-5543), and last in the mapping of CANopen's example (L4425-4426). Chosen: the control word first (each bus has its own mapping).
+    ///
+    /// Note: The numbers of the sync managers aren't printed (L5577-5583). Chosen: 2 and 3 (ETG.1000.4 has process data there where there is a mailbox).
     pub struct InterpolatedPosition<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -13915,6 +18519,12 @@ pub mod view {
     /// RxPDO 0x1601: Mode.
     ///
     /// Mapping 0x1601, 32 bits.
+    ///
+    /// Besides another RxPDO, where the mode has to change while the bus runs.
+    ///
+    /// Manual, line 5544-5547.
+    ///
+    /// Note: Modes of Operation has two bytes here (L5547), and one as an object (L3779). Chosen: one byte and one of padding (both lengths hold then).
     pub struct Mode<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -13977,6 +18587,10 @@ pub mod view {
     /// RxPDO 0x1602: Position.
     ///
     /// Mapping 0x1602, 48 bits.
+    ///
+    /// With mode 1.
+    ///
+    /// Manual, line 5549-5552, 5607-5611.
     pub struct Position<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -14029,6 +18643,10 @@ pub mod view {
     /// RxPDO 0x1603: Velocity.
     ///
     /// Mapping 0x1603, 48 bits.
+    ///
+    /// With mode 3.
+    ///
+    /// Manual, line 5553-5556, 5636-5640.
     pub struct Velocity<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -14081,6 +18699,8 @@ pub mod view {
     /// TxPDO 0x1A00: Status.
     ///
     /// Mapping 0x1A00, 16 bits.
+    ///
+    /// Manual, line 5561-5562.
     pub struct Status<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -14123,6 +18743,10 @@ pub mod view {
     /// TxPDO 0x1A01: Mode display.
     ///
     /// Mapping 0x1A01, 32 bits.
+    ///
+    /// Manual, line 5564-5566.
+    ///
+    /// Note: Modes of Operation Display has two bytes here (L5566), and one as an object (L3780). Chosen: one byte and one of padding (both lengths hold then).
     pub struct ModeDisplay<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -14182,6 +18806,10 @@ pub mod view {
     /// TxPDO 0x1A02: Actual position.
     ///
     /// Mapping 0x1A02, 48 bits.
+    ///
+    /// With modes 1 and 7.
+    ///
+    /// Manual, line 5568-5570, 5581-5583, 5601-5605.
     pub struct ActualPosition<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -14234,6 +18862,10 @@ pub mod view {
     /// TxPDO 0x1A03: Actual velocity.
     ///
     /// Mapping 0x1A03, 48 bits.
+    ///
+    /// With mode 3.
+    ///
+    /// Manual, line 5572-5574, 5630-5634.
     pub struct ActualVelocity<B> {
         pub(super) data: B,
         pub(super) bit: usize,

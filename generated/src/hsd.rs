@@ -15,14 +15,422 @@ pub const IDENTITY: rt::Identity = rt::Identity {
 };
 /// Typed access to HSD S.p.A. HSD Motor through a client of its bus.
 #[derive(Debug)]
-pub struct HsdMotor<C> {
+pub struct HsdMotor<C, S = rt::message::Unselected> {
     client: C,
+    state: core::marker::PhantomData<S>,
 }
 impl<C> HsdMotor<C> {
     /// The device that `client` talks to.
     pub const fn new(client: C) -> Self {
-        Self { client }
+        Self {
+            client,
+            state: core::marker::PhantomData,
+        }
     }
+}
+impl<X> HsdMotor<rt::Parameters<X, messages::Protocol, { messages::MAX_DATA }>> {
+    /// The device, over what exchanges the data of messages.
+    pub const fn on(exchange: X) -> Self {
+        Self::new(rt::Parameters::new(exchange, messages::Protocol))
+    }
+}
+impl<C, S> HsdMotor<C, S> {
+    /// CmdReset.
+    pub fn cmd_reset(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdReset> {
+        let message = messages::CmdReset { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdNoReg.
+    pub fn cmd_no_reg(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdNoReg> {
+        let message = messages::CmdNoReg { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdReg.
+    pub fn cmd_reg(&mut self, node: u8) -> rt::message::Call<'_, C, messages::CmdReg> {
+        let message = messages::CmdReg { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdHold.
+    pub fn cmd_hold(&mut self, node: u8) -> rt::message::Call<'_, C, messages::CmdHold> {
+        let message = messages::CmdHold { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdMazz.
+    pub fn cmd_mazz(
+        &mut self,
+        node: u8,
+        position: i32,
+    ) -> rt::message::Call<'_, C, messages::CmdMazz> {
+        let message = messages::CmdMazz {
+            node,
+            position,
+        };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdAzz.
+    pub fn cmd_azz(&mut self, node: u8) -> rt::message::Call<'_, C, messages::CmdAzz> {
+        let message = messages::CmdAzz { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdJogN.
+    pub fn cmd_jog_n(
+        &mut self,
+        node: u8,
+        speed: i16,
+    ) -> rt::message::Call<'_, C, messages::CmdJogN> {
+        let message = messages::CmdJogN { node, speed };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdTraj.
+    pub fn cmd_traj(
+        &mut self,
+        node: u8,
+        target: i32,
+    ) -> rt::message::Call<'_, C, messages::CmdTraj> {
+        let message = messages::CmdTraj { node, target };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdTrajVel.
+    pub fn cmd_traj_vel(
+        &mut self,
+        node: u8,
+        target: i32,
+        speed: u16,
+    ) -> rt::message::Call<'_, C, messages::CmdTrajVel> {
+        let message = messages::CmdTrajVel {
+            node,
+            target,
+            speed,
+        };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdEmerg.
+    pub fn cmd_emerg(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdEmerg> {
+        let message = messages::CmdEmerg { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdSetOverr.
+    pub fn cmd_set_overr(
+        &mut self,
+        node: u8,
+        r#override: u16,
+    ) -> rt::message::Call<'_, C, messages::CmdSetOverr> {
+        let message = messages::CmdSetOverr {
+            node,
+            r#override,
+        };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdGetOverr.
+    pub fn cmd_get_overr(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdGetOverr> {
+        let message = messages::CmdGetOverr { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdChgParN.
+    pub fn cmd_chg_par_n<'a>(
+        &'a mut self,
+        node: u8,
+        settings: &'a [rt::message::Setting],
+    ) -> rt::message::Call<'a, C, messages::CmdChgParN<'a>> {
+        let message = messages::CmdChgParN {
+            node,
+            settings: rt::message::Settings::sent(settings, messages::PARAMETER),
+        };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdGetParN.
+    pub fn cmd_get_par_n(
+        &mut self,
+        node: u8,
+        parameter: rt::Parameter,
+    ) -> rt::message::Call<'_, C, messages::CmdGetParN> {
+        let message = messages::CmdGetParN {
+            node,
+            parameter,
+        };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdSaveParFl.
+    pub fn cmd_save_par_fl(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdSaveParFl> {
+        let message = messages::CmdSaveParFl { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdAdcOff.
+    pub fn cmd_adc_off(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdAdcOff> {
+        let message = messages::CmdAdcOff { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdAzzEl.
+    pub fn cmd_azz_el(
+        &mut self,
+        node: u8,
+        method: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdAzzEl> {
+        let message = messages::CmdAzzEl { node, method };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdGetStatAzz.
+    pub fn cmd_get_stat_azz(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdGetStatAzz> {
+        let message = messages::CmdGetStatAzz { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdGetDistMicroZero.
+    pub fn cmd_get_dist_micro_zero(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdGetDistMicroZero> {
+        let message = messages::CmdGetDistMicroZero {
+            node,
+        };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdGetAlarm.
+    pub fn cmd_get_alarm(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdGetAlarm> {
+        let message = messages::CmdGetAlarm { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdGetVer.
+    pub fn cmd_get_ver(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdGetVer> {
+        let message = messages::CmdGetVer { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdGetType.
+    pub fn cmd_get_type(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdGetType> {
+        let message = messages::CmdGetType { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdGetSmStat.
+    pub fn cmd_get_sm_stat(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdGetSmStat> {
+        let message = messages::CmdGetSmStat { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdSampleVar.
+    pub fn cmd_sample_var(
+        &mut self,
+        node: u8,
+        variable_1: u8,
+        variable_2: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdSampleVar> {
+        let message = messages::CmdSampleVar {
+            node,
+            variable_1,
+            variable_2,
+        };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdSampleMem.
+    pub fn cmd_sample_mem(
+        &mut self,
+        node: u8,
+        address_1: u16,
+        address_2: u16,
+        sampling_time: u16,
+    ) -> rt::message::Call<'_, C, messages::CmdSampleMem> {
+        let message = messages::CmdSampleMem {
+            node,
+            address_1,
+            address_2,
+            sampling_time,
+        };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdGetSamp.
+    pub fn cmd_get_samp(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdGetSamp> {
+        let message = messages::CmdGetSamp { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdRegWait.
+    #[deprecated(note = "replaced by CmdReg")]
+    pub fn cmd_reg_wait(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdRegWait> {
+        let message = messages::CmdRegWait { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdHoldWait.
+    #[deprecated(note = "replaced by CmdHold")]
+    pub fn cmd_hold_wait(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdHoldWait> {
+        let message = messages::CmdHoldWait { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdJog.
+    #[deprecated(note = "replaced by CmdJogN")]
+    pub fn cmd_jog(
+        &mut self,
+        node: u8,
+        speed: i16,
+    ) -> rt::message::Call<'_, C, messages::CmdJog> {
+        let message = messages::CmdJog { node, speed };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdChgPar.
+    #[deprecated(note = "replaced by CmdChgParN")]
+    pub fn cmd_chg_par(
+        &mut self,
+        node: u8,
+        setting: rt::message::Setting,
+    ) -> rt::message::Call<'_, C, messages::CmdChgPar> {
+        let message = messages::CmdChgPar {
+            node,
+            setting,
+        };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdAzzElWait.
+    #[deprecated(note = "replaced by CmdAzzEl")]
+    pub fn cmd_azz_el_wait(
+        &mut self,
+        node: u8,
+        method: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdAzzElWait> {
+        let message = messages::CmdAzzElWait {
+            node,
+            method,
+        };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdSample.
+    #[deprecated(note = "replaced by CmdSampleVar")]
+    pub fn cmd_sample(
+        &mut self,
+        node: u8,
+        variable_1: u8,
+        variable_2: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdSample> {
+        let message = messages::CmdSample {
+            node,
+            variable_1,
+            variable_2,
+        };
+        rt::message::Call::new(&mut self.client, message)
+    }
+}
+/// What decides the meaning of later requests. `select` sends it, and gives the device that has these.
+impl<C> HsdMotor<C> {
+    /// CmdGetPos.
+    pub fn cmd_get_pos(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdGetPos> {
+        let message = messages::CmdGetPos { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdGetPosT.
+    pub fn cmd_get_pos_t(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdGetPosT> {
+        let message = messages::CmdGetPosT { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdGetVel.
+    pub fn cmd_get_vel(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdGetVel> {
+        let message = messages::CmdGetVel { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// CmdGetTor.
+    pub fn cmd_get_tor(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::CmdGetTor> {
+        let message = messages::CmdGetTor { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+    /// The device as it is after power-on. As long as that is in use, no request can be sent that decides what others mean; that
+    /// none was sent before, only the program knows.
+    pub fn after_power_on(&mut self) -> HsdMotor<&mut C, messages::CmdGetPos> {
+        HsdMotor {
+            client: &mut self.client,
+            state: core::marker::PhantomData,
+        }
+    }
+}
+impl<C> HsdMotor<C, messages::CmdGetPos> {
+    /// Poll position.
+    pub fn poll_position(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::PollPosition> {
+        let message = messages::PollPosition { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+}
+impl<C> HsdMotor<C, messages::CmdGetPosT> {
+    /// Poll theoretical position.
+    pub fn poll_theoretical_position(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::PollTheoreticalPosition> {
+        let message = messages::PollTheoreticalPosition {
+            node,
+        };
+        rt::message::Call::new(&mut self.client, message)
+    }
+}
+impl<C> HsdMotor<C, messages::CmdGetVel> {
+    /// Poll speeds.
+    pub fn poll_speeds(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::PollSpeeds> {
+        let message = messages::PollSpeeds { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+}
+impl<C> HsdMotor<C, messages::CmdGetTor> {
+    /// Poll torques.
+    pub fn poll_torques(
+        &mut self,
+        node: u8,
+    ) -> rt::message::Call<'_, C, messages::PollTorques> {
+        let message = messages::PollTorques { node };
+        rt::message::Call::new(&mut self.client, message)
+    }
+}
+impl<C, S> HsdMotor<C, S> {
     /// The client.
     pub fn client(&mut self) -> &mut C {
         &mut self.client
@@ -470,6 +878,3758 @@ impl<C> HsdMotor<C> {
         objects::TIMEOUTMAXTORQUE.at(&mut self.client)
     }
 }
+/// Requests and replies.
+pub mod messages {
+    use ::lexibus as rt;
+    /// How frames are delimited and checked.
+    pub const FRAMING: rt::framing::Delimited = rt::framing::Delimited {
+        start: Some(0x02),
+        end: 0x03,
+        escape: Some(rt::framing::Escape {
+            byte: 0x1B,
+            xor: 0xFF,
+            escaped: &[0x02, 0x03, 0x1B],
+        }),
+        check: rt::framing::Check::Xor(0xFF),
+        check_from: 0,
+        is_check_escaped: true,
+        max_data: 68,
+    };
+    /// The greatest length of the data of a message, in bytes.
+    pub const MAX_DATA: usize = 68;
+    /// The messages that carry parameters.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Protocol;
+    impl rt::message::Station for Protocol {
+        fn station(&self) -> u32 {
+            0
+        }
+    }
+    /// How parameters of the space parameter stand in messages.
+    pub const PARAMETER: rt::message::SettingsRule = rt::message::SettingsRule {
+        code_bits: 16,
+        order: &[2, 3, 0, 1],
+        lengths: &[
+            (0x100, 0x101, 2),
+            (0x103, 0x10E, 2),
+            (0x10F, 0x10F, 4),
+            (0x110, 0x11A, 2),
+            (0x11B, 0x11D, 4),
+            (0x11E, 0x123, 2),
+            (0x12C, 0x130, 2),
+        ],
+    };
+    /// How parameters of the space low_level stand in messages.
+    pub const LOW_LEVEL: rt::message::SettingsRule = rt::message::SettingsRule {
+        code_bits: 16,
+        order: &[],
+        lengths: &[
+            (0x2, 0x5, 2),
+            (0x8, 0xB, 2),
+            (0xE, 0x11, 2),
+            (0x14, 0x16, 2),
+            (0x19, 0x19, 2),
+            (0x1E, 0x2D, 2),
+            (0x1000, 0x1001, 2),
+            (0x2006, 0x2007, 2),
+            (0x300C, 0x300D, 2),
+            (0x4012, 0x4013, 2),
+            (0x5017, 0x5018, 2),
+            (0x601A, 0x601D, 2),
+        ],
+    };
+    /// CmdReset.
+    ///
+    /// Leaves the state of alarm.
+    ///
+    /// Accepted in the states: alarm.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 222-238: Uscita dallo stato di allarme.
+    ///
+    /// Note: The notes to the drawings recommend CmdReset to leave the alarm (L2087, L2099); the table of commands and states doesn't have it (L1990-2023). Chosen: accepted in alarm (it is what leads out of alarm (L226)).
+    ///
+    /// Note: The last byte is numbered 09x (L238). Chosen: 09 (it follows 08).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdReset {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdReset {
+        type Reply<'r> = CmdResetReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdReset";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x9C, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdReset {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x9C, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdReset`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdResetReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdResetReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdResetReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x9C, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x9C, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    /// CmdNoReg.
+    ///
+    /// Leaves regulation: the motor no longer holds its position. It leads out of alarm too, unless bit 6 of BIT\_A is 1.
+    ///
+    /// Accepted in the states: alarm, released, stopped, homing, jogging, positioning, stopping.
+    ///
+    /// Manual, line 242-264, 1992, 2030: Motore fuori regolazione.
+    ///
+    /// Note: BitStato stands beside the node, B02, and B03 is 0x0 alone (L249-250). Chosen: B03, as in all other replies (39 other tables have it there, and a node number of half a byte would be another protocol).
+    ///
+    /// Note: BIT\_A is said to be in appendix A (L264). Chosen: chapter 6 (its bits are there (L1616), and appendix A has TESTSLIM).
+    ///
+    /// Note: Without effect during electrical homing (L260-261); the table of commands and states has an empty cell there (L1992). Chosen: not accepted (the text is the only thing said).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdNoReg {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdNoReg {
+        type Reply<'r> = CmdNoRegReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdNoReg";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x20, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdNoReg {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x20, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdNoReg`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdNoRegReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdNoRegReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdNoRegReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x20, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x20, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    /// CmdReg.
+    ///
+    /// Takes the motor into regulation. Before the first time, the electrical position of the rotor is found.
+    ///
+    /// The order is carried out when status.command complete says so. The reply tells it already.
+    ///
+    /// Accepted in the states: released, stopped.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 266-292, 1994, 2032, 2065: Motore in regolazione.
+    ///
+    /// Note: BitStato stands beside the node, B02, and again at B03 (L276-277). Chosen: B03 only (as in all other replies).
+    ///
+    /// Note: CMDREG has no asterisk in the table of commands and states (L1994); the text keeps it to the SM140 and to revision C (L268). Chosen: SM140 and revision C (the row also stands for CmdRegWait, which all motors have).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdReg {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdReg {
+        type Reply<'r> = CmdRegReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdReg";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Polled;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0xCC, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdReg {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0xCC, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdReg`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdRegReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdRegReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdRegReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xCC, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xCC, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    /// CmdHold.
+    ///
+    /// Stops the motor with a ramp, and breaks off what it does. It counts as stopped where the theoretical speed is 0 and the real one below 12 rpm.
+    ///
+    /// The order is carried out when status.command complete says so. The reply tells it already.
+    ///
+    /// Accepted in the states: stopped, homing, jogging, positioning, stopping.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 294-322, 1999, 2037: Stop.
+    ///
+    /// Note: It has effect only while the motor moves (L317); the table of commands and states has = for AXSTOP, accepted without a change (L1999). Chosen: accepted in AXSTOP (no effect and no change are the same).
+    ///
+    /// Note: CMDHOLD has no asterisk in the table of commands and states (L1999); the text keeps it to the SM140 and to revision C (L296). Chosen: SM140 and revision C (the row also stands for CmdHoldWait, which all motors have).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdHold {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdHold {
+        type Reply<'r> = CmdHoldReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdHold";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Polled;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0xBC, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdHold {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0xBC, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdHold`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdHoldReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdHoldReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdHoldReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xBC, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xBC, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    /// CmdMazz.
+    ///
+    /// Gives the motor its position: from now on it is where the request says. The homing state becomes \`set by hand\`.
+    ///
+    /// Accepted in the states: alarm, released, stopped.
+    ///
+    /// Manual, line 324-369, 1996, 2034: Azzeramento manuale.
+    ///
+    /// Note: The example gives the position 6766.8176 mm (L361) and 6780.8465 mm in its formula (L365). Chosen: 6780\.8465 mm (it alone gives the printed bytes 0x0102AB34).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdMazz {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// position: INTEGER32, in count.
+        ///
+        /// The position that the motor is at from now on.
+        ///
+        /// Manual: Q.
+        pub position: i32,
+    }
+    impl rt::message::Message for CmdMazz {
+        type Reply<'r> = CmdMazzReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdMazz";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x01])?;
+            to.ordered(&[2, 3, 0, 1], self.position as u32 as u64)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdMazz {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x01])?;
+            let value_1 = from.ordered(&[2, 3, 0, 1])?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                position: value_1 as i32,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdMazz`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdMazzReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdMazzReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdMazzReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x01])?;
+            from.echo(request, 3, 3)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x01])?;
+            to.echo(request, 3, 3)?;
+            Ok(())
+        }
+    }
+    /// CmdAzz.
+    ///
+    /// Homing as TIPOAZZ says: the motor takes the position ORIG\_AZZ. Type 0 needs a motor that jogs, and ends at the index of the encoder; types 1 and 2, of the SM140, start from \`stopped\`, look for the homing switch at VMAXAZZ, leave it at VAZZOUTMIC, and end there (1) or at the index behind it (2). Where it is broken off, the homing state becomes \`not homed\`.
+    ///
+    /// The order is carried out when status.command complete says so. The reply tells it already.
+    ///
+    /// Accepted in the states: stopped, homing, jogging.
+    ///
+    /// Manual, line 371-459, 1995, 2033: Azzeramento automatico.
+    ///
+    /// Note: The cells of AXSTOP and AXFREERUN have an error or the homing, one or the other (L1995, L2033). Chosen: accepted in AXSTOP with TIPOAZZ 1 and 2, in AXFREERUN with 0 (the text tells which type starts where (L451)).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdAzz {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdAzz {
+        type Reply<'r> = CmdAzzReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdAzz";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Polled;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x38, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdAzz {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x38, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdAzz`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdAzzReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdAzzReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdAzzReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x38, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x38, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    /// CmdJogN.
+    ///
+    /// Turns the motor at a speed; its sign is the direction, + towards greater positions.
+    ///
+    /// Accepted in the states: stopped, jogging.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 461-502, 2016, 2054: Movimento manuale (JOG).
+    ///
+    /// Note: The example wants 185 mm/min (L496), and its formula begins with -185 (L498). Chosen: \-185 mm/min (only so it gives the printed 0xFDBE, -578 rpm, and section 5.3 has -185 (L1425)).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdJogN {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// speed: INTEGER16, in rpm.
+        ///
+        /// Positive towards greater positions.
+        ///
+        /// Manual: v.
+        pub speed: i16,
+    }
+    impl rt::message::Message for CmdJogN {
+        type Reply<'r> = CmdJogNReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdJogN";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0xE0, 0x00])?;
+            to.number(16, self.speed as u16 as u64)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdJogN {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0xE0, 0x00])?;
+            let value_1 = from.number(16)?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                speed: value_1 as i16,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdJogN`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdJogNReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdJogNReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdJogNReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xE0, 0x00])?;
+            from.echo(request, 4, 2)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xE0, 0x00])?;
+            to.echo(request, 4, 2)?;
+            Ok(())
+        }
+    }
+    /// CmdTraj.
+    ///
+    /// Positioning, with the speed VMAXPOS and the acceleration AMAXPOS. The motor has to be homed, and the way be at most 0x3FFFFFF counts long: else there is the warning ALMOVTOOLONG. Complete once the real position is within INPOS for TIM\_INPOS.
+    ///
+    /// The order is carried out when status.command complete says so. The reply tells it already.
+    ///
+    /// Accepted in the states: stopped.
+    ///
+    /// Manual, line 506-550, 1998, 2036, 2067: Posizionamento alla quota assegnata (LINE).
+    ///
+    /// Note: The example gives the bytes 0x01 0x1B 0x6F 0x9E (L550) and 0x01B6F9E, a digit short (L546); its formula gives 1798046 counts. Chosen: 00 1B 6F 9E (1798046 is 0x001B6F9E; the printed bytes are 18575262).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdTraj {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// target: INTEGER32, in count.
+        ///
+        /// Position in counts of the encoder.
+        ///
+        /// Manual: Q.
+        pub target: i32,
+    }
+    impl rt::message::Message for CmdTraj {
+        type Reply<'r> = CmdTrajReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdTraj";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Polled;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x02])?;
+            to.ordered(&[2, 3, 0, 1], self.target as u32 as u64)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdTraj {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x02])?;
+            let value_1 = from.ordered(&[2, 3, 0, 1])?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                target: value_1 as i32,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdTraj`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdTrajReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdTrajReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdTrajReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x02])?;
+            from.echo(request, 3, 3)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x02])?;
+            to.echo(request, 3, 3)?;
+            Ok(())
+        }
+    }
+    /// CmdTrajVel.
+    ///
+    /// Positioning at a speed that isn't negative; a new target and speed can follow during the motion, if the motor needn't turn back. Refused where no ramp leads there. The motor has to be homed, and the way be at most 0x3FFFFFF counts long.
+    ///
+    /// The order is carried out when status.command complete says so. The reply tells it already.
+    ///
+    /// Accepted in the states: stopped, positioning.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 552-623, 2013, 2051, 2067, 2072: Posizionamento con velocità assegnata (LINEVEL).
+    ///
+    /// Note: The third byte of the request is 0x00 (L574); all other requests with the opcode in the fourth have 0x08. Chosen: 0x00, as printed (an exception can't be told from a misprint; try 0x08 where the motor doesn't answer).
+    ///
+    /// Note: The reply has a byte 0x00 at B08, between the echo and the check (L579), and ends with the 10th; all other replies with an echo have nine bytes. Chosen: ten bytes, as printed (an exception can't be told from a misprint).
+    ///
+    /// Note: The end of the reply is ETX without its code (L581). Chosen: 0x03 (as in all other frames).
+    ///
+    /// Note: The limit of the way is that of CmdTraj (L592). Chosen: the same of CmdTrajVel (the paragraph was copied from section 3.9, and stands under the conditions of this command).
+    ///
+    /// Note: The example gives the bytes 0x01 0x1B 0x6F 0x9E (L615) and 0x01B6F9E, a digit short (L611); its formula gives 1798046 counts. Chosen: 00 1B 6F 9E (1798046 is 0x001B6F9E; the printed bytes are 18575262).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdTrajVel {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// target: INTEGER32, in count.
+        ///
+        /// Position in counts of the encoder.
+        ///
+        /// Manual: Q.
+        pub target: i32,
+        /// speed: UNSIGNED16, at most 32767, in rpm.
+        ///
+        /// Speed of the positioning.
+        ///
+        /// Manual: V.
+        pub speed: u16,
+    }
+    impl rt::message::Message for CmdTrajVel {
+        type Reply<'r> = CmdTrajVelReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdTrajVel";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Polled;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x00, 0xC8, 0x00])?;
+            to.ordered(&[2, 3, 0, 1], self.target as u32 as u64)?;
+            let range = rt::Range::To(32767);
+            rt::message::check::<u16>(self.speed, &range)?;
+            to.number(16, self.speed as u64)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdTrajVel {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x00, 0xC8, 0x00])?;
+            let value_1 = from.ordered(&[2, 3, 0, 1])?;
+            let value_2 = from.number(16)?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                target: value_1 as i32,
+                speed: value_2 as u16,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdTrajVel`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdTrajVelReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdTrajVelReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdTrajVelReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xC8, 0x00])?;
+            from.echo(request, 4, 2)?;
+            from.constant(&[0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xC8, 0x00])?;
+            to.echo(request, 4, 2)?;
+            to.bytes(&[0x00])?;
+            Ok(())
+        }
+    }
+    /// Poll position.
+    ///
+    /// The null request: the real position. So does a motor answer after power-on.
+    ///
+    /// Means this after CmdGetPos.
+    ///
+    /// So it is after power-on, too.
+    ///
+    /// Manual, line 625-664, 653, 657: Comando nullo dopo CmdGetPos.
+    ///
+    /// Note: A reply whose low word begins with 0xB0, such as the position 0x0000B000, has the same bytes as CmdNACK (L2211-2221). Chosen: never refused (the command works in any condition (L648), and a reply that may be both can't be read).
+    ///
+    /// Note: The end of the request is ETX without its code (L641). Chosen: 0x03 (as in all other frames).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct PollPosition {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for PollPosition {
+        type Reply<'r> = PollPositionReply;
+        type Refusal = core::convert::Infallible;
+        const NAME: &'static str = "Poll position";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for PollPosition {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`PollPosition`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct PollPositionReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+        /// real position: INTEGER32, in count.
+        ///
+        /// Manual: Qr.
+        pub real_position: i32,
+    }
+    impl PollPositionReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for PollPositionReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            let value_1 = from.ordered(&[2, 3, 0, 1])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+                real_position: value_1 as i32,
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.ordered(&[2, 3, 0, 1], self.real_position as u32 as u64)?;
+            Ok(())
+        }
+    }
+    /// Poll theoretical position.
+    ///
+    /// The null request: the theoretical position.
+    ///
+    /// Means this after CmdGetPosT.
+    ///
+    /// Manual, line 625-670, 658: Comando nullo dopo CmdGetPosT.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct PollTheoreticalPosition {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for PollTheoreticalPosition {
+        type Reply<'r> = PollTheoreticalPositionReply;
+        type Refusal = core::convert::Infallible;
+        const NAME: &'static str = "Poll theoretical position";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for PollTheoreticalPosition {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`PollTheoreticalPosition`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct PollTheoreticalPositionReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+        /// theoretical position: INTEGER32, in count.
+        ///
+        /// Manual: Qt.
+        pub theoretical_position: i32,
+    }
+    impl PollTheoreticalPositionReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for PollTheoreticalPositionReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            let value_1 = from.ordered(&[2, 3, 0, 1])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+                theoretical_position: value_1 as i32,
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.ordered(&[2, 3, 0, 1], self.theoretical_position as u32 as u64)?;
+            Ok(())
+        }
+    }
+    /// Poll speeds.
+    ///
+    /// The null request: real and theoretical speed.
+    ///
+    /// Means this after CmdGetVel.
+    ///
+    /// Manual, line 625-682, 659: Comando nullo dopo CmdGetVel.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct PollSpeeds {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for PollSpeeds {
+        type Reply<'r> = PollSpeedsReply;
+        type Refusal = core::convert::Infallible;
+        const NAME: &'static str = "Poll speeds";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for PollSpeeds {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`PollSpeeds`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct PollSpeedsReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+        /// real speed: INTEGER16, stands for raw / 2^15 × speed\_base rpm.
+        ///
+        /// Manual: Vr.
+        pub real_speed: i16,
+        /// theoretical speed: INTEGER16, stands for raw / 2^15 × speed\_base rpm.
+        ///
+        /// Manual: Vt.
+        pub theoretical_speed: i16,
+    }
+    impl PollSpeedsReply {
+        /// The scale of `real_speed`.
+        pub const REAL_SPEED: rt::message::Scale<rt::Fraction<i16, 15>> = rt::message::Scale::new();
+        /// The scale of `theoretical_speed`.
+        pub const THEORETICAL_SPEED: rt::message::Scale<rt::Fraction<i16, 15>> = rt::message::Scale::new();
+    }
+    impl PollSpeedsReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for PollSpeedsReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            let value_1 = from.number(16)?;
+            let value_2 = from.number(16)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+                real_speed: value_1 as i16,
+                theoretical_speed: value_2 as i16,
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.number(16, self.real_speed as u16 as u64)?;
+            to.number(16, self.theoretical_speed as u16 as u64)?;
+            Ok(())
+        }
+    }
+    /// Poll torques.
+    ///
+    /// The null request: real and theoretical torque, as currents.
+    ///
+    /// Means this after CmdGetTor.
+    ///
+    /// Manual, line 625-653, 660: Comando nullo dopo CmdGetTor.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct PollTorques {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for PollTorques {
+        type Reply<'r> = PollTorquesReply;
+        type Refusal = core::convert::Infallible;
+        const NAME: &'static str = "Poll torques";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for PollTorques {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`PollTorques`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct PollTorquesReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+        /// real torque: INTEGER16, stands for raw / 2^15 × current\_base A.
+        ///
+        /// Manual: Tr.
+        pub real_torque: i16,
+        /// theoretical torque: INTEGER16, stands for raw / 2^15 × current\_base A.
+        ///
+        /// Manual: Tt.
+        pub theoretical_torque: i16,
+    }
+    impl PollTorquesReply {
+        /// The scale of `real_torque`.
+        pub const REAL_TORQUE: rt::message::Scale<rt::Fraction<i16, 15>> = rt::message::Scale::new();
+        /// The scale of `theoretical_torque`.
+        pub const THEORETICAL_TORQUE: rt::message::Scale<rt::Fraction<i16, 15>> = rt::message::Scale::new();
+    }
+    impl PollTorquesReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for PollTorquesReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            let value_1 = from.number(16)?;
+            let value_2 = from.number(16)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+                real_torque: value_1 as i16,
+                theoretical_torque: value_2 as i16,
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.number(16, self.real_torque as u16 as u64)?;
+            to.number(16, self.theoretical_torque as u16 as u64)?;
+            Ok(())
+        }
+    }
+    /// CmdEmerg.
+    ///
+    /// Alarm by command: as released, but without a direct way back to regulation.
+    ///
+    /// Accepted in the states: alarm, calibrating current sensors, released, electrical homing, stopped, homing, jogging, positioning, stopping.
+    ///
+    /// Manual, line 686-706, 1990, 2028: Motore in EMERGENZA.
+    ///
+    /// Note: It has effect in any condition (L706); the table of commands and states refuses it in PREAXALARM, PREAXNOREG, AXINTERP and AXLATCH (L1990, L2028). Chosen: the table (it tells the states one by one).
+    ///
+    /// Note: CMDGOEMERG (L1635). Chosen: CmdEmerg (there is no other command of that kind).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdEmerg {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdEmerg {
+        type Reply<'r> = CmdEmergReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdEmerg";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x90, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdEmerg {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x90, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdEmerg`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdEmergReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdEmergReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdEmergReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x90, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x90, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    /// CmdSetOverr.
+    ///
+    /// Sets the override: all speeds are multiplied by it, with a ramp where the motor moves.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 708-738, 2014, 2052: Impostazione dell'override.
+    ///
+    /// Note: It has effect at any moment (L730); the table of commands and states refuses it in AXINTERP and AXLATCH (L2052). Chosen: the table (it tells the states one by one).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdSetOverr {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// override: UNSIGNED16, range 0 to 200, in %.
+        pub r#override: u16,
+    }
+    impl rt::message::Message for CmdSetOverr {
+        type Reply<'r> = CmdSetOverrReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdSetOverr";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0xD0, 0x00])?;
+            let range = rt::Range::To(200);
+            rt::message::check::<u16>(self.r#override, &range)?;
+            to.number(16, self.r#override as u64)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdSetOverr {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0xD0, 0x00])?;
+            let value_1 = from.number(16)?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                r#override: value_1 as u16,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdSetOverr`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdSetOverrReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdSetOverrReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdSetOverrReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xD0, 0x00])?;
+            from.echo(request, 4, 2)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xD0, 0x00])?;
+            to.echo(request, 4, 2)?;
+            Ok(())
+        }
+    }
+    /// CmdGetOverr.
+    ///
+    /// Reads the override.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 740-760, 2015, 2053: Lettura dell'override.
+    ///
+    /// Note: It has effect at any moment (L760); the table of commands and states refuses it in AXINTERP and AXLATCH (L2053). Chosen: the table (it tells the states one by one).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetOverr {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdGetOverr {
+        type Reply<'r> = CmdGetOverrReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdGetOverr";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0xD8, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdGetOverr {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0xD8, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdGetOverr`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetOverrReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+        /// override: UNSIGNED16, in %.
+        pub r#override: u16,
+    }
+    impl CmdGetOverrReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdGetOverrReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xD8, 0x00])?;
+            let value_1 = from.number(16)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+                r#override: value_1 as u16,
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xD8, 0x00])?;
+            to.number(16, self.r#override as u64)?;
+            Ok(())
+        }
+    }
+    /// CmdChgParN.
+    ///
+    /// Writes parameters of chapter 6, as many as fit: 16 of 16 bits, or 10 of 32 bits. They are lost at power-off unless CmdSaveParFl stores them.
+    ///
+    /// Accepted in the states: alarm, released, stopped.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 762-854, 2011, 2049: Modifica di un parametro.
+    ///
+    /// Note: Bytes 18 to 21 of the frame with three parameters are PL2, PL0, PL3, PL2 (L845-848). Chosen: PL1, PL0, PL3, PL2 (PL2 stands twice, and the first parameter of 32 bits has PL1 there (L839)).
+    ///
+    /// Note: Bytes 08 and 09 are both the high byte (Parte alta) of the value, PS1 and PS0 (L789-790, L835-836). Chosen: high byte, low byte (PS0 is bits 7-0 (L774-776)).
+    ///
+    /// Note: The frame with three parameters is answered with one code (L833-834). Chosen: the first (the replies to other requests copy bytes 05 to 07).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdChgParN<'a> {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// Parameters and their values.
+        pub settings: rt::message::Settings<'a>,
+    }
+    impl<'a> rt::message::Message for CmdChgParN<'a> {
+        type Reply<'r> = CmdChgParNReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdChgParN";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0xB8, 0x00])?;
+            let count = self.settings.iter().count() as u64;
+            rt::message::check::<u64>(count, &rt::Range::To(16))?;
+            self.settings.write(to)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdChgParN<'a> {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0xB8, 0x00])?;
+            let value_1 = from.but(0)?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                settings: rt::message::Settings::received(value_1, PARAMETER)?,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdChgParN`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdChgParNReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdChgParNReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdChgParNReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xB8, 0x00])?;
+            from.echo(request, 4, 2)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xB8, 0x00])?;
+            to.echo(request, 4, 2)?;
+            Ok(())
+        }
+    }
+    /// CmdGetParN.
+    ///
+    /// Reads a parameter of chapter 6. The request has as many zeros behind the code as the value has bytes.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 856-917, 2012, 2050: Lettura di un parametro.
+    ///
+    /// Note: For 32 bits the code is at B05, without the 0x00 in front that the form for 16 bits has (L906-907, L880); one row has no number, and the frame of 12 rows ends with byte 11 (L908-913). Chosen: 0x00, the code, four bytes; 13 bytes in all (CmdChgParN has 13 bytes for 32 bits, with the 0x00 (L806-820), and the form for 16 bits has it too).
+    ///
+    /// Note: Bytes 08 and 09 of the reply are both the high byte (Parte alta) of the value, PS1 and PS0 (L883-884). Chosen: high byte, low byte (PS0 is bits 7-0 (L866-870)).
+    ///
+    /// Note: It has effect at any moment (L917); the table of commands and states refuses it in AXINTERP and AXLATCH (L2050). Chosen: the table (it tells the states one by one).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetParN {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// Number of the parameter.
+        pub parameter: rt::Parameter,
+    }
+    impl rt::message::Message for CmdGetParN {
+        type Reply<'r> = CmdGetParNReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdGetParN";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0xC0, 0x00])?;
+            PARAMETER.write_blank(self.parameter, to)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdGetParN {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0xC0, 0x00])?;
+            let value_1 = PARAMETER.read_blank(from)?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                parameter: value_1,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdGetParN`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetParNReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+        /// The parameter and its value.
+        pub setting: rt::message::Setting,
+    }
+    impl CmdGetParNReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdGetParNReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xC0, 0x00])?;
+            let value_1 = PARAMETER.read_to(from, 0)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+                setting: value_1,
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xC0, 0x00])?;
+            PARAMETER.write(&self.setting, to)?;
+            Ok(())
+        }
+    }
+    /// CmdSaveParFl.
+    ///
+    /// Stores the parameters of chapter 6 in flash memory, from where they come back at power-on. The memory wears out by writing: don't send it often.
+    ///
+    /// The reply comes when the order is carried out.
+    ///
+    /// Accepted in the states: alarm.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 919-941, 2017, 2055: Salvataggio dei parametri.
+    ///
+    /// Note: Section 4.6 doesn't say when the reply comes; that it comes at the end of the writing stands under CmdAdcOff, which writes nothing (L965). Chosen: a late reply (the note fits here; who is ready for a late reply loses nothing where it comes at once).
+    ///
+    /// Note: In alarm only (L941); the cells of AXALARM, AXADCOFF and AXNOREG are empty in the table of commands and states (L2017). Chosen: in alarm (the text).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdSaveParFl {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdSaveParFl {
+        type Reply<'r> = CmdSaveParFlReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdSaveParFl";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Reply;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0xE8, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdSaveParFl {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0xE8, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdSaveParFl`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdSaveParFlReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdSaveParFlReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdSaveParFlReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xE8, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xE8, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    /// CmdAdcOff.
+    ///
+    /// Measures the offsets of the current sensors, as the motor does by itself at power-on.
+    ///
+    /// The reply comes when the order is carried out.
+    ///
+    /// Accepted in the states: alarm.
+    ///
+    /// Manual, line 943-965, 1991, 2029: Taratura degli offset dei sensori di corrente.
+    ///
+    /// Note: The reply comes at the end of the writing (L965), and nothing is written. Chosen: at the end of the measurement (the sentence belongs to CmdSaveParFl, and a note on the time of the reply is meant).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdAdcOff {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdAdcOff {
+        type Reply<'r> = CmdAdcOffReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdAdcOff";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Reply;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x28, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdAdcOff {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x28, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdAdcOff`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdAdcOffReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdAdcOffReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdAdcOffReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x28, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x28, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    /// CmdAzzEl.
+    ///
+    /// Finds the electrical position of the rotor, as the motor does by itself before its first regulation.
+    ///
+    /// The order is carried out when status.command complete says so. Poll it with a further message.
+    ///
+    /// Accepted in the states: released.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 967-998, 1993, 2031: Azzeramento elettrico.
+    ///
+    /// Note: CMDAZZEL has no asterisk in the table of commands and states (L1993); the text keeps it to the SM140 and to revision C (L969). Chosen: SM140 and revision C (the row also stands for CmdAzzElWait, which all motors have).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdAzzEl {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// method: UNSIGNED8.
+        ///
+        /// 0 is the only one that doesn't move the motor; the others aren't described.
+        ///
+        /// Manual: Tipo azzeramento.
+        pub method: u8,
+    }
+    impl rt::message::Message for CmdAzzEl {
+        type Reply<'r> = CmdAzzElReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdAzzEl";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Polled;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0xC4, 0x00, 0x00])?;
+            to.number(8, self.method as u64)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdAzzEl {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0xC4, 0x00, 0x00])?;
+            let value_1 = from.number(8)?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                method: value_1 as u8,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdAzzEl`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdAzzElReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdAzzElReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdAzzElReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xC4, 0x00, 0x00])?;
+            from.echo(request, 5, 1)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xC4, 0x00, 0x00])?;
+            to.echo(request, 5, 1)?;
+            Ok(())
+        }
+    }
+    /// CmdGetStatAzz.
+    ///
+    /// Reads the homing state.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 999-1028: Lettura dello stato di azzeramento.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetStatAzz {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdGetStatAzz {
+        type Reply<'r> = CmdGetStatAzzReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdGetStatAzz";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x64, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdGetStatAzz {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x64, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdGetStatAzz`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetStatAzzReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+        /// homing state: UNSIGNED16.
+        pub homing_state: super::types::HomingState,
+    }
+    impl CmdGetStatAzzReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdGetStatAzzReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x64, 0x00])?;
+            let value_1 = from.number(16)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+                homing_state: super::types::HomingState::from_raw(value_1 as u16),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x64, 0x00])?;
+            to.number(16, self.homing_state.raw() as u64)?;
+            Ok(())
+        }
+    }
+    /// CmdGetDistMicroZero.
+    ///
+    /// Reads the distance between homing switch and index of the encoder, of the last homing of type 2.
+    ///
+    /// Only of SM140.
+    ///
+    /// Manual, line 1030-1057, 431-433: Distanza fra microinterruttore e tacca di zero.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetDistMicroZero {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdGetDistMicroZero {
+        type Reply<'r> = CmdGetDistMicroZeroReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdGetDistMicroZero";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x5C, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdGetDistMicroZero {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x5C, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdGetDistMicroZero`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetDistMicroZeroReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+        /// distance: INTEGER32, in count.
+        ///
+        /// Manual: D.
+        pub distance: i32,
+    }
+    impl CmdGetDistMicroZeroReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdGetDistMicroZeroReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x5C, 0x00])?;
+            let value_1 = from.ordered(&[2, 3, 0, 1])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+                distance: value_1 as i32,
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x5C, 0x00])?;
+            to.ordered(&[2, 3, 0, 1], self.distance as u32 as u64)?;
+            Ok(())
+        }
+    }
+    /// CmdGetPos.
+    ///
+    /// Has the null request answered with the real position.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Manual, line 1059-1077, 2003, 2041: Ricezione della quota reale.
+    ///
+    /// Note: In any condition (L1077); the table of commands and states refuses it in AXLATCH (L2041). Chosen: the table (it tells the states one by one).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetPos {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdGetPos {
+        type Reply<'r> = CmdGetPosReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdGetPos";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x68, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdGetPos {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x68, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    impl rt::message::Selector for CmdGetPos {
+        type Device<C> = super::HsdMotor<C, Self>;
+        fn device<C>(client: C) -> Self::Device<C> {
+            super::HsdMotor {
+                client,
+                state: core::marker::PhantomData,
+            }
+        }
+    }
+    /// What is answered to [`CmdGetPos`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetPosReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdGetPosReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdGetPosReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x68, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x68, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    /// CmdGetPosT.
+    ///
+    /// Has the null request answered with the theoretical position.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Manual, line 1081-1095, 2004, 2042: Ricezione della quota teorica.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetPosT {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdGetPosT {
+        type Reply<'r> = CmdGetPosTReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdGetPosT";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x98, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdGetPosT {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x98, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    impl rt::message::Selector for CmdGetPosT {
+        type Device<C> = super::HsdMotor<C, Self>;
+        fn device<C>(client: C) -> Self::Device<C> {
+            super::HsdMotor {
+                client,
+                state: core::marker::PhantomData,
+            }
+        }
+    }
+    /// What is answered to [`CmdGetPosT`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetPosTReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdGetPosTReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdGetPosTReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x98, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x98, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    /// CmdGetVel.
+    ///
+    /// Has the null request answered with real and theoretical speed.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Manual, line 1097-1115, 2005, 2043: Ricezione delle velocità teorica e reale.
+    ///
+    /// Note: In any condition (L1115); the table of commands and states refuses it in AXLATCH (L2043). Chosen: the table (it tells the states one by one).
+    ///
+    /// Note: Q15 is said to be told in appendix D (L1099); it is in appendix A (L1870-1882). Chosen: appendix A (appendix D has the messages).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetVel {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdGetVel {
+        type Reply<'r> = CmdGetVelReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdGetVel";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x70, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdGetVel {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x70, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    impl rt::message::Selector for CmdGetVel {
+        type Device<C> = super::HsdMotor<C, Self>;
+        fn device<C>(client: C) -> Self::Device<C> {
+            super::HsdMotor {
+                client,
+                state: core::marker::PhantomData,
+            }
+        }
+    }
+    /// What is answered to [`CmdGetVel`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetVelReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdGetVelReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdGetVelReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x70, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x70, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    /// CmdGetTor.
+    ///
+    /// Has the null request answered with real and theoretical torque.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Manual, line 1117-1135, 2006, 2044: Ricezione della coppia teorica e reale.
+    ///
+    /// Note: In any condition (L1135); the table of commands and states refuses it in AXLATCH (L2044). Chosen: the table (it tells the states one by one).
+    ///
+    /// Note: Q15 is said to be told in appendix D (L1119); it is in appendix A (L1870-1882). Chosen: appendix A (appendix D has the messages).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetTor {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdGetTor {
+        type Reply<'r> = CmdGetTorReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdGetTor";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x78, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdGetTor {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x78, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    impl rt::message::Selector for CmdGetTor {
+        type Device<C> = super::HsdMotor<C, Self>;
+        fn device<C>(client: C) -> Self::Device<C> {
+            super::HsdMotor {
+                client,
+                state: core::marker::PhantomData,
+            }
+        }
+    }
+    /// What is answered to [`CmdGetTor`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetTorReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdGetTorReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdGetTorReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x78, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x78, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    /// CmdGetAlarm.
+    ///
+    /// Reads the message that waits: an alarm below 0x4000, else a warning.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// the message is cleared by reading it.
+    ///
+    /// Manual, line 1137-1157, 2002, 2040: Lettura dei messaggi di allarme o di Warning.
+    ///
+    /// Note: In any condition (L1157); the table of commands and states refuses it in AXLATCH (L2040). Chosen: the table (it tells the states one by one).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetAlarm {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdGetAlarm {
+        type Reply<'r> = CmdGetAlarmReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdGetAlarm";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x60, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdGetAlarm {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x60, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdGetAlarm`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetAlarmReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+        /// message: UNSIGNED16.
+        ///
+        /// A code of the alarms or of the warnings.
+        pub message: u16,
+    }
+    impl CmdGetAlarmReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdGetAlarmReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x60, 0x00])?;
+            let value_1 = from.number(16)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+                message: value_1 as u16,
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x60, 0x00])?;
+            to.number(16, self.message as u64)?;
+            Ok(())
+        }
+    }
+    /// CmdGetVer.
+    ///
+    /// Reads the version of the firmware, a plain number: 0x0067 is 103.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Manual, line 1161-1185, 2007, 2045: Lettura della versione del firmware.
+    ///
+    /// Note: In any condition (L1179); the table of commands and states refuses it in AXLATCH (L2045). Chosen: the table (it tells the states one by one).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetVer {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdGetVer {
+        type Reply<'r> = CmdGetVerReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdGetVer";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x80, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdGetVer {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x80, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdGetVer`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetVerReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+        /// version: UNSIGNED16.
+        pub version: u16,
+    }
+    impl CmdGetVerReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdGetVerReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x80, 0x00])?;
+            let value_1 = from.number(16)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+                version: value_1 as u16,
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x80, 0x00])?;
+            to.number(16, self.version as u64)?;
+            Ok(())
+        }
+    }
+    /// CmdGetType.
+    ///
+    /// Reads the motor and the fieldbus that it is made for.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 1187-1221: Lettura del tipo di motore e di bus di campo.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetType {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdGetType {
+        type Reply<'r> = CmdGetTypeReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdGetType";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0xA4, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdGetType {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0xA4, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdGetType`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetTypeReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+        /// type: UNSIGNED16.
+        pub r#type: super::types::MotorType,
+    }
+    impl CmdGetTypeReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdGetTypeReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xA4, 0x00])?;
+            let value_1 = from.number(16)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+                r#type: super::types::MotorType::from_raw(value_1 as u16),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xA4, 0x00])?;
+            to.number(16, self.r#type.raw() as u64)?;
+            Ok(())
+        }
+    }
+    /// CmdGetSmStat.
+    ///
+    /// Reads the internal state.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Manual, line 1223-1243, 2008, 2046: Lettura dello stato interno del motore.
+    ///
+    /// Note: In any condition (L1243); the table of commands and states refuses it in AXLATCH (L2046). Chosen: the table (it tells the states one by one).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetSmStat {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdGetSmStat {
+        type Reply<'r> = CmdGetSmStatReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdGetSmStat";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0xA8, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdGetSmStat {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0xA8, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdGetSmStat`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetSmStatReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+        /// state: UNSIGNED16.
+        pub state: super::types::State,
+    }
+    impl CmdGetSmStatReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdGetSmStatReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xA8, 0x00])?;
+            let value_1 = from.number(16)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+                state: super::types::State::from_raw(value_1 as u16),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xA8, 0x00])?;
+            to.number(16, self.state.raw() as u64)?;
+            Ok(())
+        }
+    }
+    /// CmdSampleVar.
+    ///
+    /// Samples two variables of the firmware.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 1245-1266: Campionamento di variabili.
+    ///
+    /// Note: The codes of the variables are said to be in the appendices (L1266), which don't have them. Chosen: numbers of one byte (nothing more is printed).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdSampleVar {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// variable 1: UNSIGNED8.
+        pub variable_1: u8,
+        /// variable 2: UNSIGNED8.
+        pub variable_2: u8,
+    }
+    impl rt::message::Message for CmdSampleVar {
+        type Reply<'r> = CmdSampleVarReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdSampleVar";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0xB4, 0x00])?;
+            to.number(8, self.variable_1 as u64)?;
+            to.number(8, self.variable_2 as u64)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdSampleVar {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0xB4, 0x00])?;
+            let value_1 = from.number(8)?;
+            let value_2 = from.number(8)?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                variable_1: value_1 as u8,
+                variable_2: value_2 as u8,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdSampleVar`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdSampleVarReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdSampleVarReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdSampleVarReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xB4, 0x00])?;
+            from.echo(request, 4, 1)?;
+            from.echo(request, 5, 1)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xB4, 0x00])?;
+            to.echo(request, 4, 1)?;
+            to.echo(request, 5, 1)?;
+            Ok(())
+        }
+    }
+    /// CmdSampleMem.
+    ///
+    /// Samples two variables of the firmware, by their addresses, at a rate of its own.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 1268-1291: Campionamento variabili a frequenza assegnata.
+    ///
+    /// Note: Title and text speak of a frequency (L1268, L1272), the frame of a time (t. di campionamento, L1284-1285), and there is no unit. Chosen: a time without a unit (the frame is what is sent).
+    ///
+    /// Note: No addresses of variables are printed anywhere. Chosen: two numbers of 16 bits (nothing more is printed).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdSampleMem {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// address 1: UNSIGNED16.
+        pub address_1: u16,
+        /// address 2: UNSIGNED16.
+        pub address_2: u16,
+        /// sampling time: UNSIGNED16.
+        pub sampling_time: u16,
+    }
+    impl rt::message::Message for CmdSampleMem {
+        type Reply<'r> = CmdSampleMemReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdSampleMem";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0xAC])?;
+            to.number(16, self.address_1 as u64)?;
+            to.number(16, self.address_2 as u64)?;
+            to.number(16, self.sampling_time as u64)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdSampleMem {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0xAC])?;
+            let value_1 = from.number(16)?;
+            let value_2 = from.number(16)?;
+            let value_3 = from.number(16)?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                address_1: value_1 as u16,
+                address_2: value_2 as u16,
+                sampling_time: value_3 as u16,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdSampleMem`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdSampleMemReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdSampleMemReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdSampleMemReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xAC])?;
+            from.echo(request, 3, 2)?;
+            from.echo(request, 5, 1)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xAC])?;
+            to.echo(request, 3, 2)?;
+            to.echo(request, 5, 1)?;
+            Ok(())
+        }
+    }
+    /// CmdGetSamp.
+    ///
+    /// Reads what was sampled, two values a sample.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Manual, line 1293-1328, 2010, 2048: Lettura dei dati campioni.
+    ///
+    /// Note: Sample 1 is at bytes 08 to 11 (L1306-1309), sample N at 8+4N (L1315), which is 12 for N = 1. Chosen: 4 + 4N: the samples follow each other (else a gap of four bytes would lie between the first samples and the last).
+    ///
+    /// Note: The greatest number of samples follows from the length of a packet (L1328), of which isn't said whether the check counts. Chosen: 15 (68 bytes without the check hold 15; with it, 14).
+    ///
+    /// Note: In any condition (L1326); the table of commands and states refuses it in AXLATCH (L2048). Chosen: the table (it tells the states one by one).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetSamp {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdGetSamp {
+        type Reply<'r> = CmdGetSampReply<'r>;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdGetSamp";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0xA0, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdGetSamp {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0xA0, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is repeated in [`CmdGetSampReply`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetSampReplyEntry {
+        /// variable 1: INTEGER16.
+        pub variable_1: i16,
+        /// variable 2: INTEGER16.
+        pub variable_2: i16,
+    }
+    impl rt::message::Group for CmdGetSampReplyEntry {
+        const LENGTH: usize = 4;
+        fn write(
+            &self,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(16, self.variable_1 as u16 as u64)?;
+            to.number(16, self.variable_2 as u16 as u64)?;
+            Ok(())
+        }
+        fn read(from: &mut rt::message::Reader<'_>) -> Option<Self> {
+            let value_0 = from.number(16)?;
+            let value_1 = from.number(16)?;
+            let own = Self {
+                variable_1: value_0 as i16,
+                variable_2: value_1 as i16,
+            };
+            Some(own)
+        }
+    }
+    /// What is answered to [`CmdGetSamp`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdGetSampReply<'a> {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+        /// What is repeated.
+        pub entries: rt::message::List<'a, CmdGetSampReplyEntry>,
+    }
+    impl<'a> CmdGetSampReply<'a> {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdGetSampReply<'a> {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0xA0, 0x00])?;
+            let count = usize::try_from(from.number(16)?).ok()?;
+            let list = from.bytes(count.checked_mul(4)?)?;
+            from.constant(&[0xFF, 0xFF])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+                entries: rt::message::List::received(list)?,
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xA0, 0x00])?;
+            let count = self.entries.len() as u64;
+            rt::message::check::<u64>(count, &rt::Range::To(15))?;
+            to.number(16, count)?;
+            self.entries.write(to)?;
+            to.bytes(&[0xFF, 0xFF])?;
+            Ok(())
+        }
+    }
+    /// CmdRegWait.
+    ///
+    /// As CmdReg; the first reply after power-on waits until the electrical position of the rotor is found.
+    ///
+    /// The reply comes when the order is carried out, after about 100 ms.
+    ///
+    /// Accepted in the states: released, stopped.
+    ///
+    /// Replaced by CmdReg.
+    ///
+    /// Manual, line 1332-1362, 1994, 2032: Regolazione con attesa.
+    ///
+    /// Note: The table of commands and states has one row CMDREG (L1994), and there are two commands, CmdReg and CmdRegWait. Chosen: the row is about both (they differ in the time of the reply only).
+    ///
+    /// Note: It has effect only out of regulation (L1356); the table of commands and states has = for AXSTOP (L1994). Chosen: accepted in AXSTOP (no effect and no change are the same).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdRegWait {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdRegWait {
+        type Reply<'r> = CmdRegWaitReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdRegWait";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Reply;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x18, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdRegWait {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x18, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdRegWait`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdRegWaitReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdRegWaitReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdRegWaitReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x18, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x18, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    /// CmdHoldWait.
+    ///
+    /// As CmdHold; the reply waits until the theoretical speed is 0, so that its time follows from speed and deceleration.
+    ///
+    /// The reply comes when the order is carried out.
+    ///
+    /// Accepted in the states: stopped, homing, jogging, positioning, stopping.
+    ///
+    /// Replaced by CmdHold.
+    ///
+    /// Manual, line 1366-1388, 1999, 2037: Stop con attesa.
+    ///
+    /// Note: The table of commands and states has one row CMDHOLD (L1999), and there are two commands, CmdHold and CmdHoldWait. Chosen: the row is about both (they differ in the time of the reply only).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdHoldWait {
+        /// node: UNSIGNED8.
+        pub node: u8,
+    }
+    impl rt::message::Message for CmdHoldWait {
+        type Reply<'r> = CmdHoldWaitReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdHoldWait";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Reply;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x50, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdHoldWait {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x50, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self { node: value_0 as u8 };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdHoldWait`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdHoldWaitReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdHoldWaitReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdHoldWaitReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x50, 0x00, 0x00, 0x00])?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x50, 0x00, 0x00, 0x00])?;
+            Ok(())
+        }
+    }
+    /// CmdJog.
+    ///
+    /// As CmdJogN, with the speed as a fraction of 8000 rpm.
+    ///
+    /// Accepted in the states: stopped, jogging.
+    ///
+    /// Replaced by CmdJogN.
+    ///
+    /// Manual, line 1390-1433, 1997, 2035: Movimento manuale (Jog).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdJog {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// speed: INTEGER16, range \-32767 to 32767, stands for raw / 2^15 × speed\_base rpm.
+        ///
+        /// Positive towards greater positions.
+        ///
+        /// Manual: v.
+        pub speed: i16,
+    }
+    impl CmdJog {
+        /// The scale of `speed`.
+        pub const SPEED: rt::message::Scale<rt::Fraction<i16, 15>> = rt::message::Scale::new();
+    }
+    impl rt::message::Message for CmdJog {
+        type Reply<'r> = CmdJogReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdJog";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x40, 0x00])?;
+            let range = rt::Range::From(-32767);
+            rt::message::check::<i16>(self.speed, &range)?;
+            to.number(16, self.speed as u16 as u64)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdJog {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x40, 0x00])?;
+            let value_1 = from.number(16)?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                speed: value_1 as i16,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdJog`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdJogReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdJogReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdJogReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x40, 0x00])?;
+            from.echo(request, 4, 2)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x40, 0x00])?;
+            to.echo(request, 4, 2)?;
+            Ok(())
+        }
+    }
+    /// CmdChgPar.
+    ///
+    /// Writes a low-level parameter.
+    ///
+    /// Accepted in the states: alarm, released, stopped.
+    ///
+    /// Replaced by CmdChgParN.
+    ///
+    /// Manual, line 1435-1455, 2000, 2038: Modifica di un parametro.
+    ///
+    /// Note: B04 of the reply is CmdJog (0x40) (L1446). Chosen: 0x04 (the table was copied from section 5.3; all other replies have the opcode of their request).
+    ///
+    /// Note: The codes are said to be those of section 6 (L1439); the low-level parameters of appendix A go with CmdChgPar (L1758), and those of section 6 with CmdChgParN (L1508). Chosen: the low-level parameters (both chapters of parameters say so, and section 5.4 sends whoever wants standard units to CmdChgParN (L1455)).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdChgPar {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// The parameter and its value.
+        pub setting: rt::message::Setting,
+    }
+    impl rt::message::Message for CmdChgPar {
+        type Reply<'r> = CmdChgParReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdChgPar";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x04])?;
+            LOW_LEVEL.write(&self.setting, to)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdChgPar {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x04])?;
+            let value_1 = LOW_LEVEL.read_to(from, 0)?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                setting: value_1,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdChgPar`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdChgParReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdChgParReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdChgParReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x04])?;
+            from.copy(request, 3, 3)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x04])?;
+            to.copy(request, 3, 3)?;
+            Ok(())
+        }
+    }
+    /// CmdAzzElWait.
+    ///
+    /// As CmdAzzEl; the reply comes once the electrical position is found.
+    ///
+    /// The reply comes when the order is carried out, after about 100 ms.
+    ///
+    /// Accepted in the states: released.
+    ///
+    /// Replaced by CmdAzzEl.
+    ///
+    /// Manual, line 1457-1484, 1993, 2031: Azzeramento elettrico con attesa.
+    ///
+    /// Note: The table of commands and states has one row CMDAZZEL (L1993), and there are two commands, CmdAzzEl and CmdAzzElWait. Chosen: the row is about both (they differ in the time of the reply only).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdAzzElWait {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// method: UNSIGNED8.
+        ///
+        /// 0 is the one to use.
+        ///
+        /// Manual: Tipo azzeramento.
+        pub method: u8,
+    }
+    impl rt::message::Message for CmdAzzElWait {
+        type Reply<'r> = CmdAzzElWaitReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdAzzElWait";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Reply;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x30, 0x00, 0x00])?;
+            to.number(8, self.method as u64)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdAzzElWait {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x30, 0x00, 0x00])?;
+            let value_1 = from.number(8)?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                method: value_1 as u8,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdAzzElWait`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdAzzElWaitReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdAzzElWaitReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdAzzElWaitReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x30, 0x00, 0x00])?;
+            from.echo(request, 5, 1)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x30, 0x00, 0x00])?;
+            to.echo(request, 5, 1)?;
+            Ok(())
+        }
+    }
+    /// CmdSample.
+    ///
+    /// As CmdSampleVar.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Replaced by CmdSampleVar.
+    ///
+    /// Manual, line 1486-1504, 2009, 2047: Campionamento di variabili.
+    ///
+    /// Note: It is obsolete (L1332), and what replaces it isn't said. Chosen: CmdSampleVar (same fields, same words).
+    ///
+    /// Note: In any condition (L1504); the table of commands and states refuses it in AXLATCH (L2047). Chosen: the table (it tells the states one by one).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdSample {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// variable 1: UNSIGNED8.
+        pub variable_1: u8,
+        /// variable 2: UNSIGNED8.
+        pub variable_2: u8,
+    }
+    impl rt::message::Message for CmdSample {
+        type Reply<'r> = CmdSampleReply;
+        type Refusal = CmdNack;
+        const NAME: &'static str = "CmdSample";
+        const COMPLETION: rt::message::Completion = rt::message::Completion::Immediate;
+        fn write(
+            &self,
+            _: u32,
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.bytes(&[0x08, 0x88, 0x00])?;
+            to.number(8, self.variable_1 as u64)?;
+            to.number(8, self.variable_2 as u64)?;
+            Ok(())
+        }
+    }
+    impl<'a> rt::message::Request<'a> for CmdSample {
+        fn parse(from: &mut rt::message::Reader<'a>) -> Option<(u32, Self)> {
+            let value_0 = from.number(8)?;
+            from.constant(&[0x08, 0x88, 0x00])?;
+            let value_1 = from.number(8)?;
+            let value_2 = from.number(8)?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                variable_1: value_1 as u8,
+                variable_2: value_2 as u8,
+            };
+            Some((0, own))
+        }
+    }
+    /// What is answered to [`CmdSample`].
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdSampleReply {
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl CmdSampleReply {
+        /// Whether the order is carried out.
+        pub const fn is_complete(&self) -> bool {
+            self.status.raw() & 0x2 == 0x2
+        }
+    }
+    impl<'a> rt::message::Reply<'a> for CmdSampleReply {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            from.echo(request, 0, 1)?;
+            from.fixed(4, 0)?;
+            let value_0 = from.number(4)?;
+            from.constant(&[0x88, 0x00])?;
+            from.echo(request, 4, 1)?;
+            from.echo(request, 5, 1)?;
+            from.end()?;
+            let own = Self {
+                status: super::types::BitStato::from_raw(value_0 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.echo(request, 0, 1)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0x88, 0x00])?;
+            to.echo(request, 4, 1)?;
+            to.echo(request, 5, 1)?;
+            Ok(())
+        }
+    }
+    /// CmdNACK.
+    ///
+    /// What comes instead of the reply where a motor can't carry out a command: bytes 05 to 07 of the request come back, and not which command it was.
+    ///
+    /// Manual, line 2209-2221: Risposta a comando non valido.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct CmdNack {
+        /// node: UNSIGNED8.
+        pub node: u8,
+        /// status: UNSIGNED4.
+        pub status: super::types::BitStato,
+    }
+    impl<'a> rt::message::Reply<'a> for CmdNack {
+        fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
+            let value_0 = from.number(8)?;
+            from.fixed(4, 0)?;
+            let value_1 = from.number(4)?;
+            from.constant(&[0xB0])?;
+            from.copy(request, 3, 3)?;
+            from.end()?;
+            let own = Self {
+                node: value_0 as u8,
+                status: super::types::BitStato::from_raw(value_1 as u8),
+            };
+            Some(own)
+        }
+        fn write(
+            &self,
+            request: &[u8],
+            to: &mut rt::message::Writer<'_>,
+        ) -> Result<(), rt::message::WriteError> {
+            to.number(8, self.node as u64)?;
+            to.number(4, 0)?;
+            to.number(4, self.status.raw() as u64)?;
+            to.bytes(&[0xB0])?;
+            to.copy(request, 3, 3)?;
+            Ok(())
+        }
+    }
+    /// A request, as a simulated device gets it.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum Request<'a> {
+        /// [`CmdReset`].
+        CmdReset(CmdReset),
+        /// [`CmdNoReg`].
+        CmdNoReg(CmdNoReg),
+        /// [`CmdReg`].
+        CmdReg(CmdReg),
+        /// [`CmdHold`].
+        CmdHold(CmdHold),
+        /// [`CmdMazz`].
+        CmdMazz(CmdMazz),
+        /// [`CmdAzz`].
+        CmdAzz(CmdAzz),
+        /// [`CmdJogN`].
+        CmdJogN(CmdJogN),
+        /// [`CmdTraj`].
+        CmdTraj(CmdTraj),
+        /// [`CmdTrajVel`].
+        CmdTrajVel(CmdTrajVel),
+        /// [`PollPosition`].
+        PollPosition(PollPosition),
+        /// [`CmdEmerg`].
+        CmdEmerg(CmdEmerg),
+        /// [`CmdSetOverr`].
+        CmdSetOverr(CmdSetOverr),
+        /// [`CmdGetOverr`].
+        CmdGetOverr(CmdGetOverr),
+        /// [`CmdChgParN`].
+        CmdChgParN(CmdChgParN<'a>),
+        /// [`CmdGetParN`].
+        CmdGetParN(CmdGetParN),
+        /// [`CmdSaveParFl`].
+        CmdSaveParFl(CmdSaveParFl),
+        /// [`CmdAdcOff`].
+        CmdAdcOff(CmdAdcOff),
+        /// [`CmdAzzEl`].
+        CmdAzzEl(CmdAzzEl),
+        /// [`CmdGetStatAzz`].
+        CmdGetStatAzz(CmdGetStatAzz),
+        /// [`CmdGetDistMicroZero`].
+        CmdGetDistMicroZero(CmdGetDistMicroZero),
+        /// [`CmdGetPos`].
+        CmdGetPos(CmdGetPos),
+        /// [`CmdGetPosT`].
+        CmdGetPosT(CmdGetPosT),
+        /// [`CmdGetVel`].
+        CmdGetVel(CmdGetVel),
+        /// [`CmdGetTor`].
+        CmdGetTor(CmdGetTor),
+        /// [`CmdGetAlarm`].
+        CmdGetAlarm(CmdGetAlarm),
+        /// [`CmdGetVer`].
+        CmdGetVer(CmdGetVer),
+        /// [`CmdGetType`].
+        CmdGetType(CmdGetType),
+        /// [`CmdGetSmStat`].
+        CmdGetSmStat(CmdGetSmStat),
+        /// [`CmdSampleVar`].
+        CmdSampleVar(CmdSampleVar),
+        /// [`CmdSampleMem`].
+        CmdSampleMem(CmdSampleMem),
+        /// [`CmdGetSamp`].
+        CmdGetSamp(CmdGetSamp),
+        /// [`CmdRegWait`].
+        CmdRegWait(CmdRegWait),
+        /// [`CmdHoldWait`].
+        CmdHoldWait(CmdHoldWait),
+        /// [`CmdJog`].
+        CmdJog(CmdJog),
+        /// [`CmdChgPar`].
+        CmdChgPar(CmdChgPar),
+        /// [`CmdAzzElWait`].
+        CmdAzzElWait(CmdAzzElWait),
+        /// [`CmdSample`].
+        CmdSample(CmdSample),
+    }
+    impl<'a> Request<'a> {
+        /// The number of the device that is meant, and the request; `None` where the data are none. Of requests that are alike, the
+        /// first is told.
+        pub fn parse(data: &'a [u8]) -> Option<(u32, Self)> {
+            let from = rt::message::Reader::new(data);
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdReset(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdNoReg(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdReg(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdHold(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdMazz(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdAzz(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdJogN(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdTraj(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdTrajVel(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::PollPosition(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdEmerg(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdSetOverr(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdGetOverr(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdChgParN(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdGetParN(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdSaveParFl(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdAdcOff(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdAzzEl(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdGetStatAzz(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdGetDistMicroZero(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdGetPos(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdGetPosT(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdGetVel(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdGetTor(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdGetAlarm(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdGetVer(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdGetType(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdGetSmStat(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdSampleVar(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdSampleMem(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdGetSamp(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdRegWait(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdHoldWait(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdJog(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdChgPar(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdAzzElWait(own)));
+            }
+            let own = rt::message::Request::parse(&mut from.clone());
+            if let Some((station, own)) = own {
+                return Some((station, Self::CmdSample(own)));
+            }
+            None
+        }
+    }
+}
 /// Values and bits that have names.
 pub mod types {
     use ::lexibus as rt;
@@ -508,6 +4668,209 @@ pub mod types {
         }
     }
     impl rt::Enumeration for HomingType {
+        type Base = u16;
+        fn from_native(native: u16) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u16 {
+            self.raw()
+        }
+    }
+    /// HomingState.
+    ///
+    /// How far homing got; which of them occur depends on TIPOAZZ.
+    ///
+    /// Manual, line 1005-1012, 2099-2114.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum HomingState {
+        /// 0: not homed. Never homed, or the last homing was broken off. Only while TIPOAZZ is 0 or 1 or 2. Manual, line 1007, 2109: NOAZZ.
+        NotHomed,
+        /// 1: set by hand. The position was given by CmdMazz. Only while TIPOAZZ is 0 or 1 or 2. Manual, line 1008, 2110: AZZMAN.
+        SetByHand,
+        /// 2: searching switch. Automatic homing looks for the homing switch. Only while TIPOAZZ is 1 or 2. Manual, line 1010, 2111: SEARCHINGMICRO.
+        SearchingSwitch,
+        /// 3: homed. Automatic homing was carried out. Only while TIPOAZZ is 0 or 1 or 2. Manual, line 1009, 2112: AZZAUTO.
+        Homed,
+        /// 4: leaving switch. Automatic homing leaves the homing switch. Only while TIPOAZZ is 1 or 2. Manual, line 1011, 2113: LEAVINGMICRO.
+        LeavingSwitch,
+        /// 6: searching index. Automatic homing looks for the index of the encoder. Only while TIPOAZZ is 0 or 2. Manual, line 1012, 2114: SEARCHINGTACCA.
+        SearchingIndex,
+        /// Any other number.
+        Unknown(u16),
+    }
+    impl HomingState {
+        /// The value of a number.
+        pub const fn from_raw(raw: u16) -> Self {
+            match raw {
+                0 => Self::NotHomed,
+                1 => Self::SetByHand,
+                2 => Self::SearchingSwitch,
+                3 => Self::Homed,
+                4 => Self::LeavingSwitch,
+                6 => Self::SearchingIndex,
+                other => Self::Unknown(other),
+            }
+        }
+        /// The number of a value.
+        pub const fn raw(self) -> u16 {
+            match self {
+                Self::NotHomed => 0,
+                Self::SetByHand => 1,
+                Self::SearchingSwitch => 2,
+                Self::Homed => 3,
+                Self::LeavingSwitch => 4,
+                Self::SearchingIndex => 6,
+                Self::Unknown(other) => other,
+            }
+        }
+    }
+    impl rt::Enumeration for HomingState {
+        type Base = u16;
+        fn from_native(native: u16) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u16 {
+            self.raw()
+        }
+    }
+    /// MotorType.
+    ///
+    /// Motor (bit 4) and fieldbus (bits 1-0).
+    ///
+    /// Manual, line 1213-1221.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum MotorType {
+        /// 0: SM137 ENET-X. Manual, line 1215.
+        Sm137EnetX,
+        /// 1: SM137 RS-485. Manual, line 1216.
+        Sm137Rs485,
+        /// 2: SM137 CAN. Manual, line 1217.
+        Sm137Can,
+        /// 16: SM140 ENET-X. Manual, line 1219.
+        Sm140EnetX,
+        /// 17: SM140 RS-485. Manual, line 1220.
+        Sm140Rs485,
+        /// 18: SM140 CAN. Manual, line 1221.
+        Sm140Can,
+        /// Any other number.
+        Unknown(u16),
+    }
+    impl MotorType {
+        /// The value of a number.
+        pub const fn from_raw(raw: u16) -> Self {
+            match raw {
+                0 => Self::Sm137EnetX,
+                1 => Self::Sm137Rs485,
+                2 => Self::Sm137Can,
+                16 => Self::Sm140EnetX,
+                17 => Self::Sm140Rs485,
+                18 => Self::Sm140Can,
+                other => Self::Unknown(other),
+            }
+        }
+        /// The number of a value.
+        pub const fn raw(self) -> u16 {
+            match self {
+                Self::Sm137EnetX => 0,
+                Self::Sm137Rs485 => 1,
+                Self::Sm137Can => 2,
+                Self::Sm140EnetX => 16,
+                Self::Sm140Rs485 => 17,
+                Self::Sm140Can => 18,
+                Self::Unknown(other) => other,
+            }
+        }
+    }
+    impl rt::Enumeration for MotorType {
+        type Base = u16;
+        fn from_native(native: u16) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u16 {
+            self.raw()
+        }
+    }
+    /// State.
+    ///
+    /// Internal states of the motor; after power-on it is in alarm.
+    ///
+    /// Manual, line 1953-1974, 1985.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub enum State {
+        /// 0: released. Out of regulation: the shaft can be turned by hand. Manual, line 1961: AXNOREG.
+        Released,
+        /// 1: alarm. As released, but without a direct way back to regulation. Manual, line 1962: AXALARM.
+        Alarm,
+        /// 2: stopped. In regulation: the motor holds its position. Manual, line 1963: AXSTOP.
+        Stopped,
+        /// 3: calibrating current sensors. The offsets of the current sensors are being measured. Manual, line 1964: AXADCOFF.
+        CalibratingCurrentSensors,
+        /// 4: electrical homing. The electrical position of the rotor is being found. Manual, line 1965: AXAZZEL.
+        ElectricalHoming,
+        /// 6: homing. Automatic homing, in search of the index of the encoder. Manual, line 1966: AXAZZAUTO.
+        Homing,
+        /// 7: stopping. Deceleration by AMAXHOLD. Manual, line 1967: AXHOLD.
+        Stopping,
+        /// 8: jogging. Motion at constant speed. Manual, line 1968: AXFREERUN.
+        Jogging,
+        /// 9: positioning. Motion to a position, with the acceleration AMAXTRAJ and at most VMAXTRAJ. Manual, line 1969: AXEXEC.
+        Positioning,
+        /// 10: torque. Not implemented. Manual, line 1970: AXTORQUE.
+        Torque,
+        /// 11: interpolating. Interpolation, which ENET-X alone has. From firmware 110 on. Manual, line 1971, 2268: AXINTERP.
+        Interpolating,
+        /// 13: latching. The position at the index of the encoder is being caught. From firmware 110 on. Manual, line 1972: AXLATCH.
+        Latching,
+        /// 14: braking to alarm. Controlled braking with the acceleration of parameter 0x0119, then alarm. Only of SM140. From firmware 119 on. Manual, line 1973: PREAXALARM.
+        BrakingToAlarm,
+        /// 15: braking to release. Controlled braking with the acceleration of parameter 0x0119, then released. Only of SM140. From firmware 119 on. Manual, line 1974: PREAXNOREG.
+        BrakingToRelease,
+        /// Any other number.
+        Unknown(u16),
+    }
+    impl State {
+        /// The value of a number.
+        pub const fn from_raw(raw: u16) -> Self {
+            match raw {
+                0 => Self::Released,
+                1 => Self::Alarm,
+                2 => Self::Stopped,
+                3 => Self::CalibratingCurrentSensors,
+                4 => Self::ElectricalHoming,
+                6 => Self::Homing,
+                7 => Self::Stopping,
+                8 => Self::Jogging,
+                9 => Self::Positioning,
+                10 => Self::Torque,
+                11 => Self::Interpolating,
+                13 => Self::Latching,
+                14 => Self::BrakingToAlarm,
+                15 => Self::BrakingToRelease,
+                other => Self::Unknown(other),
+            }
+        }
+        /// The number of a value.
+        pub const fn raw(self) -> u16 {
+            match self {
+                Self::Released => 0,
+                Self::Alarm => 1,
+                Self::Stopped => 2,
+                Self::CalibratingCurrentSensors => 3,
+                Self::ElectricalHoming => 4,
+                Self::Homing => 6,
+                Self::Stopping => 7,
+                Self::Jogging => 8,
+                Self::Positioning => 9,
+                Self::Torque => 10,
+                Self::Interpolating => 11,
+                Self::Latching => 13,
+                Self::BrakingToAlarm => 14,
+                Self::BrakingToRelease => 15,
+                Self::Unknown(other) => other,
+            }
+        }
+    }
+    impl rt::Enumeration for State {
         type Base = u16;
         fn from_native(native: u16) -> Self {
             Self::from_raw(native)
@@ -775,6 +5138,87 @@ pub mod types {
             bits.finish()
         }
     }
+    /// BitStato.
+    ///
+    /// Low half of the third byte of each reply; the high half is 0.
+    ///
+    /// Manual, line 211, 2198-2205.
+    #[derive(Clone, Copy, PartialEq)]
+    pub struct BitStato(u8);
+    impl BitStato {
+        /// No bit set.
+        pub const fn new() -> Self {
+            Self(0)
+        }
+        /// All bits as a device sends them.
+        pub const fn from_raw(raw: u8) -> Self {
+            Self(raw & 0xF)
+        }
+        /// All bits as they are.
+        pub const fn raw(self) -> u8 {
+            self.0
+        }
+        /// Bit 0: position not selected. The null request is answered with something else than the real position. Manual, line 2205: MASKBITNOQUOTA\_SM.
+        pub const fn position_not_selected(self) -> bool {
+            self.0 & 0x1 != 0
+        }
+        /// The same with another [`position_not_selected`](Self::position_not_selected).
+        #[must_use]
+        pub const fn with_position_not_selected(self, value: bool) -> Self {
+            Self((self.0 & !0x1) | (value as u8))
+        }
+        /// Bit 1: command complete. 0 while the last command is still being carried out, such as homing or a positioning. Manual, line 2204: MASKBITCOMANDO\_SM.
+        pub const fn command_complete(self) -> bool {
+            self.0 & 0x2 != 0
+        }
+        /// The same with another [`command_complete`](Self::command_complete).
+        #[must_use]
+        pub const fn with_command_complete(self, value: bool) -> Self {
+            Self((self.0 & !0x2) | ((value as u8) << 1))
+        }
+        /// Bit 2: message pending. A message waits for the master: read it with CmdGetAlarm. Manual, line 2203: MASKBITWARNING\_SM.
+        pub const fn message_pending(self) -> bool {
+            self.0 & 0x4 != 0
+        }
+        /// The same with another [`message_pending`](Self::message_pending).
+        #[must_use]
+        pub const fn with_message_pending(self, value: bool) -> Self {
+            Self((self.0 & !0x4) | ((value as u8) << 2))
+        }
+        /// Bit 3: alarm. The motor is in alarm. Manual, line 2202: MASKBITALLARME\_SM.
+        pub const fn alarm(self) -> bool {
+            self.0 & 0x8 != 0
+        }
+        /// The same with another [`alarm`](Self::alarm).
+        #[must_use]
+        pub const fn with_alarm(self, value: bool) -> Self {
+            Self((self.0 & !0x8) | ((value as u8) << 3))
+        }
+    }
+    impl Default for BitStato {
+        fn default() -> Self {
+            Self::new()
+        }
+    }
+    impl rt::Enumeration for BitStato {
+        type Base = rt::Uint<4>;
+        fn from_native(native: u8) -> Self {
+            Self::from_raw(native)
+        }
+        fn native(self) -> u8 {
+            self.0
+        }
+    }
+    impl core::fmt::Debug for BitStato {
+        fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+            let bits = rt::DebugBits::new(f, "BitStato", self.0 as u64);
+            let bits = rt::DebugBits::flag(bits, "position_not_selected", 0x1);
+            let bits = rt::DebugBits::flag(bits, "command_complete", 0x2);
+            let bits = rt::DebugBits::flag(bits, "message_pending", 0x4);
+            let bits = rt::DebugBits::flag(bits, "alarm", 0x8);
+            bits.finish()
+        }
+    }
     /// States of interpolation.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum InterpolationState {
@@ -888,6 +5332,8 @@ pub mod types {
 pub mod codes {
     use ::lexibus as rt;
     /// alarms.
+    ///
+    /// Alarms: the motor leaves regulation. CmdGetAlarm reads them.
     ///
     /// Further columns: remedy.
     pub static ALARMS: &[rt::codes::Code] = &[
@@ -1212,6 +5658,8 @@ pub mod codes {
         }
     }
     /// warnings.
+    ///
+    /// Warnings: the motor stays as it is. CmdGetAlarm reads them.
     ///
     /// Further columns: remedy.
     pub static WARNINGS: &[rt::codes::Code] = &[
