@@ -3,7 +3,7 @@
 use crate::bus::{Parameter, Serial};
 use crate::client::{AsyncClient, Client};
 use crate::error::{Error, LengthError};
-use crate::message::{answer, AsyncMessageClient, Failure, Message, MessageClient, Station, WriteError, Writer};
+use crate::message::{answer, Answer, AsyncMessageClient, Message, MessageClient, Station, WriteError, Writer};
 
 /// Sends a request to one device and waits for its reply, for protocols of messages.
 ///
@@ -243,7 +243,7 @@ impl<X: AsyncExchange, M: ParameterMessages, const N: usize> AsyncClient for Par
 impl<X: Exchange, S: Station, const N: usize> MessageClient for Parameters<X, S, N> {
     type Error = X::Error;
 
-    fn call<M: Message>(&mut self, message: &M) -> Result<M::Reply<'_>, Failure<X::Error, M::Refusal>> {
+    fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, X::Error, M> {
         let mut request = Writer::new(&mut self.request);
         message.write(self.messages.station(), &mut request)?;
         let length = self.exchange.exchange(request.written(), &mut self.reply)?;
@@ -254,7 +254,7 @@ impl<X: Exchange, S: Station, const N: usize> MessageClient for Parameters<X, S,
 impl<X: AsyncExchange, S: Station, const N: usize> AsyncMessageClient for Parameters<X, S, N> {
     type Error = X::Error;
 
-    async fn call<M: Message>(&mut self, message: &M) -> Result<M::Reply<'_>, Failure<X::Error, M::Refusal>> {
+    async fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, X::Error, M> {
         let mut request = Writer::new(&mut self.request);
         message.write(self.messages.station(), &mut request)?;
         let length = self.exchange.exchange(request.written(), &mut self.reply).await?;

@@ -67,7 +67,7 @@ use core::convert::Infallible;
 use crate::error::Error;
 
 pub(crate) use call::answer;
-pub use call::{AsyncMessageClient, Call, Failure, MessageClient, Station};
+pub use call::{Answer, AsyncMessageClient, Call, Failure, MessageClient, Station};
 pub use list::{Group, List, ListIter, Settings, SettingsIter, SettingsRule};
 pub use reader::Reader;
 pub use scale::Scale;

@@ -22,7 +22,7 @@ pub trait MessageClient {
     /// # Errors
     ///
     /// [`Failure::Refused`] where the device refuses with a message of its own, [`Failure::Error`] otherwise.
-    fn call<M: Message>(&mut self, message: &M) -> Result<M::Reply<'_>, Failure<Self::Error, M::Refusal>>;
+    fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, Self::Error, M>;
 }
 
 /// What sends messages to one device without blocking. The same rules as for [`MessageClient`].
@@ -36,13 +36,13 @@ pub trait AsyncMessageClient {
     /// # Errors
     ///
     /// The same as of [`MessageClient::call`].
-    async fn call<M: Message>(&mut self, message: &M) -> Result<M::Reply<'_>, Failure<Self::Error, M::Refusal>>;
+    async fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, Self::Error, M>;
 }
 
 impl<T: MessageClient + ?Sized> MessageClient for &mut T {
     type Error = T::Error;
 
-    fn call<M: Message>(&mut self, message: &M) -> Result<M::Reply<'_>, Failure<T::Error, M::Refusal>> {
+    fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, T::Error, M> {
         T::call(self, message)
     }
 }
@@ -50,10 +50,13 @@ impl<T: MessageClient + ?Sized> MessageClient for &mut T {
 impl<T: AsyncMessageClient + ?Sized> AsyncMessageClient for &mut T {
     type Error = T::Error;
 
-    async fn call<M: Message>(&mut self, message: &M) -> Result<M::Reply<'_>, Failure<T::Error, M::Refusal>> {
+    async fn call<M: Message>(&mut self, message: &M) -> Answer<M::Reply<'_>, T::Error, M> {
         T::call(self, message).await
     }
 }
+
+/// What comes of a message `M`: `T`, or why not. `E` is the client's own error.
+pub type Answer<T, E, M> = Result<T, Failure<E, <M as Message>::Refusal>>;
 
 /// Why a message has no reply. `E` is the client's own error, `R` what the device says where it refuses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,10 +102,7 @@ impl<E: error::Error, R: fmt::Debug> error::Error for Failure<E, R> {
 }
 
 /// The reply to `request`, or the device's refusal.
-pub(crate) fn answer<'r, E, M: Message>(
-    request: &[u8],
-    reply: &'r [u8],
-) -> Result<M::Reply<'r>, Failure<E, M::Refusal>> {
+pub(crate) fn answer<'r, E, M: Message>(request: &[u8], reply: &'r [u8]) -> Answer<M::Reply<'r>, E, M> {
     if let Some(reply) = M::Reply::read(request, &mut Reader::new(reply)) {
         return Ok(reply);
     }
@@ -133,7 +133,7 @@ impl<'c, C, M: Message> Call<'c, C, M> {
     ///
     /// [`Failure::Refused`] where the device refuses, [`Failure::Error`] where a field is outside its limits, the line fails, or
     /// the reply is another one.
-    pub fn send(self) -> Result<M::Reply<'c>, Failure<C::Error, M::Refusal>>
+    pub fn send(self) -> Answer<M::Reply<'c>, C::Error, M>
     where
         C: MessageClient,
     {
@@ -145,7 +145,7 @@ impl<'c, C, M: Message> Call<'c, C, M> {
     /// # Errors
     ///
     /// The same as of [`send`](Self::send).
-    pub async fn send_async(self) -> Result<M::Reply<'c>, Failure<C::Error, M::Refusal>>
+    pub async fn send_async(self) -> Answer<M::Reply<'c>, C::Error, M>
     where
         C: AsyncMessageClient,
     {
@@ -158,7 +158,7 @@ impl<'c, C, M: Message> Call<'c, C, M> {
     /// # Errors
     ///
     /// The same as of [`send`](Self::send).
-    pub fn select(self) -> Result<M::Device<&'c mut C>, Failure<C::Error, M::Refusal>>
+    pub fn select(self) -> Answer<M::Device<&'c mut C>, C::Error, M>
     where
         C: MessageClient,
         M: Selector,
@@ -175,7 +175,7 @@ impl<'c, C, M: Message> Call<'c, C, M> {
     /// # Errors
     ///
     /// The same as of [`send`](Self::send).
-    pub async fn select_async(self) -> Result<M::Device<&'c mut C>, Failure<C::Error, M::Refusal>>
+    pub async fn select_async(self) -> Answer<M::Device<&'c mut C>, C::Error, M>
     where
         C: AsyncMessageClient,
         M: Selector,

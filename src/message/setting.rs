@@ -55,7 +55,7 @@ impl Setting {
     }
 }
 
-impl<V: Fixed, A: Writable, L: On<Serial>> Item<V, A, L> {
+impl<V: Fixed, A: Writable, L: On<Serial, Route = Parameter>> Item<V, A, L> {
     /// The parameter with a value, for a message that carries several.
     ///
     /// # Errors
@@ -67,7 +67,7 @@ impl<V: Fixed, A: Writable, L: On<Serial>> Item<V, A, L> {
         }
         let mut bytes = [0; 8];
         let length = V::encode(value, &mut bytes)?;
-        Ok(Setting::new(self.location().address(), bytes, length))
+        Ok(Setting::new(self.location().route(), bytes, length))
     }
 }
 
@@ -86,7 +86,7 @@ impl Setting {
 
     /// The value as that of `item`; `None` where it is another parameter's, or has another length.
     #[must_use]
-    pub fn value_of<V: Fixed, A, L: On<Serial>>(&self, item: &Item<V, A, L>) -> Option<V::Native> {
-        (item.location().address() == self.parameter).then(|| V::decode(self.value()).ok())?
+    pub fn value_of<V: Fixed, A, L: On<Serial, Route = Parameter>>(&self, item: &Item<V, A, L>) -> Option<V::Native> {
+        (item.location().route() == self.parameter).then(|| V::decode(self.value()).ok())?
     }
 }
