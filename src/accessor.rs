@@ -11,6 +11,7 @@ use crate::client::{AsyncClient, Client};
 use crate::error::{Error, LengthError};
 use crate::item::Item;
 use crate::location::On;
+use crate::route::{ReadRoute, WriteRoute};
 use crate::value::Value;
 
 /// Reads and writes one [`Item`] through one client; made by [`Item::at`].
@@ -45,9 +46,9 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
     where
         C: Client,
         L: On<C::Bus>,
+        L::Route: ReadRoute<C::Bus>,
     {
-        let address = self.item.location().address();
-        let length = self.client.read(address, buffer)?;
+        let length = self.item.location().route().read(self.client, buffer)?;
         Ok(filled(buffer, length)?)
     }
 
@@ -55,9 +56,9 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
     where
         C: AsyncClient,
         L: On<C::Bus>,
+        L::Route: ReadRoute<C::Bus>,
     {
-        let address = self.item.location().address();
-        let length = self.client.read(address, buffer).await?;
+        let length = self.item.location().route().read_async(self.client, buffer).await?;
         Ok(filled(buffer, length)?)
     }
 
@@ -66,16 +67,18 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
     where
         C: Client,
         L: On<C::Bus>,
+        L::Route: WriteRoute<C::Bus>,
     {
-        self.client.write(self.item.location().address(), data)
+        self.item.location().route().write(self.client, data)
     }
 
     async fn send_async(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
     where
         C: AsyncClient,
         L: On<C::Bus>,
+        L::Route: WriteRoute<C::Bus>,
     {
-        self.client.write(self.item.location().address(), data).await
+        self.item.location().route().write_async(self.client, data).await
     }
 }
 

@@ -1,5 +1,7 @@
 //! Further axes of a device: the same objects at other addresses.
 
+use core::time::Duration;
+
 use crate::bus::{Bus, CanOpen, CoE, Object};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
@@ -140,6 +142,10 @@ where
         let address = self.object(address)?;
         self.client.write(address, data)
     }
+
+    fn wait(&mut self, time: Duration) -> Result<(), Error<C::Error>> {
+        self.client.wait(time)
+    }
 }
 
 impl<C: AsyncClient> AsyncClient for Axis<C>
@@ -157,6 +163,10 @@ where
     async fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<C::Error>> {
         let address = self.object(address)?;
         self.client.write(address, data).await
+    }
+
+    async fn wait(&mut self, time: Duration) -> Result<(), Error<C::Error>> {
+        self.client.wait(time).await
     }
 }
 

@@ -2,6 +2,7 @@
 
 use core::fmt;
 
+use crate::image_field::ImageField;
 use crate::register::Register;
 
 /// A bus, or a protocol that runs over one: which form its addresses have.
@@ -33,6 +34,14 @@ pub enum Profinet {}
 #[derive(Clone, Copy, Debug)]
 pub enum Serial {}
 
+/// A fixed process image, as PROFINET carries it in each cycle: fields at fixed bits.
+#[derive(Clone, Copy, Debug)]
+pub enum ProcessImage {}
+
+/// The memory of an EtherCAT slave controller (ETG.1000.4), which a master reads and writes by addresses, without a mailbox.
+#[derive(Clone, Copy, Debug)]
+pub enum Esc {}
+
 impl Bus for CanOpen {
     type Address = Object;
     const NAME: &'static str = "CANopen";
@@ -56,6 +65,16 @@ impl Bus for Profinet {
 impl Bus for Serial {
     type Address = Parameter;
     const NAME: &'static str = "serial";
+}
+
+impl Bus for ProcessImage {
+    type Address = ImageField;
+    const NAME: &'static str = "process image";
+}
+
+impl Bus for Esc {
+    type Address = EscMemory;
+    const NAME: &'static str = "EtherCAT slave controller";
 }
 
 /// An entry of an object dictionary. `Display` writes it as `0x6040:00`, both parts in hexadecimal.
@@ -121,6 +140,23 @@ impl Record {
 /// The number of a parameter of a serial protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Parameter(pub u32);
+
+/// Some bytes of the memory of an EtherCAT slave controller. Numbers have their least significant byte first (ETG.1000.4).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct EscMemory {
+    /// The address of the first byte.
+    pub address: u16,
+    /// How many bytes.
+    pub length: u16,
+}
+
+impl EscMemory {
+    /// `length` bytes from `address` on.
+    #[must_use]
+    pub const fn new(address: u16, length: u16) -> Self {
+        Self { address, length }
+    }
+}
 
 #[cfg(test)]
 mod tests {

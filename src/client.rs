@@ -1,5 +1,8 @@
 //! What carries an item's bytes: implemented by adapters to bus libraries.
 
+use core::future::Future;
+use core::time::Duration;
+
 use crate::bus::Bus;
 use crate::error::Error;
 
@@ -32,6 +35,31 @@ pub trait Client {
     ///
     /// The same as of [`read`](Self::read).
     fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
+
+    /// Waits so long, or a little longer.
+    ///
+    /// Some devices need time between two transfers of one access: see [`Handshake`](crate::Handshake). Unless said
+    /// otherwise, the thread sleeps (feature `std`), or there is no clock; [`Timed`] gives any client one.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoClock`] where the client can't wait; else those of what it has to do meanwhile.
+    fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
+        sleep(time)
+    }
+}
+
+/// Lets the thread sleep, where there are threads.
+#[inline]
+pub(crate) fn sleep<E>(time: Duration) -> Result<(), Error<E>> {
+    #[cfg(feature = "std")]
+    std::thread::sleep(time);
+    let _ = time;
+    if cfg!(feature = "std") {
+        Ok(())
+    } else {
+        Err(Error::NoClock)
+    }
 }
 
 /// Reads and writes one device without blocking. The same rules as for [`Client`].
@@ -62,6 +90,108 @@ pub trait AsyncClient {
     ///
     /// The same as of [`read`](Self::read).
     async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
+
+    /// Waits so long, as [`Client::wait`] does. Unless said otherwise, there is no clock: that is up to the executor.
+    ///
+    /// # Errors
+    ///
+    /// The same as of [`Client::wait`].
+    async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
+        let _ = time;
+        Err(Error::NoClock)
+    }
+}
+
+/// A client with a clock, for the accesses that have to [wait](Client::wait). `D` waits: a function that takes as long as it is
+/// told, or gives a future that does.
+///
+/// ```
+/// use core::time::Duration;
+/// use lexibus::{Client, Timed};
+/// # use lexibus::{Error, Parameter, Serial};
+/// # struct Line;
+/// # impl Client for Line {
+/// #     type Bus = Serial;
+/// #     type Error = ();
+/// #     fn read(&mut self, _: Parameter, _: &mut [u8]) -> Result<usize, Error<()>> { Err(Error::Timeout) }
+/// #     fn write(&mut self, _: Parameter, _: &[u8]) -> Result<(), Error<()>> { Err(Error::Timeout) }
+/// # }
+/// # struct Delay(u32);
+/// # impl Delay { fn delay_us(&mut self, time: u32) { self.0 += time; } }
+/// # let (line, mut delay) = (Line, Delay(0));
+///
+/// // `embedded_hal::delay::DelayNs`, say; of an async client, `embassy_time::Timer::after` or `tokio::time::sleep`.
+/// let mut client = Timed::new(line, |time: Duration| delay.delay_us(time.as_micros() as u32));
+/// client.wait(Duration::from_millis(3))?;
+/// # drop(client);
+/// # assert_eq!(delay.0, 3000);
+/// # Ok::<(), Error<()>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Timed<C, D> {
+    client: C,
+    delay: D,
+}
+
+impl<C, D> Timed<C, D> {
+    /// `client`, which waits with `delay`.
+    pub const fn new(client: C, delay: D) -> Self {
+        Self { client, delay }
+    }
+
+    /// The client.
+    pub fn client(&mut self) -> &mut C {
+        &mut self.client
+    }
+
+    /// Gives the client back.
+    pub fn into_client(self) -> C {
+        self.client
+    }
+
+    pub(crate) const fn inner(&self) -> &C {
+        &self.client
+    }
+}
+
+impl<C: Client, D: FnMut(Duration)> Client for Timed<C, D> {
+    type Bus = C::Bus;
+    type Error = C::Error;
+
+    fn read(&mut self, address: <Self::Bus as Bus>::Address, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>> {
+        self.client.read(address, buffer)
+    }
+
+    fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>> {
+        self.client.write(address, data)
+    }
+
+    fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
+        (self.delay)(time);
+        Ok(())
+    }
+}
+
+impl<C: AsyncClient, D: FnMut(Duration) -> F, F: Future<Output = ()>> AsyncClient for Timed<C, D> {
+    type Bus = C::Bus;
+    type Error = C::Error;
+
+    async fn read(
+        &mut self,
+        address: <Self::Bus as Bus>::Address,
+        buffer: &mut [u8],
+    ) -> Result<usize, Error<Self::Error>> {
+        self.client.read(address, buffer).await
+    }
+
+    async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>> {
+        self.client.write(address, data).await
+    }
+
+    async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
+        (self.delay)(time).await;
+        Ok(())
+    }
 }
 
 impl<T: Client + ?Sized> Client for &mut T {
@@ -74,6 +204,10 @@ impl<T: Client + ?Sized> Client for &mut T {
 
     fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>> {
         T::write(self, address, data)
+    }
+
+    fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
+        T::wait(self, time)
     }
 }
 
@@ -91,6 +225,10 @@ impl<T: AsyncClient + ?Sized> AsyncClient for &mut T {
 
     async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>> {
         T::write(self, address, data).await
+    }
+
+    async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
+        T::wait(self, time).await
     }
 }
 

@@ -20,6 +20,11 @@ pub enum Error<E> {
     UnexpectedReply,
     /// The device didn't answer in time, or the bus didn't become free.
     Timeout,
+    /// The device needs time before it has the value, and the client can't wait ([`Client::wait`](crate::Client::wait)):
+    /// [`Timed`](crate::Timed) gives it a clock.
+    NoClock,
+    /// The device says that its cyclic data aren't valid (the provider status of PROFINET).
+    InvalidData,
     /// The device has no such axis, or that axis doesn't have the object. Nothing was sent.
     NoSuchAxis {
         /// The number of the axis, from 1.
@@ -27,7 +32,8 @@ pub enum Error<E> {
         /// The object, as the first axis has it.
         object: Object,
     },
-    /// The value is outside the item's declared range, or doesn't fit its type. Nothing was sent.
+    /// The value is outside the item's declared range, or doesn't fit its type on this bus. Nothing was sent. Of a value that
+    /// was read: it has more bits on this bus than the item's type, and doesn't fit that.
     OutOfRange(OutOfRange),
     /// The device sent, or the caller gave, a number of bytes that doesn't fit.
     Length(LengthError),
@@ -71,6 +77,8 @@ impl<E: fmt::Display> fmt::Display for Error<E> {
             Self::Abort(code) => write!(f, "the device refused: {code}"),
             Self::UnexpectedReply => f.write_str("unexpected reply"),
             Self::Timeout => f.write_str("no answer in time"),
+            Self::NoClock => f.write_str("the device needs time, and the client can't wait"),
+            Self::InvalidData => f.write_str("the device says that its cyclic data aren't valid"),
             Self::NoSuchAxis { axis, object } => write!(f, "there is no axis {axis} that has object {object}"),
             Self::OutOfRange(error) => error.fmt(f),
             Self::Length(error) => error.fmt(f),

@@ -86,6 +86,7 @@ mod exchange;
 mod flags;
 pub mod framing;
 mod identity;
+mod image_field;
 mod initial;
 pub mod interface;
 mod item;
@@ -98,6 +99,7 @@ pub mod profinet;
 mod quantity;
 mod range;
 mod register;
+mod route;
 #[cfg(feature = "std")]
 pub mod sim;
 pub mod table;
@@ -111,8 +113,8 @@ pub use access::{Const, Readable, Ro, Rw, Wo, Writable};
 pub use accessor::Accessor;
 pub use axes::{Axes, Axis, AxisBus, AxisRange, AxisStep};
 pub use bit_field::DebugBits;
-pub use bus::{Bus, CanOpen, CoE, Modbus, Object, Parameter, Profinet, Record, Serial};
-pub use client::{AsyncClient, Client};
+pub use bus::{Bus, CanOpen, CoE, Esc, EscMemory, Modbus, Object, Parameter, ProcessImage, Profinet, Record, Serial};
+pub use client::{AsyncClient, Client, Timed};
 pub use composite::Composite;
 pub use data_type::DataType;
 pub use emergency::Emergency;
@@ -121,11 +123,12 @@ pub use error::{Error, LengthError, OutOfRange, TextError};
 pub use exchange::{AsyncExchange, Exchange, ParameterMessages, Parameters};
 pub use flags::Flags;
 pub use identity::Identity;
+pub use image_field::{ImageField, ImageOrder};
 pub use initial::{AddNodeId, Initial};
 pub use item::Item;
 pub use location::{
     Absent, Location, On, OnCanOpen, OnCanOpenAndCoE, OnCanOpenAndModbus, OnCanOpenCoEAndModbus, OnCoE, OnCoEAndModbus,
-    OnModbus, OnProfinet, OnSerial,
+    OnEsc, OnImage, OnModbus, OnProfinet, OnSerial,
 };
 pub use machine::{Step, Transition};
 pub use node_id::NodeId;
@@ -133,6 +136,7 @@ pub use pdo::{AnyPdo, CobId, Mappable, MappedEntry, Pdo, Remappable, Rpdo, SdoWr
 pub use quantity::{Exponential, Fraction, Number, OrNone, PerItem, Quantity, Reciprocal, Scaled};
 pub use range::Range;
 pub use register::{Register, RegisterPart, RegisterTable, WordOrder};
+pub use route::{Handshake, Limited, ReadRoute, ReadWindow, Resized, Route, Split, Through, WriteRoute, WriteWindow};
 pub use table::{AccessRights, Bound, Entry, RawInitial};
 pub use text::{Domain, OctetString, Opaque, UnicodeString, Utf16, VisibleString};
 pub use time::{TimeDifference, TimeOfDay};

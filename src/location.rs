@@ -1,13 +1,17 @@
-//! Where an item is found: at most one address on each bus.
+//! Where an item is found: at most one route on each bus.
 
-use crate::bus::{Bus, CanOpen, CoE, Modbus, Object, Parameter, Profinet, Record, Serial};
+use crate::bus::{
+    Bus, CanOpen, CoE, Esc, EscMemory, Modbus, Object, Parameter, ProcessImage, Profinet, Record, Serial,
+};
+use crate::image_field::ImageField;
 use crate::register::Register;
+use crate::route::Route;
 
 /// Stands in a [`Location`] for a bus on which the item doesn't exist.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Absent;
 
-/// An item's address on each bus. Each field is the bus's address type, or [`Absent`].
+/// How an item is reached on each bus. Each field is a [`Route`], as a rule the bus's address itself, or [`Absent`].
 ///
 /// ```
 /// use lexibus::{Absent, Location, Modbus, Object, On, Register};
@@ -18,74 +22,67 @@ pub struct Absent;
 ///     modbus: Register::high_first(0x8009, 2),
 ///     profinet: Absent,
 ///     serial: Absent,
+///     image: Absent,
+///     esc: Absent,
 /// };
-/// assert_eq!(On::<Modbus>::address(&TARGET_POSITION).address, 0x8009);
+/// assert_eq!(On::<Modbus>::route(&TARGET_POSITION).address, 0x8009);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Location<C = Absent, E = Absent, M = Absent, P = Absent, S = Absent> {
-    /// On CANopen: [`Object`] or [`Absent`].
+pub struct Location<C = Absent, E = Absent, M = Absent, P = Absent, S = Absent, I = Absent, X = Absent> {
+    /// On CANopen: an [`Object`], another [`Route`] over objects, or [`Absent`].
     pub canopen: C,
-    /// On CANopen over EtherCAT: [`Object`] or [`Absent`].
+    /// On CANopen over EtherCAT: the same.
     pub coe: E,
-    /// On Modbus: [`Register`] or [`Absent`].
+    /// On Modbus: a [`Register`], another [`Route`] over registers, or [`Absent`].
     pub modbus: M,
-    /// On PROFINET: [`Record`] or [`Absent`].
+    /// In a record of PROFINET: a [`Record`], or [`Absent`].
     pub profinet: P,
-    /// On a serial protocol: [`Parameter`] or [`Absent`].
+    /// On a serial protocol: a [`Parameter`], or [`Absent`].
     pub serial: S,
+    /// In a fixed process image: an [`ImageField`](crate::ImageField), another [`Route`] over such fields, or [`Absent`].
+    pub image: I,
+    /// In the memory of an EtherCAT slave controller: an [`EscMemory`](crate::EscMemory), or [`Absent`].
+    pub esc: X,
 }
 
-impl<C, E, M, P, S> Location<C, E, M, P, S> {
-    /// The address on each bus.
+impl<C, E, M, P, S, I, X> Location<C, E, M, P, S, I, X> {
+    /// The route on each bus.
     #[must_use]
-    pub const fn new(canopen: C, coe: E, modbus: M, profinet: P, serial: S) -> Self {
-        Self { canopen, coe, modbus, profinet, serial }
+    pub const fn new(canopen: C, coe: E, modbus: M, profinet: P, serial: S, image: I, esc: X) -> Self {
+        Self { canopen, coe, modbus, profinet, serial, image, esc }
     }
 }
 
-/// Implemented by the locations that have an address on bus `B`.
-#[diagnostic::on_unimplemented(
-    message = "this item doesn't exist on `{B}`",
-    label = "the item has no address on the client's bus"
-)]
+/// Implemented by the locations that have a route on bus `B`.
 pub trait On<B: Bus> {
-    /// The item's address on bus `B`.
-    fn address(&self) -> B::Address;
+    /// How the item is reached there.
+    type Route: Route<B>;
+
+    /// The item's route on bus `B`.
+    fn route(&self) -> Self::Route;
 }
 
-impl<E, M, P, S> On<CanOpen> for Location<Object, E, M, P, S> {
-    #[inline]
-    fn address(&self) -> Object {
-        self.canopen
-    }
+macro_rules! on {
+    ($($bus:ident $field:ident $location:ident<$($parameter:ident),*> $(, $other:ident)*;)*) => {$(
+        impl<R: Route<$bus> $(, $other)*> On<$bus> for $location<$($parameter),*> {
+            type Route = R;
+
+            #[inline]
+            fn route(&self) -> R {
+                self.$field
+            }
+        }
+    )*};
 }
 
-impl<C, M, P, S> On<CoE> for Location<C, Object, M, P, S> {
-    #[inline]
-    fn address(&self) -> Object {
-        self.coe
-    }
-}
-
-impl<C, E, P, S> On<Modbus> for Location<C, E, Register, P, S> {
-    #[inline]
-    fn address(&self) -> Register {
-        self.modbus
-    }
-}
-
-impl<C, E, M, S> On<Profinet> for Location<C, E, M, Record, S> {
-    #[inline]
-    fn address(&self) -> Record {
-        self.profinet
-    }
-}
-
-impl<C, E, M, P> On<Serial> for Location<C, E, M, P, Parameter> {
-    #[inline]
-    fn address(&self) -> Parameter {
-        self.serial
-    }
+on! {
+    CanOpen canopen Location<R, E, M, P, S, I, X>, E, M, P, S, I, X;
+    CoE coe Location<C, R, M, P, S, I, X>, C, M, P, S, I, X;
+    Modbus modbus Location<C, E, R, P, S, I, X>, C, E, P, S, I, X;
+    Profinet profinet Location<C, E, M, R, S, I, X>, C, E, M, S, I, X;
+    Serial serial Location<C, E, M, P, R, I, X>, C, E, M, P, I, X;
+    ProcessImage image Location<C, E, M, P, S, R, X>, C, E, M, P, S, X;
+    Esc esc Location<C, E, M, P, S, I, R>, C, E, M, P, S, I;
 }
 
 /// The location of an item that exists on CANopen only.
@@ -114,6 +111,12 @@ pub type OnProfinet = Location<Absent, Absent, Absent, Record>;
 
 /// The location of an item that exists on a serial protocol only.
 pub type OnSerial = Location<Absent, Absent, Absent, Absent, Parameter>;
+
+/// The location of an item that exists in a fixed process image only.
+pub type OnImage = Location<Absent, Absent, Absent, Absent, Absent, ImageField>;
+
+/// The location of an item that exists in the memory of an EtherCAT slave controller only.
+pub type OnEsc = Location<Absent, Absent, Absent, Absent, Absent, Absent, EscMemory>;
 
 impl OnCanOpen {
     /// An object of a CANopen device.
@@ -175,7 +178,7 @@ impl OnProfinet {
     /// A part of a record of a PROFINET device.
     #[must_use]
     pub const fn record(part: Record) -> Self {
-        Location { canopen: Absent, coe: Absent, modbus: Absent, profinet: part, serial: Absent }
+        Location::new(Absent, Absent, Absent, part, Absent, Absent, Absent)
     }
 }
 
@@ -183,16 +186,32 @@ impl OnSerial {
     /// A parameter of a serial protocol.
     #[must_use]
     pub const fn serial(number: u32) -> Self {
-        Location { canopen: Absent, coe: Absent, modbus: Absent, profinet: Absent, serial: Parameter(number) }
+        Location::new(Absent, Absent, Absent, Absent, Parameter(number), Absent, Absent)
+    }
+}
+
+impl OnImage {
+    /// A field of a fixed process image.
+    #[must_use]
+    pub const fn field(field: ImageField) -> Self {
+        Location::new(Absent, Absent, Absent, Absent, Absent, field, Absent)
+    }
+}
+
+impl OnEsc {
+    /// Memory of a slave controller.
+    #[must_use]
+    pub const fn memory(address: u16, length: u16) -> Self {
+        Location::new(Absent, Absent, Absent, Absent, Absent, Absent, EscMemory::new(address, length))
     }
 }
 
 const fn registers<C: Copy, E: Copy>(canopen: C, coe: E, modbus: Register) -> Location<C, E, Register> {
-    Location { canopen, coe, modbus, profinet: Absent, serial: Absent }
+    Location::new(canopen, coe, modbus, Absent, Absent, Absent, Absent)
 }
 
 const fn objects<C: Copy, E: Copy>(canopen: C, coe: E) -> Location<C, E> {
-    Location { canopen, coe, modbus: Absent, profinet: Absent, serial: Absent }
+    Location::new(canopen, coe, Absent, Absent, Absent, Absent, Absent)
 }
 
 #[cfg(test)]
@@ -202,38 +221,44 @@ mod tests {
     #[test]
     fn object_is_found_on_each_of_its_buses() {
         let object = Object { index: 0x6040, sub_index: 1 };
-        assert_eq!(On::<CanOpen>::address(&OnCanOpen::canopen(0x6040, 1)), object);
-        assert_eq!(On::<CoE>::address(&OnCoE::coe(0x6040, 1)), object);
-        assert_eq!(On::<CanOpen>::address(&OnCanOpenAndCoE::object(0x6040, 1)), object);
-        assert_eq!(On::<CoE>::address(&OnCanOpenAndCoE::object(0x6040, 1)), object);
+        assert_eq!(On::<CanOpen>::route(&OnCanOpen::canopen(0x6040, 1)), object);
+        assert_eq!(On::<CoE>::route(&OnCoE::coe(0x6040, 1)), object);
+        assert_eq!(On::<CanOpen>::route(&OnCanOpenAndCoE::object(0x6040, 1)), object);
+        assert_eq!(On::<CoE>::route(&OnCanOpenAndCoE::object(0x6040, 1)), object);
     }
 
     #[test]
     fn a_register_may_be_an_object_too() {
         let (object, register) = (Object { index: 0x2008, sub_index: 1 }, Register::low_first(8, 2));
         let everywhere = OnCanOpenCoEAndModbus::register(0x2008, 1, register);
-        assert_eq!(On::<CanOpen>::address(&everywhere), object);
-        assert_eq!(On::<CoE>::address(&everywhere), object);
-        assert_eq!(On::<Modbus>::address(&everywhere), register);
-        assert_eq!(On::<CanOpen>::address(&OnCanOpenAndModbus::register(0x2008, 1, register)), object);
-        assert_eq!(On::<CoE>::address(&OnCoEAndModbus::register(0x2008, 1, register)), object);
-        assert_eq!(On::<Modbus>::address(&OnModbus::modbus(register)), register);
-        assert_eq!(On::<Serial>::address(&OnSerial::serial(70_000)), Parameter(70_000));
+        assert_eq!(On::<CanOpen>::route(&everywhere), object);
+        assert_eq!(On::<CoE>::route(&everywhere), object);
+        assert_eq!(On::<Modbus>::route(&everywhere), register);
+        assert_eq!(On::<CanOpen>::route(&OnCanOpenAndModbus::register(0x2008, 1, register)), object);
+        assert_eq!(On::<CoE>::route(&OnCoEAndModbus::register(0x2008, 1, register)), object);
+        assert_eq!(On::<Modbus>::route(&OnModbus::modbus(register)), register);
+        assert_eq!(On::<Serial>::route(&OnSerial::serial(70_000)), Parameter(70_000));
     }
 
     #[test]
     fn every_bus_has_its_own_address() {
+        let field = ImageField::output(24, 32);
         let everywhere = Location {
             canopen: Object { index: 1, sub_index: 2 },
             coe: Object { index: 3, sub_index: 4 },
             modbus: Register::holding(5),
             profinet: Record::new(1, 1, 6, 7),
             serial: Parameter(8),
+            image: field,
+            esc: EscMemory::new(0x120, 2),
         };
-        assert_eq!(On::<CanOpen>::address(&everywhere).index, 1);
-        assert_eq!(On::<CoE>::address(&everywhere).index, 3);
-        assert_eq!(On::<Modbus>::address(&everywhere).address, 5);
-        assert_eq!(On::<Profinet>::address(&everywhere).offset, 7);
-        assert_eq!(On::<Serial>::address(&everywhere), Parameter(8));
+        assert_eq!(On::<CanOpen>::route(&everywhere).index, 1);
+        assert_eq!(On::<CoE>::route(&everywhere).index, 3);
+        assert_eq!(On::<Modbus>::route(&everywhere).address, 5);
+        assert_eq!(On::<Profinet>::route(&everywhere).offset, 7);
+        assert_eq!(On::<Serial>::route(&everywhere), Parameter(8));
+        assert_eq!(On::<ProcessImage>::route(&everywhere), field);
+        assert_eq!(On::<ProcessImage>::route(&OnImage::field(field)), field);
+        assert_eq!(On::<Esc>::route(&everywhere), On::<Esc>::route(&OnEsc::memory(0x120, 2)));
     }
 }

@@ -113,7 +113,7 @@ fn images_have_items_and_fields_of_their_own() {
     let own = device.groups.iter().find(|group| matches!(group.kind, GroupKind::Image { .. })).expect("a group");
     assert_eq!(own.items.iter().map(|item| item.name.as_str()).collect::<Vec<_>>(), ["ready", "text"]);
     let speed = device.groups.iter().flat_map(|group| &group.items).find(|item| item.name == "Speed").expect("it");
-    assert_eq!(speed.bindings[1], Binding::Image { image: "in".into(), bit_offset: 8, bits: 16 });
+    assert_eq!(speed.bindings[1], Binding::Image { image: "in".into(), bit_offset: 8, bits: 16, ty: None });
 }
 
 #[test]

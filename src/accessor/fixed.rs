@@ -6,6 +6,7 @@ use crate::client::{AsyncClient, Client};
 use crate::error::{Error, LengthError, OutOfRange};
 use crate::item::Item;
 use crate::location::On;
+use crate::route::{ReadRoute, WriteRoute};
 use crate::value::{byte_len, Fixed};
 
 impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
@@ -20,10 +21,11 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
         A: Readable,
         C: Client,
         L: On<C::Bus>,
+        L::Route: ReadRoute<C::Bus>,
     {
         let mut buffer = [0; 8];
         let room = room::<V>(&mut buffer);
-        let length = self.client.read(self.item.location().address(), room)?;
+        let length = self.item.location().route().read(self.client, room)?;
         decode::<V, _>(room, length)
     }
 
@@ -37,10 +39,11 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
         A: Readable,
         C: AsyncClient,
         L: On<C::Bus>,
+        L::Route: ReadRoute<C::Bus>,
     {
         let mut buffer = [0; 8];
         let room = room::<V>(&mut buffer);
-        let length = self.client.read(self.item.location().address(), room).await?;
+        let length = self.item.location().route().read_async(self.client, room).await?;
         decode::<V, _>(room, length)
     }
 
@@ -55,6 +58,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
         A: Writable,
         C: Client,
         L: On<C::Bus>,
+        L::Route: WriteRoute<C::Bus>,
     {
         let mut buffer = [0; 8];
         let length = encode(&self.item, value, &mut buffer)?;
@@ -71,6 +75,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
         A: Writable,
         C: AsyncClient,
         L: On<C::Bus>,
+        L::Route: WriteRoute<C::Bus>,
     {
         let mut buffer = [0; 8];
         let length = encode(&self.item, value, &mut buffer)?;

@@ -5,6 +5,7 @@ use crate::access::{Readable, Writable};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::location::On;
+use crate::route::{ReadRoute, WriteRoute};
 use crate::text::{Domain, OctetString, Opaque};
 
 macro_rules! octets {
@@ -20,6 +21,7 @@ macro_rules! octets {
                 A: Readable,
                 C: Client,
                 L: On<C::Bus>,
+                L::Route: ReadRoute<C::Bus>,
             {
                 self.fetch(buffer)
             }
@@ -34,6 +36,7 @@ macro_rules! octets {
                 A: Readable,
                 C: AsyncClient,
                 L: On<C::Bus>,
+                L::Route: ReadRoute<C::Bus>,
             {
                 self.fetch_async(buffer).await
             }
@@ -48,6 +51,7 @@ macro_rules! octets {
                 A: Writable,
                 C: Client,
                 L: On<C::Bus>,
+                L::Route: WriteRoute<C::Bus>,
             {
                 self.send(data)
             }
@@ -62,6 +66,7 @@ macro_rules! octets {
                 A: Writable,
                 C: AsyncClient,
                 L: On<C::Bus>,
+                L::Route: WriteRoute<C::Bus>,
             {
                 self.send_async(data).await
             }

@@ -6,6 +6,7 @@ use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::location::On;
 use crate::quantity::Quantity;
+use crate::route::{ReadRoute, WriteRoute};
 
 impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
     /// Reads the value in its unit: an `f64`, or `None` where the raw number means something else.
@@ -18,6 +19,7 @@ impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
         A: Readable,
         C: Client,
         L: On<C::Bus>,
+        L::Route: ReadRoute<C::Bus>,
     {
         self.read().map(|raw| V::physical(raw, ()))
     }
@@ -32,6 +34,7 @@ impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
         A: Readable,
         C: AsyncClient,
         L: On<C::Bus>,
+        L::Route: ReadRoute<C::Bus>,
     {
         self.read_async().await.map(|raw| V::physical(raw, ()))
     }
@@ -47,6 +50,7 @@ impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
         A: Writable,
         C: Client,
         L: On<C::Bus>,
+        L::Route: WriteRoute<C::Bus>,
     {
         self.write(V::raw(physical, ())?)
     }
@@ -61,6 +65,7 @@ impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
         A: Writable,
         C: AsyncClient,
         L: On<C::Bus>,
+        L::Route: WriteRoute<C::Bus>,
     {
         self.write_async(V::raw(physical, ())?).await
     }
@@ -78,6 +83,7 @@ impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
         A: Readable,
         C: Client,
         L: On<C::Bus>,
+        L::Route: ReadRoute<C::Bus>,
     {
         self.read().map(|raw| V::physical(raw, other))
     }
@@ -92,6 +98,7 @@ impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
         A: Readable,
         C: AsyncClient,
         L: On<C::Bus>,
+        L::Route: ReadRoute<C::Bus>,
     {
         self.read_async().await.map(|raw| V::physical(raw, other))
     }
@@ -106,6 +113,7 @@ impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
         A: Writable,
         C: Client,
         L: On<C::Bus>,
+        L::Route: WriteRoute<C::Bus>,
     {
         self.write(V::raw(physical, other)?)
     }
@@ -120,6 +128,7 @@ impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
         A: Writable,
         C: AsyncClient,
         L: On<C::Bus>,
+        L::Route: WriteRoute<C::Bus>,
     {
         self.write_async(V::raw(physical, other)?).await
     }

@@ -5,6 +5,7 @@ use crate::access::{Readable, Writable};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::location::On;
+use crate::route::{ReadRoute, WriteRoute};
 use crate::text::{decode_visible, encode_utf16, encode_visible, UnicodeString, Utf16, VisibleString};
 
 impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
@@ -18,6 +19,7 @@ impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
         A: Readable,
         C: Client,
         L: On<C::Bus>,
+        L::Route: ReadRoute<C::Bus>,
     {
         Ok(decode_visible(self.fetch(buffer)?)?)
     }
@@ -32,6 +34,7 @@ impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
         A: Readable,
         C: AsyncClient,
         L: On<C::Bus>,
+        L::Route: ReadRoute<C::Bus>,
     {
         Ok(decode_visible(self.fetch_async(buffer).await?)?)
     }
@@ -46,6 +49,7 @@ impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
         A: Writable,
         C: Client,
         L: On<C::Bus>,
+        L::Route: WriteRoute<C::Bus>,
     {
         self.send(encode_visible(text)?)
     }
@@ -60,6 +64,7 @@ impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
         A: Writable,
         C: AsyncClient,
         L: On<C::Bus>,
+        L::Route: WriteRoute<C::Bus>,
     {
         self.send_async(encode_visible(text)?).await
     }
@@ -76,6 +81,7 @@ impl<C, A, L> Accessor<'_, C, UnicodeString, A, L> {
         A: Readable,
         C: Client,
         L: On<C::Bus>,
+        L::Route: ReadRoute<C::Bus>,
     {
         Ok(Utf16::new(self.fetch(buffer)?)?)
     }
@@ -90,6 +96,7 @@ impl<C, A, L> Accessor<'_, C, UnicodeString, A, L> {
         A: Readable,
         C: AsyncClient,
         L: On<C::Bus>,
+        L::Route: ReadRoute<C::Bus>,
     {
         Ok(Utf16::new(self.fetch_async(buffer).await?)?)
     }
@@ -104,6 +111,7 @@ impl<C, A, L> Accessor<'_, C, UnicodeString, A, L> {
         A: Writable,
         C: Client,
         L: On<C::Bus>,
+        L::Route: WriteRoute<C::Bus>,
     {
         self.send(encode_utf16(text, scratch)?)
     }
@@ -118,6 +126,7 @@ impl<C, A, L> Accessor<'_, C, UnicodeString, A, L> {
         A: Writable,
         C: AsyncClient,
         L: On<C::Bus>,
+        L::Route: WriteRoute<C::Bus>,
     {
         self.send_async(encode_utf16(text, scratch)?).await
     }

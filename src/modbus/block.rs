@@ -32,13 +32,13 @@ pub trait BlockItem {
     fn decode(&self, bytes: &[u8]) -> Result<Self::Native, LengthError>;
 }
 
-impl<V: Fixed, A: Readable, L: On<Modbus>> BlockItem for Item<V, A, L> {
+impl<V: Fixed, A: Readable, L: On<Modbus, Route = Register>> BlockItem for Item<V, A, L> {
     type Native = V::Native;
 
     const LENGTH: usize = byte_len(V::BITS);
 
     fn register(&self) -> Register {
-        self.location().address()
+        self.location().route()
     }
 
     fn decode(&self, bytes: &[u8]) -> Result<V::Native, LengthError> {

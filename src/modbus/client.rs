@@ -1,10 +1,13 @@
 //! Clients that read blocks.
 
+use core::future::Future;
+use core::time::Duration;
+
 use super::block::Block;
 use super::limits::Limits;
 use super::reading::{Reading, MAX_BYTES};
 use crate::bus::Modbus;
-use crate::client::{AsyncClient, Client};
+use crate::client::{AsyncClient, Client, Timed};
 use crate::error::Error;
 
 /// A client that reads several items at once.
@@ -81,6 +84,18 @@ pub trait AsyncRegisterClient: AsyncClient<Bus = Modbus> {
             reading.answered(&answer[..length], received)?;
         }
         Ok(block.values(reading.values())?)
+    }
+}
+
+impl<C: RegisterClient, D: FnMut(Duration)> RegisterClient for Timed<C, D> {
+    fn limits(&self) -> &Limits {
+        self.inner().limits()
+    }
+}
+
+impl<C: AsyncRegisterClient, D: FnMut(Duration) -> F, F: Future<Output = ()>> AsyncRegisterClient for Timed<C, D> {
+    fn limits(&self) -> &Limits {
+        self.inner().limits()
     }
 }
 

@@ -1,7 +1,10 @@
 //! Where the data of each submodule are in the frames of a device, and what carries these.
 
+use core::time::Duration;
+
 use super::io::{IoData, IoStatus, WithStatus};
 use super::plan::Plan;
+use crate::client::sleep;
 use crate::error::{Error, LengthError};
 
 /// Exchanges the process image of one device with it, waiting for each cycle.
@@ -45,6 +48,16 @@ pub trait ImageClient {
     ///
     /// [`Error::Client`] where the bus fails, or the device is gone, [`Error::Length`] where a frame has another length.
     fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<Self::Error>>;
+
+    /// Waits so long, as [`Client::wait`](crate::Client::wait) does. [`Cyclic`](super::Cyclic) calls it between two cycles of an
+    /// access that takes time, with at most 1 ms.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoClock`] where there is no clock: unless said otherwise, without the feature `std`.
+    fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
+        sleep(time)
+    }
 }
 
 /// Exchanges the process image of one device with it without blocking. The same rules as for [`ImageClient`].
@@ -76,6 +89,16 @@ pub trait AsyncImageClient {
     ///
     /// The same as of [`ImageClient::cycle`].
     async fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<Self::Error>>;
+
+    /// Waits so long, as [`AsyncClient::wait`](crate::AsyncClient::wait) does.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NoClock`] where there is no clock: always, unless said otherwise.
+    async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
+        let _ = time;
+        Err(Error::NoClock)
+    }
 }
 
 impl<T: ImageClient + ?Sized> ImageClient for &mut T {
@@ -84,6 +107,10 @@ impl<T: ImageClient + ?Sized> ImageClient for &mut T {
     fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<T::Error>> {
         T::cycle(self, outputs, inputs)
     }
+
+    fn wait(&mut self, time: Duration) -> Result<(), Error<T::Error>> {
+        T::wait(self, time)
+    }
 }
 
 impl<T: AsyncImageClient + ?Sized> AsyncImageClient for &mut T {
@@ -91,6 +118,10 @@ impl<T: AsyncImageClient + ?Sized> AsyncImageClient for &mut T {
 
     async fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<T::Error>> {
         T::cycle(self, outputs, inputs).await
+    }
+
+    async fn wait(&mut self, time: Duration) -> Result<(), Error<T::Error>> {
+        T::wait(self, time).await
     }
 }
 
@@ -104,12 +135,12 @@ pub struct IoSpan {
 }
 
 impl IoSpan {
-    fn of(self, frame: &[u8]) -> Result<&[u8], LengthError> {
+    pub(super) fn of(self, frame: &[u8]) -> Result<&[u8], LengthError> {
         let error = LengthError::new(self.offset + self.length, frame.len());
         frame.get(self.offset..).and_then(|rest| rest.get(..self.length)).ok_or(error)
     }
 
-    fn of_mut(self, frame: &mut [u8]) -> Result<&mut [u8], LengthError> {
+    pub(super) fn of_mut(self, frame: &mut [u8]) -> Result<&mut [u8], LengthError> {
         let error = LengthError::new(self.offset + self.length, frame.len());
         frame.get_mut(self.offset..).and_then(|rest| rest.get_mut(..self.length)).ok_or(error)
     }

@@ -11,7 +11,7 @@
 //! A controller library carries the bytes: an adapter to it implements [`RecordClient`] for records and [`ImageClient`] for the
 //! process image (or [`AsyncRecordClient`] and [`AsyncImageClient`]). On the one stand [`RecordAccess`], for records as structs and
 //! items within them, and [`parameter_access`], for the parameters of PROFIdrive; [`Plan::layout`] says where the data of a
-//! submodule are in the other.
+//! submodule are in the other, and [`Cyclic`] reads and writes items in them.
 //!
 //! ```
 //! use lexibus::profinet::{Dap, IoLengths, Module, ModuleUse, Places, Plan, PlanError, Submodule, SubmoduleUse};
@@ -62,6 +62,7 @@
 //! ```
 
 pub mod be;
+mod cyclic;
 mod descriptor;
 mod diagnosis;
 mod f_parameters;
@@ -77,6 +78,7 @@ mod record_access;
 mod record_client;
 mod status;
 
+pub use cyclic::Cyclic;
 pub use descriptor::{Dap, IoLengths, Module, ModuleUse, Places, Record, Submodule, SubmoduleUse};
 pub use diagnosis::{
     ChannelDiagnoses, ChannelDiagnosis, ChannelDirection, ChannelError, ChannelProperties, ChannelSpecifier,

@@ -3,6 +3,7 @@
 use core::borrow::BorrowMut;
 use core::fmt;
 use core::marker::PhantomData;
+use core::time::Duration;
 
 use super::device::{Device, Network};
 use super::fault::Fault;
@@ -62,6 +63,11 @@ macro_rules! clients {
             fn write(&mut self, address: $address, data: &[u8]) -> Result<(), Error<Fault>> {
                 $write(self.device(), address, data)
             }
+
+            /// Simulated devices need no time.
+            fn wait(&mut self, _: Duration) -> Result<(), Error<Fault>> {
+                Ok(())
+            }
         }
 
         impl<D: BorrowMut<Device>> AsyncClient for Connection<$bus, D> {
@@ -74,6 +80,10 @@ macro_rules! clients {
 
             async fn write(&mut self, address: $address, data: &[u8]) -> Result<(), Error<Fault>> {
                 $write(self.device(), address, data)
+            }
+
+            async fn wait(&mut self, _: Duration) -> Result<(), Error<Fault>> {
+                Ok(())
             }
         }
     )*};

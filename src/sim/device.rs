@@ -28,11 +28,11 @@ const FIRST_NODE: NodeId = match NodeId::new(1) {
 };
 
 /// What reacts to a write.
-type Reaction = Box<dyn FnMut(&mut Device, &Entry) -> Result<(), AbortCode> + Send>;
+type Reaction = Box<dyn FnMut(&mut Device, usize, &Entry) -> Result<(), AbortCode> + Send>;
 
 /// The items after whose write it is called: one, or all.
 struct Hook {
-    slot: Option<usize>,
+    slots: Option<Vec<usize>>,
     reaction: Reaction,
 }
 
@@ -133,7 +133,7 @@ impl Device {
     ///
     /// Besides those of every method, [`AbortCode::LENGTH`] where the handle has another type than the table.
     pub fn get<V: Fixed, A, L: Place>(&self, item: Item<V, A, L>) -> Result<V::Native, AbortCode> {
-        self.value::<V>(self.slot(&item, 1)?)
+        self.axis_value(&item, 1)
     }
 
     /// Gives an item a value, as the device itself does: whatever the access rights and limits, and with no reaction.
@@ -143,7 +143,7 @@ impl Device {
     /// Besides those of every method, [`AbortCode::LENGTH`] where the handle has another type than the table, and
     /// [`AbortCode::TOO_HIGH`] where the value doesn't fit its type.
     pub fn set<V: Fixed, A, L: Place>(&mut self, item: Item<V, A, L>, value: V::Native) -> Result<(), AbortCode> {
-        self.set_value::<V>(self.slot(&item, 1)?, value)
+        self.set_axis_value(&item, 1, value)
     }
 
     /// The bytes of an item, the least significant first; texts and domains have no other form.
@@ -179,9 +179,8 @@ impl Device {
         item: Item<V, A, L>,
         value: V::Native,
     ) -> Result<(), AbortCode> {
-        let at = self.slot(&item, 1)?;
-        self.set_value::<V>(at, value)?;
-        self.keep(at);
+        self.set_axis_value(&item, 1, value)?;
+        self.slots_of(&item, 1)?.into_iter().for_each(|at| self.keep(at));
         Ok(())
     }
 
@@ -226,7 +225,9 @@ impl Device {
         &mut self,
         reaction: impl FnMut(&mut Device, &Entry) -> Result<(), AbortCode> + Send + 'static,
     ) {
-        self.hooks.push(Hook { slot: None, reaction: Box::new(reaction) });
+        let mut reaction = reaction;
+        let reaction = move |device: &mut Device, _: usize, entry: &Entry| reaction(device, entry);
+        self.hooks.push(Hook { slots: None, reaction: Box::new(reaction) });
     }
 
     /// The next access of a client fails so, and what comes after the one before it where this is called several times.
@@ -282,8 +283,8 @@ impl Device {
     pub(super) fn react(&mut self, at: usize) -> Result<(), AbortCode> {
         let entry = self.slots.get(at).entry;
         let mut hooks = core::mem::take(&mut self.hooks);
-        let concerned = hooks.iter_mut().filter(|hook| hook.slot.map_or(true, |slot| slot == at));
-        let result = { concerned }.try_for_each(|hook| (hook.reaction)(self, &entry));
+        let concerned = hooks.iter_mut().filter(|hook| hook.slots.as_ref().map_or(true, |slots| slots.contains(&at)));
+        let result = { concerned }.try_for_each(|hook| (hook.reaction)(self, at, &entry));
         // A reaction may have added some.
         hooks.append(&mut self.hooks);
         self.hooks = hooks;
@@ -303,18 +304,50 @@ impl Device {
         self.slots.of_object(object)
     }
 
-    fn value<V: Fixed>(&self, at: usize) -> Result<V::Native, AbortCode> {
-        V::decode(&self.slots.get(at).value).map_err(|_| AbortCode::LENGTH)
+    /// All places of an item: where it has another width on Modbus, the register is one by itself.
+    fn slots_of(&self, place: &impl Place, axis: u8) -> Result<Vec<usize>, AbortCode> {
+        let mut slots = [self.slot(place, axis)?].to_vec();
+        let registered = place.register().filter(|_| axis == 1 && place.is_resized());
+        slots.extend(registered.and_then(|register| self.slots.of_register(register)).filter(|at| !slots.contains(at)));
+        Ok(slots)
     }
 
-    fn set_value<V: Fixed>(&mut self, at: usize, value: V::Native) -> Result<(), AbortCode> {
+    fn axis_value<V: Fixed, A, L: Place>(&self, item: &Item<V, A, L>, axis: u8) -> Result<V::Native, AbortCode> {
+        self.value::<V>(self.slot(item, axis)?, item.is_resized())
+    }
+
+    fn set_axis_value<V: Fixed, A, L: Place>(
+        &mut self,
+        item: &Item<V, A, L>,
+        axis: u8,
+        value: V::Native,
+    ) -> Result<(), AbortCode> {
+        for at in self.slots_of(item, axis)? {
+            self.set_value::<V>(at, value, item.is_resized())?;
+        }
+        Ok(())
+    }
+
+    fn value<V: Fixed>(&self, at: usize, is_resized: bool) -> Result<V::Native, AbortCode> {
+        let slot = self.slots.get(at);
+        if is_resized {
+            let bytes = values::resized(slot.entry.data_type, &slot.value, V::DATA_TYPE)?;
+            return V::decode(&bytes).map_err(|_| AbortCode::LENGTH);
+        }
+        V::decode(&slot.value).map_err(|_| AbortCode::LENGTH)
+    }
+
+    fn set_value<V: Fixed>(&mut self, at: usize, value: V::Native, is_resized: bool) -> Result<(), AbortCode> {
         let mut buffer = [0; 8];
         let length = V::encode(value, &mut buffer).map_err(|_| AbortCode::TOO_HIGH)?;
-        let bytes = buffer.get(..length).ok_or(AbortCode::LENGTH)?;
+        let mut bytes = buffer.get(..length).ok_or(AbortCode::LENGTH)?.to_vec();
+        if is_resized {
+            bytes = values::resized(V::DATA_TYPE, &bytes, self.slots.get(at).entry.data_type)?;
+        }
         if bytes.len() != self.slots.get(at).value.len() {
             return Err(AbortCode::LENGTH);
         }
-        self.store(at, bytes.to_vec());
+        self.store(at, bytes);
         Ok(())
     }
 }
@@ -342,7 +375,7 @@ impl DeviceAxis<'_> {
     ///
     /// Those of [`Device::get`].
     pub fn get<V: Fixed, A, L: Place>(&self, item: Item<V, A, L>) -> Result<V::Native, AbortCode> {
-        self.device.value::<V>(self.device.slot(&item, self.number)?)
+        self.device.axis_value(&item, self.number)
     }
 
     /// Gives an item a value, as [`Device::set`] does.
@@ -351,7 +384,7 @@ impl DeviceAxis<'_> {
     ///
     /// Those of [`Device::set`].
     pub fn set<V: Fixed, A, L: Place>(&mut self, item: Item<V, A, L>, value: V::Native) -> Result<(), AbortCode> {
-        self.device.set_value::<V>(self.device.slot(&item, self.number)?, value)
+        self.device.set_axis_value(&item, self.number, value)
     }
 
     /// Calls `reaction` after this item was written, as [`Device::on_write`] does.
@@ -364,12 +397,13 @@ impl DeviceAxis<'_> {
         item: Item<V, A, L>,
         mut reaction: impl FnMut(&mut Device, V::Native) -> Result<(), AbortCode> + Send + 'static,
     ) -> Result<(), AbortCode> {
-        let at = self.device.slot(&item, self.number)?;
-        let reaction = move |device: &mut Device, _: &Entry| {
-            let value = device.value::<V>(at)?;
+        let is_resized = item.is_resized();
+        let slots = self.device.slots_of(&item, self.number)?;
+        let reaction = move |device: &mut Device, at: usize, _: &Entry| {
+            let value = device.value::<V>(at, is_resized)?;
             reaction(device, value)
         };
-        self.device.hooks.push(Hook { slot: Some(at), reaction: Box::new(reaction) });
+        self.device.hooks.push(Hook { slots: Some(slots), reaction: Box::new(reaction) });
         Ok(())
     }
 }

@@ -4,6 +4,7 @@ use crate::bus::Object;
 use crate::item::Item;
 use crate::location::{Absent, Location};
 use crate::register::Register;
+use crate::route::{Limited, Resized, Split, Through};
 use crate::value::Value;
 
 /// What names an item: a handle of the bindings, an object, or a register. Bindings need nothing else implemented.
@@ -13,12 +14,22 @@ pub trait Place {
 
     /// Its place on Modbus.
     fn register(&self) -> Option<Register>;
+
+    /// Whether it has another width on some bus: then the table has it more than once.
+    fn is_resized(&self) -> bool {
+        false
+    }
 }
 
 /// An address on one bus, or none.
 pub trait Part<T> {
     /// The address.
     fn part(&self) -> Option<T>;
+
+    /// Whether the value has another width there.
+    fn is_resized(&self) -> bool {
+        false
+    }
 }
 
 impl<T> Part<T> for Absent {
@@ -39,13 +50,54 @@ impl Part<Register> for Register {
     }
 }
 
-impl<C: Part<Object>, E: Part<Object>, M: Part<Register>, P, S> Place for Location<C, E, M, P, S> {
+impl<T, R: Part<T>> Part<T> for Resized<R> {
+    fn part(&self) -> Option<T> {
+        self.at.part()
+    }
+
+    fn is_resized(&self) -> bool {
+        true
+    }
+}
+
+impl<T, R: Part<T>> Part<T> for Limited<R> {
+    fn part(&self) -> Option<T> {
+        self.at.part()
+    }
+
+    fn is_resized(&self) -> bool {
+        self.at.is_resized()
+    }
+}
+
+impl<T, R: Part<T>, W: Part<T>> Part<T> for Split<R, W> {
+    fn part(&self) -> Option<T> {
+        self.read.part().or_else(|| self.write.part())
+    }
+
+    fn is_resized(&self) -> bool {
+        self.read.is_resized() || self.write.is_resized()
+    }
+}
+
+/// A window is no place of the item's own.
+impl<T, W> Part<T> for Through<W> {
+    fn part(&self) -> Option<T> {
+        None
+    }
+}
+
+impl<C: Part<Object>, E: Part<Object>, M: Part<Register>, P, S, I, X> Place for Location<C, E, M, P, S, I, X> {
     fn object(&self) -> Option<Object> {
         self.canopen.part().or_else(|| self.coe.part())
     }
 
     fn register(&self) -> Option<Register> {
         self.modbus.part()
+    }
+
+    fn is_resized(&self) -> bool {
+        self.canopen.is_resized() || self.coe.is_resized() || self.modbus.is_resized()
     }
 }
 
@@ -56,6 +108,10 @@ impl<V: Value, A, L: Place> Place for Item<V, A, L> {
 
     fn register(&self) -> Option<Register> {
         self.location().register()
+    }
+
+    fn is_resized(&self) -> bool {
+        self.location().is_resized()
     }
 }
 

@@ -37,6 +37,20 @@ pub(super) fn widened(data_type: DataType, mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
+/// The bytes of an integer of type `from` as one of type `to`.
+pub(super) fn resized(from: DataType, bytes: &[u8], to: DataType) -> Result<Vec<u8>, AbortCode> {
+    let (Some(own), Some(other)) = (byte_length(from), byte_length(to)) else { return Err(AbortCode::LENGTH) };
+    let (narrow, sign) = if own < other { (own, is_signed(from)) } else { (other, is_signed(to)) };
+    let is_negative = sign && narrow.checked_sub(1).and_then(|last| bytes.get(last)).is_some_and(|last| last >> 7 == 1);
+    let fill = if is_negative { 0xFF } else { 0 };
+    if bytes.get(narrow..).unwrap_or_default().iter().any(|byte| *byte != fill) {
+        return Err(AbortCode::TOO_HIGH);
+    }
+    let mut bytes = bytes.to_vec();
+    bytes.resize(other, fill);
+    Ok(bytes)
+}
+
 /// Whether `data` has the length of its type.
 pub(super) fn check_length(entry: &Entry, data: &[u8]) -> Result<(), AbortCode> {
     match byte_length(entry.data_type) {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Condition, Scale, Texts, Value};
+use super::{CompactString, Condition, Scale, Texts, Type, Value};
 
 /// Access rights of an item, seen from the bus (CiA 306; ETG.2000 Flags/Access).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -122,6 +122,9 @@ pub enum Binding {
         bit_offset: u32,
         /// Number of bits.
         bits: u32,
+        /// The type that the value has there, where it isn't the item's.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        ty: Option<Type>,
     },
     /// A numbered parameter in a named space, reached by messages.
     Parameter {
@@ -139,7 +142,7 @@ pub enum Binding {
         /// Number of bytes.
         length: u16,
     },
-    /// Write the address to one item, then read or write the value through another.
+    /// Write the number to one item, and read or write the value through another.
     Indirect(Box<IndirectBinding>),
 }
 
@@ -228,17 +231,38 @@ pub enum RegisterSpace {
     Holding,
 }
 
-/// Access through a window: an address item and a data item.
+/// Access through a window: the number of the item is written to one item, and its value read or written through another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct IndirectBinding {
-    /// The item that takes the address.
-    pub address_item: CompactString,
-    /// The address to write there.
-    pub address: Value,
-    /// The item through which the value is read.
-    pub read_item: Option<CompactString>,
-    /// The item through which the value is written.
-    pub write_item: Option<CompactString>,
+    /// The space that the number is one of.
+    pub space: CompactString,
+    /// Which window of the space it is, counted from 0.
+    pub window: u8,
+    /// The buses on which it serves, by their names in register tables.
+    pub buses: Vec<CompactString>,
+    /// The number.
+    pub number: u32,
+    /// How the value is read.
+    pub read: Option<WindowSide>,
+    /// How it is written.
+    pub write: Option<WindowSide>,
+}
+
+/// One way through a window.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct WindowSide {
+    /// The item that takes the number.
+    pub number: CompactString,
+    /// The item that has, or takes, the value.
+    pub value: CompactString,
+    /// Whether the number is written before the value, where the source says so.
+    pub number_first: Option<bool>,
+    /// Whether the device sets the number to 0 once it is done, where the source says so here.
+    pub clears: Option<bool>,
+    /// How many milliseconds the device needs.
+    pub wait: Option<u32>,
+    /// After how many milliseconds the device should have set the number to 0.
+    pub timeout: Option<u32>,
     /// The procedure that describes the handshake, if it has one.
     pub procedure: Option<CompactString>,
 }

@@ -90,6 +90,26 @@ impl Item {
         })
     }
 
+    /// What differs on a bus, by its name in register tables, whatever the model.
+    fn variants_on<'i, 'b>(&'i self, bus: &'b str) -> impl Iterator<Item = &'i ItemVariant> + use<'i, 'b> {
+        self.variants.iter().filter(move |own| own.models.is_empty() && own.buses.iter().any(|name| name == bus))
+    }
+
+    /// The type that the value has on a bus, by its name in register tables.
+    pub fn type_on(&self, bus: &str) -> Type {
+        self.variants_on(bus).find_map(|own| own.ty).unwrap_or(self.ty)
+    }
+
+    /// What may be done on a bus, by its name in register tables.
+    pub fn access_on(&self, bus: &str) -> Access {
+        self.variants_on(bus).find_map(|own| own.access).unwrap_or(self.access)
+    }
+
+    /// The only values on a bus, by its name in register tables, where they are fewer than elsewhere.
+    pub fn limits_on(&self, bus: &str) -> Option<&Limits> {
+        self.variants_on(bus).map(|own| &own.limits).find(|own| !own.is_empty() || !own.allowed.is_empty())
+    }
+
     /// The value a device starts with: the configured one of a DCF, else the default.
     pub fn initial(&self) -> Option<&Value> {
         self.configured.as_ref().and_then(|configured| configured.value.as_ref()).or(self.default.as_ref())

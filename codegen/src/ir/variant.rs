@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Documentation, Limits, Scale, Value};
+use super::{Access, CompactString, Documentation, Limits, Scale, Type, Value};
 use crate::source::Span;
 
 /// Facts of an item that hold on some models or buses only; those that aren't given are the item's.
@@ -12,6 +12,12 @@ pub struct ItemVariant {
     pub models: Vec<CompactString>,
     /// The buses by their names in register tables; empty = all.
     pub buses: Vec<CompactString>,
+    /// The type that the value has there: another width, on some buses.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ty: Option<Type>,
+    /// What may be done with it there: less than elsewhere, on some buses.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub access: Option<Access>,
     /// The value before anybody wrote it.
     pub default: Option<Value>,
     /// The least and the greatest value.

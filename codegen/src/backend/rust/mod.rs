@@ -28,10 +28,12 @@ mod place;
 mod profinet;
 mod quantity;
 mod remap;
+mod route;
 mod scope;
 mod table;
 mod value_type;
 mod variant;
+mod window;
 
 pub use options::{Presence, RustOptions};
 

@@ -1,6 +1,6 @@
 //! The plain data that the template writes down.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::axes::{self, AxesModel};
 use super::bus_facts::{self, FactModel};
@@ -19,6 +19,7 @@ use super::scope::{ObjectBus, Scope};
 use super::table::{self, EntryModel};
 use super::value_type::ValueType;
 use super::variant;
+use super::window::{self, WindowModel};
 use super::INTERFACE_VERSION;
 use crate::ir::{Access, Device, FileInfo, Group, GroupKind, Item, Module, ObjectCode, Value};
 use crate::passes::names_unique::{self, Case, Wish};
@@ -48,6 +49,10 @@ pub(super) struct Model<'a> {
     pub location: String,
     /// Whether handles have several types of locations.
     pub has_locations: bool,
+    /// Locations that the runtime has no name for: name, documentation and type.
+    pub locations: Vec<(String, String, String)>,
+    /// The windows through which items are found.
+    pub windows: Vec<WindowModel>,
     /// What the handles are of, and what one of them is of at the start of a sentence and within it.
     pub handles: [&'static str; 3],
     pub types: Types,
@@ -240,8 +245,10 @@ impl<'a> Model<'a> {
             title: String::new(),
             identity: None,
             has_accessors: false,
-            location: locations.all.path(),
+            location: locations.name(locations.all, ""),
             has_locations: locations.several,
+            locations: locations.own(),
+            windows: window::models(&scope.windows),
             handles: handles(&scope),
             types,
             code_tables: Vec::new(),
@@ -371,9 +378,13 @@ fn handle_types(objects: &[ObjectModel]) -> Vec<(String, &'static str, String)> 
     let all = objects.iter().flat_map(|object| &object.items);
     let names: BTreeMap<&str, &ItemModel> = all.map(|item| (item.alias.as_str(), item)).collect();
     // They stand beside the modules of objects, one level below the device.
-    let arguments = |item: &ItemModel| match item.arguments_at_top.starts_with("types::") {
-        true => format!("super::{}", item.arguments_at_top),
-        false => item.arguments_at_top.clone(),
+    let arguments = |item: &ItemModel| {
+        let arguments = item.arguments_at_top.replace("¦ objects::", "¦ ");
+        if arguments.starts_with("types::") {
+            format!("super::{arguments}")
+        } else {
+            arguments
+        }
     };
     names.into_iter().map(|(name, item)| (name.to_owned(), item.access, arguments(item))).collect()
 }
@@ -391,10 +402,13 @@ pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = &'a Gro
     })
 }
 
-/// The chapters' items that a client can reach, with the titles of their chapters.
+/// The items of chapters and images that a client can reach, with the titles of those.
 pub(super) fn registers<'a>(scope: &Scope<'a>) -> Vec<(&'a str, &'a Item)> {
-    let chapters = scope.groups.iter().filter(|group| group.kind == GroupKind::Chapter);
-    let items = chapters.flat_map(|group| group.items.iter().map(|item| (group.name.as_str(), item)));
+    let is_chapter = |group: &&Group| matches!(group.kind, GroupKind::Chapter | GroupKind::Image { .. });
+    let chapters = scope.groups.iter().filter(is_chapter);
+    // An image is told with the place of its fields.
+    let title = |group: &'a Group| if group.kind == GroupKind::Chapter { group.name.as_str() } else { "" };
+    let items = chapters.flat_map(|group| group.items.iter().map(move |item| (title(group), item)));
     items.filter(|(_, item)| !Address::of(scope, item).buses().is_empty()).collect()
 }
 
@@ -404,6 +418,8 @@ struct Locations {
     all: Buses,
     /// Whether not every item is on all of them.
     several: bool,
+    /// Those of each item, each once.
+    each: BTreeSet<Buses>,
 }
 
 impl Locations {
@@ -411,17 +427,44 @@ impl Locations {
         let objects = addressable(scope).flat_map(|group| &group.items);
         let items = objects.chain(registers(scope).into_iter().map(|(_, item)| item));
         let buses: Vec<Buses> = items.map(|item| Address::of(scope, item).buses()).collect();
-        let all = buses.iter().fold(Buses::default(), |all, own| all.union(*own));
-        Locations { several: buses.iter().any(|own| *own != all), all }
+        let mut each: BTreeMap<Buses, usize> = BTreeMap::new();
+        for own in &buses {
+            *each.entry(*own).or_default() += 1;
+        }
+        // What most items have, unless all are addresses, and some have all of them.
+        let all = match each.keys().all(|own| own.is_direct()) {
+            true => each.keys().fold(Buses::default(), |all, own| all.union(*own)),
+            false => each.iter().max_by_key(|(_, count)| **count).map_or(Buses::default(), |(own, _)| *own),
+        };
+        Locations { several: buses.iter().any(|own| *own != all), all, each: each.into_keys().chain([all]).collect() }
+    }
+
+    /// The name of a location's type; `outer` leads from where it stands to the device's place.
+    fn name(&self, buses: Buses, outer: &str) -> String {
+        match buses.path() {
+            Some(path) => path.to_owned(),
+            None => format!("{outer}{}", buses.word()),
+        }
+    }
+
+    /// The locations that the runtime has no name for.
+    fn own(&self) -> Vec<(String, String, String)> {
+        let unnamed = self.each.iter().filter(|own| own.path().is_none() && !own.is_empty());
+        let docs = |own: &Buses| format!("The location of what is found on {}.", own.titles());
+        unnamed.map(|own| (own.word(), docs(own), own.written_out())).collect()
     }
 
     /// What follows the type of a value where handles of several locations exist.
-    fn argument(&self, buses: Buses) -> String {
+    fn argument(&self, buses: Buses, outer: &str) -> String {
         if buses == self.all {
-            String::new()
-        } else {
-            format!("¦ {}", buses.path())
+            return String::new();
         }
+        // They stand beside the handles.
+        let outer = match outer {
+            "" => "objects::",
+            outer => outer.strip_prefix("super::").unwrap_or(outer),
+        };
+        format!("¦ {}", self.name(buses, outer))
     }
 }
 
@@ -537,18 +580,24 @@ fn item(scope: &Scope<'_>, locations: &Locations, item: &Item, name: &str, origi
         (None, Some(scaled)) => scaled.word.clone(),
         (None, None) => ty.word(),
     };
-    let argument = locations.argument(address.buses());
-    let on = if argument.is_empty() { String::new() } else { address.buses().word() };
+    let argument = |outer: &str| locations.argument(address.buses(), outer);
+    let on = if argument("").is_empty() { String::new() } else { address.buses().word() };
     ItemModel {
         constant: name.to_ascii_uppercase(),
         method: names_unique::escaped(name),
         docs: docs::item(item, original, None, scope),
         heading: heading(original, &address.heading()),
         access: alias(item.access),
-        arguments: format!("{}{argument}", path(outer)),
-        arguments_at_top: format!("{}{argument}", path("")),
+        arguments: format!("{}{}", path(outer), argument(outer)),
+        arguments_at_top: format!("{}{}", path(""), argument("")),
         alias: format!("{}{word}{on}", alias(item.access)),
-        constructor: constructor(&address, item, ty, &literal::string(original), named.map(|_| path(outer))),
+        constructor: constructor(
+            scope,
+            &address,
+            item,
+            (ty, &literal::string(original), outer),
+            named.map(|_| path(outer)),
+        ),
         real: ty.is_real() && (item.default.is_some() || !item.limits.is_empty()),
         object: address.object_on(scope.bus),
         mappable: None,
@@ -556,7 +605,13 @@ fn item(scope: &Scope<'_>, locations: &Locations, item: &Item, name: &str, origi
 }
 
 /// The shortest call that says everything: every argument costs `rustc` a tenth of what the rest of the handle does.
-fn constructor(address: &Address<'_>, item: &Item, ty: ValueType, name: &str, named: Option<String>) -> String {
+fn constructor(
+    scope: &Scope<'_>,
+    address: &Address<'_>,
+    item: &Item,
+    (ty, name, outer): (ValueType, &str, &str),
+    named: Option<String>,
+) -> String {
     let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
     let wrap = |literal: String| match &named {
         Some(path) => format!("{path}::from_raw(«{literal}»)"),
@@ -591,7 +646,8 @@ fn constructor(address: &Address<'_>, item: &Item, ty: ValueType, name: &str, na
             }
         };
     }
-    format!("new(«{}¦ {name}¦ {range}¦ {initial}¦ {}¦ {flags}»)", address.code(), literal::string(unit))
+    let location = address.code(scope, &format!("{outer}windows::"));
+    format!("new(«{location}¦ {name}¦ {range}¦ {initial}¦ {}¦ {flags}»)", literal::string(unit))
 }
 
 pub(super) fn flags(item: &Item) -> &'static str {

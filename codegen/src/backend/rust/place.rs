@@ -1,18 +1,23 @@
 //! Where an item is found: the type of a handle's location, and the code that makes it.
 
+use super::route::{Kind, Leg, Net, Route, Way};
 use super::scope::{ObjectBus, Scope};
-use crate::ir::{Binding, Item, RegisterBinding, RegisterSpace, Type};
+use super::window;
+use crate::ir::{Binding, Direction, Item, RegisterBinding, RegisterSpace, Type};
 
 /// Index and sub-index.
 pub(super) type ObjectAddress = (u16, u8);
 
-/// An item's address on each bus that generated code can reach.
+/// An item's address on each bus that generated code can reach, and the routes to it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Place<'i> {
     canopen: Option<(u16, u8)>,
     coe: Option<(u16, u8)>,
     modbus: Option<&'i RegisterBinding>,
     serial: Option<u32>,
+    image: Option<Field<'i>>,
+    esc: Option<(u16, u16)>,
+    routes: [Route<'i>; 6],
     /// Bits of the value, where a part of a register is meant.
     bits: u32,
     /// Whether the value is a sequence of bytes, and no number.
@@ -23,14 +28,21 @@ pub(super) struct Place<'i> {
     is_signed: bool,
 }
 
-/// The buses of a location.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Buses {
-    pub canopen: bool,
-    pub coe: bool,
-    pub modbus: bool,
-    pub serial: bool,
+/// A field of a fixed process image.
+#[derive(Clone, Copy, Debug)]
+struct Field<'i> {
+    image: &'i str,
+    first: u32,
+    bits: u32,
+    ty: Option<Type>,
+    /// Whether the device gets it.
+    is_output: bool,
+    big_endian: bool,
 }
+
+/// The buses of a location, and what the route is on each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Buses([Kind; 6]);
 
 impl Buses {
     /// Whether there is none.
@@ -38,50 +50,81 @@ impl Buses {
         self == Buses::default()
     }
 
-    /// The buses of both.
-    pub fn union(self, other: Buses) -> Buses {
-        Buses {
-            canopen: self.canopen || other.canopen,
-            coe: self.coe || other.coe,
-            modbus: self.modbus || other.modbus,
-            serial: self.serial || other.serial,
-        }
+    /// Whether every route is an address.
+    pub fn is_direct(self) -> bool {
+        self.0.iter().all(|kind| matches!(kind, Kind::Absent | Kind::One(Leg::Direct)))
     }
 
-    /// The type of the location, in terms of the runtime.
-    pub fn path(self) -> String {
-        match (self.canopen, self.coe, self.modbus, self.serial) {
-            (true, false, false, false) => "rt::OnCanOpen".to_owned(),
-            (false, true, false, false) => "rt::OnCoE".to_owned(),
-            (true, true, false, false) => "rt::OnCanOpenAndCoE".to_owned(),
-            (false, false, true, false) => "rt::OnModbus".to_owned(),
-            (true, false, true, false) => "rt::OnCanOpenAndModbus".to_owned(),
-            (false, true, true, false) => "rt::OnCoEAndModbus".to_owned(),
-            (true, true, true, false) => "rt::OnCanOpenCoEAndModbus".to_owned(),
-            (false, false, false, true) => "rt::OnSerial".to_owned(),
-            (canopen, coe, modbus, serial) => {
-                let part = |is: bool, path: &str| if is { format!("rt::{path}") } else { "rt::Absent".to_owned() };
-                format!(
-                    "rt::Location<«{}¦ {}¦ {}¦ rt::Absent¦ {}»>",
-                    part(canopen, "Object"),
-                    part(coe, "Object"),
-                    part(modbus, "Register"),
-                    part(serial, "Parameter")
-                )
-            }
+    /// The buses of both.
+    pub fn union(self, other: Buses) -> Buses {
+        Buses(std::array::from_fn(|at| self.0[at].max(other.0[at])))
+    }
+
+    /// The runtime's name of the location, where it has one.
+    pub fn path(self) -> Option<&'static str> {
+        let [canopen, coe, modbus, serial, image, esc] = self.0.map(|kind| kind != Kind::Absent);
+        if !self.is_direct() {
+            return None;
         }
+        Some(match (canopen, coe, modbus, serial, image, esc) {
+            (true, false, false, false, false, false) => "rt::OnCanOpen",
+            (false, true, false, false, false, false) => "rt::OnCoE",
+            (true, true, false, false, false, false) => "rt::OnCanOpenAndCoE",
+            (false, false, true, false, false, false) => "rt::OnModbus",
+            (true, false, true, false, false, false) => "rt::OnCanOpenAndModbus",
+            (false, true, true, false, false, false) => "rt::OnCoEAndModbus",
+            (true, true, true, false, false, false) => "rt::OnCanOpenCoEAndModbus",
+            (false, false, false, true, false, false) => "rt::OnSerial",
+            (false, false, false, false, true, false) => "rt::OnImage",
+            (false, false, false, false, false, true) => "rt::OnEsc",
+            _ => return None,
+        })
+    }
+
+    /// The type of the location, written out.
+    pub fn written_out(self) -> String {
+        let [canopen, coe, modbus, serial, image, esc] = self.types();
+        format!("rt::Location<«{canopen}¦ {coe}¦ {modbus}¦ rt::Absent¦ {serial}¦ {image}¦ {esc}»>")
+    }
+
+    fn types(self) -> [String; 6] {
+        std::array::from_fn(|at| self.0[at].ty(Net::ALL[at]))
     }
 
     /// Its name as a part of another one.
     pub fn word(self) -> String {
-        let parts = [(self.canopen, "CanOpen"), (self.coe, "CoE"), (self.modbus, "Modbus"), (self.serial, "Serial")];
-        let words: String = parts.into_iter().filter(|(is, _)| *is).map(|(_, word)| word).collect();
+        let words: String = Net::ALL.iter().zip(self.0).map(|(net, kind)| kind.word(*net)).collect();
         format!("On{words}")
     }
+
+    /// The buses, for a sentence.
+    pub fn titles(self) -> String {
+        let present = Net::ALL.iter().zip(self.0).filter(|(_, kind)| *kind != Kind::Absent);
+        present.map(|(net, _)| net.title()).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The code that makes the address of an item on a bus, where it has one there, and it can be read or written.
+pub(super) fn address(scope: &Scope<'_>, item: &Item, net: Net, writes: bool) -> Option<String> {
+    let place = Place::of(scope, item);
+    place.is_possible(item, net, writes).then(|| place.address(net))?
 }
 
 impl<'i> Place<'i> {
     pub fn of(scope: &Scope<'_>, item: &'i Item) -> Self {
+        let mut place = Place::direct(scope, item);
+        if is_plain(item) {
+            place.routes = Net::ALL.map(|net| match place.has(net) {
+                true => place.plain(item),
+                false => Route::default(),
+            });
+        } else {
+            place.routes = Net::ALL.map(|net| place.route(scope, item, net));
+        }
+        place
+    }
+
+    fn direct(scope: &Scope<'_>, item: &'i Item) -> Self {
         let mut place = Place::default();
         for binding in &item.bindings {
             match binding {
@@ -92,6 +135,18 @@ impl<'i> Place<'i> {
                 }
                 Binding::Register(register) => place.modbus = place.modbus.or(Some(register)),
                 Binding::Parameter { code, .. } => place.serial = place.serial.or(Some(*code)),
+                Binding::Image { image, bit_offset, bits, ty } => {
+                    let found = scope.image(image).map(|own| Field {
+                        image,
+                        first: *bit_offset,
+                        bits: *bits,
+                        ty: *ty,
+                        is_output: own.direction == Direction::Receive,
+                        big_endian: own.big_endian,
+                    });
+                    place.image = place.image.or(found);
+                }
+                Binding::EscMemory { address, length } => place.esc = place.esc.or(Some((*address, *length))),
                 _ => {}
             }
         }
@@ -106,13 +161,67 @@ impl<'i> Place<'i> {
         place
     }
 
-    pub fn buses(&self) -> Buses {
-        Buses {
-            canopen: self.canopen.is_some(),
-            coe: self.coe.is_some(),
-            modbus: self.modbus.is_some(),
-            serial: self.serial.is_some(),
+    /// Whether the item has an address on a bus.
+    fn has(&self, net: Net) -> bool {
+        match net {
+            Net::CanOpen => self.canopen.is_some(),
+            Net::CoE => self.coe.is_some(),
+            Net::Modbus => self.modbus.is_some(),
+            Net::Serial => self.serial.is_some(),
+            Net::Image => self.image.is_some(),
+            Net::Esc => self.esc.is_some(),
         }
+    }
+
+    /// The route to an item that is the same everywhere.
+    fn plain(&self, item: &Item) -> Route<'i> {
+        let way = Some(Way { window: None, resized: None, limited: None, is_signed: false });
+        let (read, write) = (way.filter(|_| item.access.readable()), way.filter(|_| item.access.writable()));
+        Route { read, write, is_partial: false }
+    }
+
+    /// Whether a bus lets the item be read, or written, at its address.
+    fn is_possible(&self, item: &Item, net: Net, writes: bool) -> bool {
+        let access = if net == Net::Esc { item.access } else { item.access_on(net.in_tables()) };
+        let allows = if writes { access.writable() } else { access.readable() };
+        let goes = match (net, self.image) {
+            (Net::Image, Some(field)) => field.is_output == writes,
+            _ => true,
+        };
+        self.has(net) && allows && goes
+    }
+
+    fn route(&self, scope: &Scope<'_>, item: &'i Item, net: Net) -> Route<'i> {
+        let way = |writes: bool| {
+            let is_allowed = if writes { item.access.writable() } else { item.access.readable() };
+            let direct = || self.is_possible(item, net, writes).then(|| self.own_way(scope, item, net))?;
+            is_allowed.then(|| direct().or_else(|| through(scope, item, net, writes)))?
+        };
+        let (read, write) = (way(false), way(true));
+        let is_partial = item.access.readable() && item.access.writable();
+        Route { read, write, is_partial }
+    }
+
+    /// The way to the item's own address; none where its type can't have the width that it has there.
+    fn own_way(&self, scope: &Scope<'_>, item: &'i Item, net: Net) -> Option<Way<'i>> {
+        let (own, there) = (scope.base(item.ty), scope.base(item.type_on(net.in_tables())));
+        let there = match (net, self.image, self.esc) {
+            (Net::Image, Some(field), _) => field.ty.map_or(own, |ty| scope.base(ty)),
+            (Net::Esc, _, Some((_, length))) => in_memory(own, length),
+            _ => there,
+        };
+        let limited = item.limits_on(net.in_tables()).filter(|_| is_integer(own));
+        let resized = own.bits() != there.bits() && own.bits().is_some();
+        let is_signed = if resized { narrower(own, there).is_signed() } else { own.is_signed() };
+        let bits = there.bits().filter(|bits| (1..=64).contains(bits)).and_then(|bits| u8::try_from(bits).ok());
+        if resized && !(is_integer(own) && is_integer(there)) {
+            return None;
+        }
+        Some(Way { window: None, resized: bits.filter(|_| resized), limited, is_signed })
+    }
+
+    pub fn buses(&self) -> Buses {
+        Buses(self.routes.map(|route| route.kind()))
     }
 
     /// The object on the bus of `scope`, or on the other one that has objects.
@@ -125,6 +234,9 @@ impl<'i> Place<'i> {
 
     /// What the constructors of objects are called here, and the object, where the item is nothing else.
     pub fn only_object(&self) -> Option<(&'static str, u16, u8)> {
+        if !self.is_simple() {
+            return None;
+        }
         match (self.canopen, self.coe, self.modbus, self.serial) {
             (Some((index, sub)), None, None, None) => Some(("object", index, sub)),
             (None, Some((index, sub)), None, None) => Some(("coe_object", index, sub)),
@@ -136,7 +248,7 @@ impl<'i> Place<'i> {
     /// The arguments that the constructors of registers begin with, where the item is a register, and at most one object
     /// beside.
     pub fn with_register(&self) -> Option<String> {
-        let register = self.register(self.modbus.filter(|_| self.serial.is_none())?);
+        let register = self.register(self.modbus.filter(|_| self.serial.is_none() && self.is_simple())?);
         match (self.canopen, self.coe) {
             (None, None) => Some(register),
             (Some(canopen), Some(coe)) if canopen != coe => None,
@@ -147,9 +259,14 @@ impl<'i> Place<'i> {
         }
     }
 
-    /// The call that makes the location.
-    pub fn code(&self) -> String {
-        let path = self.buses().path();
+    /// Whether every route is an address, and none is in an image or in a slave controller.
+    fn is_simple(&self) -> bool {
+        self.image.is_none() && self.esc.is_none() && self.buses().is_direct()
+    }
+
+    /// The call that makes the location. `windows` leads to the windows of the device.
+    pub fn code(&self, scope: &Scope<'_>, windows: &str) -> String {
+        let Some(path) = self.buses().path() else { return self.new_location(scope, windows) };
         let object = |(index, sub): (u16, u8)| format!("0x{index:04X}¦ 0x{sub:02X}");
         let same = self.canopen.is_none() || self.coe.is_none() || self.canopen == self.coe;
         match (self.canopen.or(self.coe), self.modbus, self.serial) {
@@ -166,22 +283,46 @@ impl<'i> Place<'i> {
             }
             (None, Some(register), None) => format!("{path}::modbus(«{}»)", self.register(register)),
             (None, None, Some(code)) => format!("{path}::serial({code})"),
-            _ => {
-                // Addresses that differ between the buses, and combinations that are too rare for a name.
-                let canopen = self.canopen.map(|(index, sub)| format!("rt::Object::new(0x{index:04X}, 0x{sub:02X})"));
-                let coe = self.coe.map(|(index, sub)| format!("rt::Object::new(0x{index:04X}, 0x{sub:02X})"));
-                let modbus = self.modbus.map(|register| self.register(register));
-                let serial = self.serial.map(|code| format!("rt::Parameter({code})"));
-                let or_absent = |part: Option<String>| part.unwrap_or_else(|| "rt::Absent".to_owned());
-                let parts = [canopen, coe, modbus, None, serial].map(or_absent);
-                format!("rt::Location::new(«{}»)", parts.join("¦ "))
-            }
+            (None, None, None) => match (self.image, self.esc) {
+                (Some(field), _) => format!("{path}::field(«{}»)", field.code(self.is_bytes)),
+                (None, Some((address, length))) => format!("{path}::memory(0x{address:04X}, {length})"),
+                (None, None) => self.new_location(scope, windows),
+            },
+            // Addresses that differ between the buses, and routes that are too rare for a name.
+            _ => self.new_location(scope, windows),
+        }
+    }
+
+    fn new_location(&self, scope: &Scope<'_>, windows: &str) -> String {
+        let [canopen, coe, modbus, serial, image, esc] = Net::ALL.map(|net| {
+            let route = self.routes[net as usize];
+            let window = |at: usize| format!("{windows}{}", scope.windows.get(at).map_or("", |own| own.name.as_str()));
+            route.code(&self.address(net).unwrap_or_default(), window)
+        });
+        format!("rt::Location::new(«{canopen}¦ {coe}¦ {modbus}¦ rt::Absent¦ {serial}¦ {image}¦ {esc}»)")
+    }
+
+    /// The code that makes the item's address on a bus.
+    fn address(&self, net: Net) -> Option<String> {
+        let object = |(index, sub): (u16, u8)| format!("rt::Object::new(0x{index:04X}, 0x{sub:02X})");
+        match net {
+            Net::CanOpen => self.canopen.map(object),
+            Net::CoE => self.coe.map(object),
+            Net::Modbus => self.modbus.map(|register| self.register(register)),
+            Net::Serial => self.serial.map(|code| format!("rt::Parameter({code})")),
+            Net::Image => self.image.map(|field| field.code(self.is_bytes)),
+            Net::Esc => self.esc.map(|(address, length)| format!("rt::EscMemory::new(0x{address:04X}, {length})")),
         }
     }
 
     /// The objects: that of the dictionary, and where CANopen and EtherCAT have different ones, the one on EtherCAT.
     pub fn objects(&self) -> [Option<(u16, u8)>; 2] {
         [self.canopen.or(self.coe), self.coe.filter(|coe| self.canopen.is_some_and(|canopen| canopen != *coe))]
+    }
+
+    /// Whether the object is one on CANopen.
+    pub fn is_on_canopen(&self) -> bool {
+        self.canopen.is_some()
     }
 
     /// The call that makes the register.
@@ -251,6 +392,8 @@ impl<'i> Place<'i> {
         }
         facts.extend(self.modbus.map(register_facts));
         facts.extend(self.serial.map(|code| format!("parameter {code}")));
+        facts.extend(self.image.map(|field| field.facts()));
+        facts.extend(self.numbers());
         facts.join(", ")
     }
 
@@ -262,7 +405,21 @@ impl<'i> Place<'i> {
             None => format!("register {}", register.address),
         });
         let serial = self.serial.map(|code| format!("parameter {code}"));
-        object.into_iter().chain(register).chain(serial).collect::<Vec<_>>().join(", ")
+        let found: Vec<String> = object.into_iter().chain(register).chain(serial).collect();
+        if !found.is_empty() {
+            return found.join(", ");
+        }
+        let memory = self.esc.map(|(address, _)| format!("memory 0x{address:04X}"));
+        self.image.map(|field| field.facts()).or(memory).or(self.numbers()).unwrap_or_default()
+    }
+
+    /// The buses on which the item is behind a window, and its number there.
+    fn numbers(&self) -> Option<String> {
+        let window = |route: &Route<'_>| [route.read, route.write].iter().flatten().find_map(|way| way.window);
+        let (_, number) = self.routes.iter().find_map(window)?;
+        let on = Net::ALL.iter().zip(&self.routes).filter(|(_, route)| window(route).is_some());
+        let on: Vec<&str> = on.map(|(net, _)| net.title()).collect();
+        Some(format!("number 0x{number:04X} behind a window on {}", on.join(", ")))
     }
 
     /// What tells the item from others of its name.
@@ -282,8 +439,77 @@ impl<'i> Place<'i> {
                 }
             }
             (None, Some((index, sub)), _) => format!("{index:04X}_{sub}"),
-            (None, None, code) => code.unwrap_or(0).to_string(),
+            (None, None, Some(code)) => code.to_string(),
+            (None, None, None) => match (self.image, self.esc) {
+                (Some(field), _) => format!("{}_{}", field.image, field.first),
+                (None, Some((address, _))) => format!("{address:04X}"),
+                (None, None) => self.numbers().unwrap_or_else(|| "0".to_owned()),
+            },
         }
+    }
+}
+
+impl Field<'_> {
+    fn code(self, is_bytes: bool) -> String {
+        let direction = if self.is_output { "output" } else { "input" };
+        let code = format!("rt::ImageField::{direction}({}, {})", self.first, self.bits);
+        match (is_bytes, self.big_endian) {
+            (true, _) => format!("{code}.ordered(rt::ImageOrder::Bytes)"),
+            (false, false) => format!("{code}.ordered(rt::ImageOrder::LittleEndian)"),
+            (false, true) => code,
+        }
+    }
+
+    fn facts(self) -> String {
+        let (byte, bit) = (self.first / 8, self.first % 8);
+        let last = (self.first + self.bits.max(1) - 1) / 8;
+        let place = match (bit, self.bits % 8) {
+            (0, 0) if byte == last => format!("byte {byte}"),
+            (0, 0) => format!("bytes {byte} to {last}"),
+            _ if self.bits == 1 => format!("bit {bit} of byte {byte}"),
+            _ => format!("{} bits from bit {bit} of byte {byte} on", self.bits),
+        };
+        format!("{place} of the image {}", super::docs::escape(self.image))
+    }
+}
+
+/// The way through a window of the item's space on a bus.
+fn through<'i>(scope: &Scope<'_>, item: &Item, net: Net, writes: bool) -> Option<Way<'i>> {
+    item.bindings.iter().filter_map(window::indirect).find_map(|binding| {
+        let at = window::position(&scope.windows, binding, net, writes)?;
+        let own = scope.windows.get(at).filter(|own| window::carries(scope, item, own))?;
+        let (bits, is_signed) = own.value;
+        let base = scope.base(item.ty);
+        let is_signed = if base.bits().unwrap_or(0) <= bits { base.is_signed() } else { is_signed };
+        Some(Way { window: Some((at, binding.number)), resized: None, limited: None, is_signed })
+    })
+}
+
+/// Whether an item is the same on every bus on which it has an address, and nowhere else.
+fn is_plain(item: &Item) -> bool {
+    let is_address = |binding: &Binding| {
+        !matches!(binding, Binding::Indirect(_) | Binding::Image { .. } | Binding::EscMemory { .. })
+    };
+    item.variants.is_empty() && item.bindings.iter().all(is_address)
+}
+
+/// A number in so many bytes of a slave controller.
+fn in_memory(ty: Type, length: u16) -> Type {
+    match (ty.bits(), u8::try_from(length)) {
+        (Some(bits), Ok(length @ 1..=8)) if bits.div_ceil(8) != u32::from(length) => Type::Unsigned(8 * length),
+        _ => ty,
+    }
+}
+
+fn is_integer(ty: Type) -> bool {
+    matches!(ty, Type::Boolean | Type::Integer(1..=64) | Type::Unsigned(1..=64))
+}
+
+fn narrower(one: Type, other: Type) -> Type {
+    if one.bits() <= other.bits() {
+        one
+    } else {
+        other
     }
 }
 

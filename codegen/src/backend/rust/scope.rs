@@ -4,7 +4,8 @@ use super::manual::Manual;
 use super::named::{self, NamedType, Types};
 use super::options::RustOptions;
 use super::value_type::ValueType;
-use crate::ir::{Device, Group, Item, Module, Pdo, Shape, StateMachine, Type, TypeDef};
+use super::window::{self, Window};
+use crate::ir::{Device, Group, Item, Module, Pdo, ProcessImage, Shape, StateMachine, Type, TypeDef};
 
 /// The bus on which objects are addressed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +24,8 @@ pub(super) struct Scope<'a> {
     pub device: Option<&'a Device>,
     /// What is known of the manual that the description was taken from.
     pub manual: Manual,
+    /// The windows through which items are found.
+    pub windows: Vec<Window>,
     /// The enumerations and bit fields that an item, a PDO or a bit field has, by the position of their types.
     pub named: Vec<(u32, NamedType)>,
 }
@@ -34,6 +37,7 @@ impl<'a> Scope<'a> {
         let mut scope = Scope::new(bus, &device.groups, &device.types, &device.process_data.pdos);
         scope.manual = Manual::of(device);
         scope.device = Some(device);
+        scope.windows = window::windows(&scope, device);
         scope.with_types(&device.machines, options)
     }
 
@@ -44,7 +48,16 @@ impl<'a> Scope<'a> {
     }
 
     fn new(bus: ObjectBus, groups: &'a [Group], types: &'a [TypeDef], pdos: &'a [Pdo]) -> Self {
-        Scope { bus, groups, types, pdos, device: None, manual: Manual::default(), named: Vec::new() }
+        Scope {
+            bus,
+            groups,
+            types,
+            pdos,
+            device: None,
+            manual: Manual::default(),
+            windows: Vec::new(),
+            named: Vec::new(),
+        }
     }
 
     fn with_types(mut self, machines: &[StateMachine], options: &RustOptions) -> (Self, Types) {
@@ -57,6 +70,11 @@ impl<'a> Scope<'a> {
     pub fn object(&self, index: u16) -> Option<&'a Group> {
         let position = self.groups.binary_search_by_key(&Some(index), Group::index).ok()?;
         self.groups.get(position)
+    }
+
+    /// The fixed process image of this name.
+    pub fn image(&self, name: &str) -> Option<&'a ProcessImage> {
+        self.device?.process_data.images.iter().find(|image| image.name == name)
     }
 
     /// What a type comes down to: a basic one, or one with a shape of its own.

@@ -46,21 +46,42 @@ type Key = (Option<ObjectAddress>, Option<(u8, u16, Option<u8>)>);
 fn entries(scope: &Scope<'_>, item: &Item, name: &str, rows: &mut Vec<(Key, EntryModel)>) {
     let place = Place::of(scope, item);
     let [object, other] = place.objects();
-    let register = place.register_code();
-    if object.is_some() || register.is_some() {
-        rows.push(((object, place.register_key()), entry(scope, item, name, object, register)));
+    let (mut register, key) = (place.register_code(), place.register_key());
+    let at_object = Form::on(item, if place.is_on_canopen() { "canopen" } else { "ethercat" });
+    let at_register = Form::on(item, "modbus");
+    // As a register, the item may have another width, or another access.
+    if object.is_some() && register.is_some() && at_object != at_register {
+        rows.push(((None, key), entry(scope, item, name, (None, register.take()), at_register)));
+        rows.push(((object, None), entry(scope, item, name, (object, None), at_object)));
+    } else if object.is_some() || register.is_some() {
+        let form = if object.is_some() { at_object } else { at_register };
+        rows.push(((object, key), entry(scope, item, name, (object, register), form)));
     }
-    rows.extend(other.map(|other| ((Some(other), None), entry(scope, item, name, Some(other), None))));
+    let form = Form::on(item, "ethercat");
+    rows.extend(other.map(|other| ((Some(other), None), entry(scope, item, name, (Some(other), None), form))));
+}
+
+/// What an item is on one bus.
+#[derive(Clone, Copy, PartialEq)]
+struct Form {
+    ty: Type,
+    access: Access,
+}
+
+impl Form {
+    fn on(item: &Item, bus: &str) -> Self {
+        Form { ty: item.type_on(bus), access: item.access_on(bus) }
+    }
 }
 
 fn entry(
     scope: &Scope<'_>,
     item: &Item,
     name: &str,
-    object: Option<ObjectAddress>,
-    register: Option<String>,
+    (object, register): (Option<ObjectAddress>, Option<String>),
+    form: Form,
 ) -> EntryModel {
-    let (base, ty) = (scope.base(item.ty), scope.value_type(item.ty));
+    let (base, ty) = (scope.base(form.ty), scope.value_type(form.ty));
     let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
     let limits = variant::widest(item);
     EntryModel {
@@ -68,7 +89,7 @@ fn entry(
         register,
         name: literal::string(name),
         data_type: data_type(base),
-        access: match item.access {
+        access: match form.access {
             Access::ReadOnly => "ReadOnly",
             Access::WriteOnly => "WriteOnly",
             Access::Constant => "Constant",

@@ -19,6 +19,8 @@ fn sentence(variant: &ItemVariant, behind: &str) -> String {
         (true, _) => format!("On {}", list(&variant.buses)),
     };
     let mut facts = Vec::new();
+    facts.extend(variant.ty.map(|ty| ty.to_string()));
+    facts.extend(variant.access.map(|access| access.name().to_owned()));
     facts.extend(variant.default.as_ref().map(|value| format!("default {}", docs::value(value))));
     facts.extend(docs::limits(&variant.limits));
     facts.extend(variant.step.as_ref().map(|step| format!("rounded to steps of {}", docs::value(step))));

@@ -396,14 +396,44 @@ tables! {
 
     /// How a value is reached through other items.
     pub struct IndirectRule {
+        /// The buses on which it is; all of those of its items where nothing is said.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
+        pub buses: Option<Vec<At<String>>>,
+        /// The numbers that it takes: `"0x8000..0x8FFF"`; all where nothing is said.
+        pub numbers: Option<At<String>>,
+        /// What is added to the number of a row.
+        pub add: Option<i64>,
         /// The item that takes the number.
         pub write_address: Option<At<String>>,
-        /// What is added to the register's number to get the one that is written there.
-        pub add: Option<i64>,
-        /// The item through which the value is read.
-        pub read: Option<At<String>>,
-        /// The item through which the value is written.
-        pub write: Option<At<String>>,
+        /// The item through which the value is read, or how.
+        pub read: Option<At<TextOr<WindowTable>>>,
+        /// The item through which the value is written, or how.
+        pub write: Option<At<TextOr<WindowTable>>>,
+        /// Whether the device sets the number to 0 once it is done; where nothing is said, the row of the item tells it.
+        pub clears: Option<bool>,
+        /// How many milliseconds the device needs, where it doesn't.
+        pub wait: Option<u32>,
+        /// After how many milliseconds the device has set the number to 0.
+        pub timeout: Option<u32>,
+        /// The procedure that says in which order.
+        pub procedure: Option<At<String>>,
+    }
+
+    /// One way through a window.
+    pub struct WindowTable {
+        /// The item that takes the number, where it isn't `write_address`.
+        pub address: Option<At<String>>,
+        /// The item that has, or takes, the value.
+        pub value: Option<At<String>>,
+        /// What is written first: `address` or `value`.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["address", "value"])))]
+        pub first: Option<At<String>>,
+        /// Whether the device sets the number to 0 once it is done.
+        pub clears: Option<bool>,
+        /// How many milliseconds the device needs, where it doesn't.
+        pub wait: Option<u32>,
+        /// After how many milliseconds the device has set the number to 0.
+        pub timeout: Option<u32>,
         /// The procedure that says in which order.
         pub procedure: Option<At<String>>,
     }
@@ -573,6 +603,15 @@ tables! {
         /// The buses.
         #[cfg_attr(feature = "cli", schemars(transform = schema::words(schema::BUSES)))]
         pub buses: Option<Vec<At<String>>>,
+        /// The type of the value there, on buses where it has another width.
+        #[serde(rename = "type")]
+        #[cfg_attr(feature = "cli", schemars(transform = schema::types))]
+        pub ty: Option<At<String>>,
+        /// What may be done there, on buses that allow less.
+        #[cfg_attr(feature = "cli", schemars(transform = schema::words(&["ro", "rw", "wo"])))]
+        pub access: Option<At<String>>,
+        /// The only values, and ranges of them.
+        pub allowed: Option<At<Vec<Literal>>>,
         /// The value before anybody wrote it.
         pub default: Option<At<Literal>>,
         /// The smallest value, raw.

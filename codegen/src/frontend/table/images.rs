@@ -16,6 +16,8 @@ use crate::text::brief;
 struct Placed {
     bit_offset: u32,
     bits: u32,
+    /// The field's own type, where it has one.
+    ty: Option<Type>,
 }
 
 /// Adds a process image. A field that is called as an item of the device is that item; any other is an item that is found
@@ -50,7 +52,7 @@ pub(super) fn image(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<Ima
                 (placed, entry)
             }),
         };
-        let Some((Placed { bit_offset, bits }, entry)) = placed else { continue };
+        let Some((Placed { bit_offset, bits, .. }, entry)) = placed else { continue };
         let entry = PdoEntry { bit_offset, bits, origin: reader.origin(key), ..entry };
         if is_free(reader, key, &entry, (length, &fields)) {
             fields.push(entry);
@@ -65,7 +67,7 @@ pub(super) fn image(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<Ima
 }
 
 fn binding(image: &CompactString, placed: &Placed) -> Binding {
-    Binding::Image { image: image.clone(), bit_offset: placed.bit_offset, bits: placed.bits }
+    Binding::Image { image: image.clone(), bit_offset: placed.bit_offset, bits: placed.bits, ty: placed.ty }
 }
 
 fn entry(item: &Item) -> PdoEntry {
@@ -135,7 +137,7 @@ fn placed(
         return None;
     };
     let bit_offset = at.saturating_mul(8).saturating_add(field.bit.unwrap_or(0).into());
-    Some(Placed { bit_offset, bits })
+    Some(Placed { bit_offset, bits, ty: ty.filter(|_| field.ty.is_some()) })
 }
 
 /// Whether a field lies in its image, and where no other is; if not, that is reported.

@@ -55,6 +55,7 @@ mod types;
 mod units;
 mod value;
 mod variants;
+mod windows;
 
 use compact_str::CompactString;
 use serde::de::DeserializeOwned;
@@ -276,7 +277,7 @@ impl<'a> Table<'a> {
             modbus: spaces::modbus_tables(reader, &spaces),
             buses,
             defaults: self.node("defaults").and_then(|node| defaults::read(reader, node)),
-            references: spaces::references(&spaces),
+            references: windows::references(&spaces),
             numbered: Vec::new(),
             allowed: Vec::new(),
             summaries: Vec::new(),

@@ -2,10 +2,10 @@
 
 use super::at::{At, Entries, FlagOr};
 use super::format::{ModbusRule, ObjectRule, SpaceTable};
-use super::references::{References, ITEM};
 use super::tree::Reader;
+use super::windows::{self, Window};
 use crate::diagnostics::codes;
-use crate::ir::{Binding, IndirectBinding, ModbusTable, ObjectBuses, RegisterBinding, RegisterSpace, Value};
+use crate::ir::{Binding, ModbusTable, ObjectBuses, RegisterBinding, RegisterSpace};
 use crate::source::Span;
 
 /// Bits of a number where the space doesn't say.
@@ -24,7 +24,7 @@ pub(super) struct Space {
     esc: bool,
     /// Whether a shorter value fills all bits of its numbers.
     extend: bool,
-    windows: Vec<super::format::IndirectRule>,
+    windows: Vec<Window>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -67,6 +67,18 @@ impl Buses {
     pub const ALL: Buses = Buses { canopen: true, ethercat: true, modbus: true, profinet: true, serial: true };
     pub const NONE: Buses = Buses { canopen: false, ethercat: false, modbus: false, profinet: false, serial: false };
 
+    /// Their names in tables.
+    pub fn names(self) -> impl Iterator<Item = &'static str> {
+        let all = [
+            (self.canopen, "canopen"),
+            (self.ethercat, "ethercat"),
+            (self.modbus, "modbus"),
+            (self.profinet, "profinet"),
+            (self.serial, "serial"),
+        ];
+        all.into_iter().filter_map(|(is, name)| is.then_some(name))
+    }
+
     /// Those that are in one of both.
     pub fn or(self, other: Buses) -> Buses {
         Buses {
@@ -95,22 +107,10 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, tables: &Entries<SpaceTable>) ->
     tables.iter().map(|(name, table)| space(reader, name, &table.value)).collect()
 }
 
-/// The items and procedures that spaces name.
-pub(super) fn references(tables: &Entries<SpaceTable>) -> References {
-    let mut found = References::new();
-    for rule in tables.iter().flat_map(|(_, table)| windows(&table.value)) {
-        let items = [&rule.write_address, &rule.read, &rule.write].into_iter().flatten();
-        found.extend(items.map(|name| (name.clone(), ITEM)));
-        found.extend(rule.procedure.iter().map(|name| (name.clone(), "procedure")));
-    }
-    found
-}
-
 fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> Space {
     let modbus = table.modbus.as_ref().map(|rule| modbus(reader, rule));
     // A number of a table of bits is one bit.
     let is_bit = modbus.is_some_and(|own| matches!(own.space, RegisterSpace::Coil | RegisterSpace::DiscreteInput));
-    indirect(reader, name, table);
     if table.extend && modbus.is_none_or(|_| is_bit) {
         let message = "`extend` is about registers of Modbus, and the space has none";
         reader.report(&codes::TABLE_VALUE, reader.span(name), message);
@@ -124,23 +124,7 @@ fn space(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> 
         parameter: table.parameter.as_ref().is_some_and(|rule| !matches!(rule, FlagOr::Flag(false))),
         esc: table.esc,
         extend: table.extend,
-        windows: windows(table).to_vec(),
-    }
-}
-
-/// The windows of a space.
-fn windows(table: &SpaceTable) -> &[super::format::IndirectRule] {
-    table.indirect.as_ref().map_or(&[], |rules| rules.0.as_slice())
-}
-
-/// A window has an item that takes the number, and one for the value.
-fn indirect(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) {
-    for rule in windows(table) {
-        if rule.write_address.is_none() || (rule.read.is_none() && rule.write.is_none()) {
-            let message =
-                "`indirect` says which item takes the number (`write_address`), and which has the value (`read`, `write`)";
-            reader.report(&codes::TABLE_VALUE, reader.span(name), message);
-        }
+        windows: windows::read(reader, name, table),
     }
 }
 
@@ -239,16 +223,7 @@ impl Space {
                 Err(_) => no_address(reader, span, numbers.first, "the memory of a slave controller"),
             }
         }
-        let name = |given: &Option<At<String>>| given.as_ref().map(|own| own.value.as_str().into());
-        bindings.extend(self.windows.iter().map(|rule| {
-            Binding::Indirect(Box::new(IndirectBinding {
-                address_item: name(&rule.write_address).unwrap_or_default(),
-                address: Value::Int(i128::from(numbers.first) + i128::from(rule.add.unwrap_or(0))),
-                read_item: name(&rule.read),
-                write_item: name(&rule.write),
-                procedure: name(&rule.procedure),
-            }))
-        }));
+        bindings.extend(windows::bindings(&self.name, &self.windows, numbers.first, buses));
         bindings
     }
 

@@ -2,11 +2,11 @@
 
 use super::at::At;
 use super::format::{Row, VariantTable};
-use super::rows::Rows;
+use super::rows::{Rows, ACCESSES};
 use super::tree::{cited, Reader};
-use super::{device, scale, value};
+use super::{device, scale, types, value};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Item, ItemVariant, Limits, Type};
+use crate::ir::{Binding, Item, ItemVariant, Limits, RegisterSpace, Type, Value};
 
 impl Rows {
     /// Puts the variants of a row into its item.
@@ -14,6 +14,14 @@ impl Rows {
         let Some(list) = &row.variants else { return };
         let base = self.underlying(item.ty);
         item.variants = list.iter().map(|given| self.variant(reader, given, base)).collect();
+        // Another width takes another number of registers.
+        let Some(bits) = item.type_on("modbus").bits().filter(|_| item.type_on("modbus") != item.ty) else { return };
+        for binding in &mut item.bindings {
+            if let Binding::Register(own) = binding {
+                let is_word = matches!(own.space, RegisterSpace::Holding | RegisterSpace::Input);
+                own.count = u16::try_from(bits.div_ceil(if is_word { 16 } else { 1 })).unwrap_or(own.count);
+            }
+        }
     }
 
     fn variant(&mut self, reader: &mut Reader<'_, '_>, given: &At<VariantTable>, base: Type) -> ItemVariant {
@@ -25,27 +33,64 @@ impl Rows {
         if let Some(buses) = &own.buses {
             device::buses(reader, buses);
         }
+        let ty = own.ty.as_ref().and_then(|given| self.other_type(reader, given, base));
+        let allowed = own.allowed.as_ref().map(|list| value::ranges(reader, (&list.value, reader.span(list)), base));
+        let on_models = own.models.is_some() && (own.ty.is_some() || own.access.is_some());
+        if on_models || (own.buses.is_none() && (own.ty.is_some() || own.access.is_some())) {
+            let message =
+                "another `type` or `access` is one on some `buses`: models that differ so have rows of their own";
+            reader.report(&codes::TABLE_VALUE, reader.span(given), message);
+        }
         let mut value = |literal: &Option<At<_>>| literal.as_ref().map(|own| value::value(reader, own, base));
         let (default, low, high, step) = (value(&own.default), value(&own.min), value(&own.max), value(&own.step));
         let found = ItemVariant {
             models: names(&own.models),
             buses: names(&own.buses),
+            ty,
+            access: own.access.as_ref().and_then(|access| reader.word(access, "access", &ACCESSES)),
             default,
-            limits: Limits { low, high, ..Limits::default() },
+            limits: limits(low, high, allowed.unwrap_or_default()),
             step,
             scale: scale::read(reader, own.scale.as_ref(), None, &mut self.references),
             documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
             at: reader.span(given),
         };
-        let differs = own.default.is_some() || own.min.is_some() || own.max.is_some() || own.step.is_some();
+        let differs = own.ty.is_some()
+            || own.access.is_some()
+            || own.allowed.is_some()
+            || own.default.is_some()
+            || own.min.is_some()
+            || own.max.is_some()
+            || own.step.is_some();
         let message = match () {
             () if found.models.is_empty() && found.buses.is_empty() => "the variant says neither `models` nor `buses`",
             () if !differs && own.scale.is_none() && found.documentation.is_none() => {
-                "the variant says nothing that differs: `default`, `min`, `max`, `step` or `scale`"
+                "the variant says nothing that differs: `type`, `access`, `allowed`, `default`, `min`, `max`, `step` or `scale`"
             }
             () => return found,
         };
         reader.diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, found.at, message));
         found
     }
+
+    /// The type of an integer that has another width.
+    fn other_type(&self, reader: &mut Reader<'_, '_>, given: &At<String>, base: Type) -> Option<Type> {
+        let is_integer = |ty: &Type| matches!(ty, Type::Integer(1..=64) | Type::Unsigned(1..=64) | Type::Boolean);
+        let found = types::named(&given.value).filter(|named| named.elements.is_none()).map(|named| named.ty);
+        let found = found.filter(|ty| is_integer(ty) && is_integer(&base));
+        if found.is_none() {
+            let message =
+                "on another bus, an integer may have another width: `i8`, `u16`; anything else has its own row";
+            reader.report(&codes::TABLE_VALUE, reader.span(given), message);
+        }
+        found
+    }
+}
+
+/// Of a list, the least and the greatest are limits, too.
+fn limits(low: Option<Value>, high: Option<Value>, allowed: Vec<(Value, Value)>) -> Limits {
+    let number = |value: &Value| value.as_int();
+    let least = allowed.iter().map(|(first, _)| first).min_by_key(|value| number(value)).cloned();
+    let greatest = allowed.iter().map(|(_, last)| last).max_by_key(|value| number(value)).cloned();
+    Limits { low: low.or(least), high: high.or(greatest), allowed }
 }

@@ -1,0 +1,226 @@
+//! The route to an item on each bus: its type, and the code that makes it.
+
+use crate::ir::{Limits, Value};
+
+/// The buses of a location, in the order of its fields, but for the records of PROFINET, which tables have no items in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Net {
+    CanOpen,
+    CoE,
+    Modbus,
+    Serial,
+    Image,
+    Esc,
+}
+
+impl Net {
+    pub const ALL: [Net; 6] = [Net::CanOpen, Net::CoE, Net::Modbus, Net::Serial, Net::Image, Net::Esc];
+
+    /// Its name in register tables.
+    pub fn in_tables(self) -> &'static str {
+        match self {
+            Net::CanOpen => "canopen",
+            Net::CoE | Net::Esc => "ethercat",
+            Net::Modbus => "modbus",
+            Net::Serial => "serial",
+            Net::Image => "profinet",
+        }
+    }
+
+    /// Its name as a part of another one.
+    pub fn word(self) -> &'static str {
+        match self {
+            Net::CanOpen => "CanOpen",
+            Net::CoE => "CoE",
+            Net::Modbus => "Modbus",
+            Net::Serial => "Serial",
+            Net::Image => "Image",
+            Net::Esc => "Esc",
+        }
+    }
+
+    /// Its name in a sentence.
+    pub fn title(self) -> &'static str {
+        match self {
+            Net::CanOpen => "CANopen",
+            Net::CoE => "EtherCAT",
+            Net::Modbus => "Modbus",
+            Net::Serial => "the serial line",
+            Net::Image => "PROFINET",
+            Net::Esc => "the slave controller",
+        }
+    }
+
+    /// The type of its addresses.
+    pub fn address(self) -> &'static str {
+        match self {
+            Net::CanOpen | Net::CoE => "rt::Object",
+            Net::Modbus => "rt::Register",
+            Net::Serial => "rt::Parameter",
+            Net::Image => "rt::ImageField",
+            Net::Esc => "rt::EscMemory",
+        }
+    }
+}
+
+/// What lies between an item and an address.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Leg {
+    Direct,
+    Resized,
+    Limited,
+    LimitedResized,
+    Window,
+}
+
+impl Leg {
+    fn ty(self, net: Net, reads: bool) -> String {
+        let address = net.address();
+        match self {
+            Leg::Direct => address.to_owned(),
+            Leg::Resized => format!("rt::Resized<«{address}»>"),
+            Leg::Limited => format!("rt::Limited<«{address}»>"),
+            Leg::LimitedResized => format!("rt::Limited<«rt::Resized<«{address}»>»>"),
+            Leg::Window if reads => format!("rt::Through<«rt::ReadWindow<«{address}»>»>"),
+            Leg::Window => format!("rt::Through<«rt::WriteWindow<«{address}»>»>"),
+        }
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            Leg::Direct => "",
+            Leg::Resized => "Resized",
+            Leg::Limited => "Limited",
+            Leg::LimitedResized => "LimitedResized",
+            Leg::Window => "Window",
+        }
+    }
+}
+
+/// The kind of a route.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Kind {
+    #[default]
+    Absent,
+    /// One for whatever the item's access allows.
+    One(Leg),
+    Reads(Leg),
+    Writes(Leg),
+    Both(Leg, Leg),
+}
+
+impl Kind {
+    /// Its type.
+    pub fn ty(self, net: Net) -> String {
+        match self {
+            Kind::Absent => "rt::Absent".to_owned(),
+            Kind::One(leg) => leg.ty(net, true),
+            Kind::Reads(leg) => format!("rt::Split<«{}¦ rt::Absent»>", leg.ty(net, true)),
+            Kind::Writes(leg) => format!("rt::Split<«rt::Absent¦ {}»>", leg.ty(net, false)),
+            Kind::Both(read, write) => format!("rt::Split<«{}¦ {}»>", read.ty(net, true), write.ty(net, false)),
+        }
+    }
+
+    /// Its name as a part of another one.
+    pub fn word(self, net: Net) -> String {
+        let bus = net.word();
+        match self {
+            Kind::Absent => String::new(),
+            Kind::One(leg) => format!("{bus}{}", leg.word()),
+            Kind::Reads(leg) => format!("{bus}{}In", leg.word()),
+            Kind::Writes(leg) => format!("{bus}{}Out", leg.word()),
+            Kind::Both(Leg::Window, Leg::Window) => format!("{bus}Windows"),
+            Kind::Both(read, write) => format!("{bus}{}In{}Out", read.word(), write.word()),
+        }
+    }
+}
+
+/// Where one direction of the traffic to an item goes on one bus.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Way<'i> {
+    /// The window, by its position; none where the item has an address of its own.
+    pub window: Option<(usize, u32)>,
+    /// Bits of the number there, where they aren't those of the item.
+    pub resized: Option<u8>,
+    /// The only values there.
+    pub limited: Option<&'i Limits>,
+    /// Whether the narrower one of the item and the number there has a sign.
+    pub is_signed: bool,
+}
+
+impl Way<'_> {
+    pub fn leg(&self) -> Leg {
+        match (self.window, self.resized, self.limited) {
+            (Some(_), ..) => Leg::Window,
+            (None, None, None) => Leg::Direct,
+            (None, Some(_), None) => Leg::Resized,
+            (None, None, Some(_)) => Leg::Limited,
+            (None, Some(_), Some(_)) => Leg::LimitedResized,
+        }
+    }
+
+    /// The code that makes it, of that of the address or, through a window, that of the window.
+    pub fn code(&self, at: &str) -> String {
+        let sign = if self.is_signed { "signed" } else { "unsigned" };
+        if let Some((_, number)) = self.window {
+            return format!("rt::Through::{sign}(«0x{number:04X}¦ &{at}»)");
+        }
+        let own = match self.resized {
+            Some(bits) => format!("rt::Resized::{sign}(«{at}¦ {bits}»)"),
+            None => at.to_owned(),
+        };
+        match self.limited {
+            Some(limits) => format!("rt::Limited::new(«{own}¦ {}¦ &[«{}»]»)", self.is_signed, runs(limits).join("¦ ")),
+            None => own,
+        }
+    }
+}
+
+/// First and last value of each run.
+fn runs(limits: &Limits) -> Vec<String> {
+    let number = |value: &Value| value.as_int().and_then(|value| i64::try_from(value).ok());
+    let end = |value: Option<&Value>, none: &str| value.and_then(number).map_or(none.to_owned(), |end| end.to_string());
+    if limits.allowed.is_empty() {
+        return vec![format!("({}, {})", end(limits.low.as_ref(), "i64::MIN"), end(limits.high.as_ref(), "i64::MAX"))];
+    }
+    let runs = limits.allowed.iter().filter_map(|(first, last)| Some((number(first)?, number(last)?)));
+    runs.map(|(first, last)| format!("({first}, {last})")).collect()
+}
+
+/// The way in and the way out on one bus.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Route<'i> {
+    pub read: Option<Way<'i>>,
+    pub write: Option<Way<'i>>,
+    /// Whether the item's access, whatever the bus, has a direction that this bus doesn't.
+    pub is_partial: bool,
+}
+
+impl Route<'_> {
+    pub fn kind(&self) -> Kind {
+        match (&self.read, &self.write) {
+            (None, None) => Kind::Absent,
+            (Some(read), Some(write)) if read == write => Kind::One(read.leg()),
+            (Some(read), Some(write)) => Kind::Both(read.leg(), write.leg()),
+            // A window is one for reading or for writing by its type.
+            (Some(way), None) if self.is_partial || way.window.is_some() => Kind::Reads(way.leg()),
+            (None, Some(way)) if self.is_partial || way.window.is_some() => Kind::Writes(way.leg()),
+            (Some(way), None) | (None, Some(way)) => Kind::One(way.leg()),
+        }
+    }
+
+    /// The code that makes it; `address` is that of the address, and `window` names a window.
+    pub fn code(&self, address: &str, window: impl Fn(usize) -> String) -> String {
+        let way = |way: &Way<'_>| match way.window {
+            Some((at, _)) => way.code(&window(at)),
+            None => way.code(address),
+        };
+        match (self.kind(), &self.read, &self.write) {
+            (Kind::Reads(_), Some(read), _) => format!("rt::Split::reading(«{}»)", way(read)),
+            (Kind::Writes(_), _, Some(write)) => format!("rt::Split::writing(«{}»)", way(write)),
+            (Kind::Both(..), Some(read), Some(write)) => format!("rt::Split::new(«{}¦ {}»)", way(read), way(write)),
+            (Kind::One(_), Some(only), _) | (Kind::One(_), None, Some(only)) => way(only),
+            _ => "rt::Absent".to_owned(),
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Windows: items through which the values of a space are reached by their numbers.
+
+use super::at::{At, Entries, TextOr};
+use super::format::{IndirectRule, SpaceTable, WindowTable};
+use super::place;
+use super::references::{References, ITEM};
+use super::spaces::Buses;
+use super::tree::Reader;
+use crate::diagnostics::codes;
+use crate::ir::{Binding, IndirectBinding, WindowSide};
+
+/// A window of a space.
+#[derive(Clone, Debug)]
+pub(super) struct Window {
+    buses: Buses,
+    numbers: Option<(i128, i128)>,
+    add: i64,
+    read: Option<WindowSide>,
+    write: Option<WindowSide>,
+}
+
+/// The windows of a space.
+pub(super) fn read(reader: &mut Reader<'_, '_>, name: &At<String>, table: &SpaceTable) -> Vec<Window> {
+    let rules = table.indirect.iter().flat_map(|rules| &rules.0);
+    rules.map(|rule| window(reader, name, rule)).collect()
+}
+
+fn window(reader: &mut Reader<'_, '_>, name: &At<String>, rule: &IndirectRule) -> Window {
+    let sides = [(&rule.read, false), (&rule.write, true)];
+    let [read, write] = sides.map(|(given, is_write)| side(reader, name, rule, (given.as_ref()?, is_write)));
+    if rule.read.is_none() && rule.write.is_none() {
+        let message =
+            "`indirect` says which item takes the number (`write_address`), and which has the value (`read`, `write`)";
+        reader.report(&codes::TABLE_VALUE, reader.span(name), message);
+    }
+    let numbers = rule.numbers.as_ref().and_then(|given| {
+        let found = place::range(&given.value).filter(|(first, last)| first <= last);
+        if found.is_none() {
+            let message = format!("`{}` are no numbers: write `\"0x8000..0x8FFF\"`", given.value);
+            reader.report(&codes::TABLE_VALUE, reader.span(given), message);
+        }
+        found
+    });
+    let buses = rule.buses.as_ref().map_or(Buses::ALL, |list| super::device::buses(reader, list));
+    Window { buses, numbers, add: rule.add.unwrap_or(0), read, write }
+}
+
+fn side(
+    reader: &mut Reader<'_, '_>,
+    name: &At<String>,
+    rule: &IndirectRule,
+    (given, is_write): (&At<TextOr<WindowTable>>, bool),
+) -> Option<WindowSide> {
+    let plain = WindowTable::default();
+    let (own, value) = match &given.value {
+        TextOr::Text(value) => (&plain, Some(value)),
+        TextOr::Table(own) => (&**own, own.value.as_ref().map(|value| &value.value)),
+    };
+    let number = own.address.as_ref().or(rule.write_address.as_ref());
+    let (Some(number), Some(value)) = (number, value) else {
+        let message =
+            "a window has an item that takes the number (`write_address`, or `address`), and one for the value";
+        reader.report(&codes::TABLE_VALUE, reader.span(name), message);
+        return None;
+    };
+    let order = own.first.as_ref().and_then(|word| {
+        if !is_write {
+            reader.report(&codes::TABLE_VALUE, reader.span(word), "before a value can be read, its number is written");
+        }
+        reader.word(word, "order of writes", &[("address", true), ("value", false)])
+    });
+    let procedure = own.procedure.as_ref().or(rule.procedure.as_ref());
+    Some(WindowSide {
+        number: number.value.as_str().into(),
+        value: value.as_str().into(),
+        number_first: order,
+        clears: own.clears.or(rule.clears),
+        wait: own.wait.or(rule.wait),
+        timeout: own.timeout.or(rule.timeout),
+        procedure: procedure.map(|procedure| procedure.value.as_str().into()),
+    })
+}
+
+/// The items and procedures that windows name.
+pub(super) fn references(tables: &Entries<SpaceTable>) -> References {
+    let mut found = References::new();
+    let mut add = |name: &Option<At<String>>, kind: &'static str| {
+        found.extend(name.iter().map(|name| (name.clone(), kind)));
+    };
+    let rules = tables.iter().flat_map(|(_, table)| table.value.indirect.iter().flat_map(|rules| &rules.0));
+    for rule in rules {
+        add(&rule.write_address, ITEM);
+        add(&rule.procedure, "procedure");
+        for given in [&rule.read, &rule.write].into_iter().flatten() {
+            match &given.value {
+                TextOr::Text(name) => {
+                    add(&Some(At { value: name.clone(), start: given.start, end: given.end }), ITEM);
+                }
+                TextOr::Table(own) => {
+                    add(&own.address, ITEM);
+                    add(&own.value, ITEM);
+                    add(&own.procedure, "procedure");
+                }
+            }
+        }
+    }
+    found
+}
+
+/// The windows behind which number `first` of the space is found, on these buses.
+pub(super) fn bindings<'w>(
+    space: &'w str,
+    windows: &'w [Window],
+    first: u32,
+    buses: Buses,
+) -> impl Iterator<Item = Binding> + use<'w> {
+    windows.iter().enumerate().filter_map(move |(at, window)| {
+        let number = u32::try_from(i64::from(first) + window.add).ok()?;
+        let is_within = |(low, high): (i128, i128)| (low..=high).contains(&number.into());
+        let buses = buses.and(window.buses);
+        if buses == Buses::NONE || !window.numbers.is_none_or(is_within) {
+            return None;
+        }
+        Some(Binding::Indirect(Box::new(IndirectBinding {
+            space: space.into(),
+            window: u8::try_from(at).unwrap_or(u8::MAX),
+            buses: buses.names().map(Into::into).collect(),
+            number,
+            read: window.read.clone(),
+            write: window.write.clone(),
+        })))
+    })
+}

@@ -1,0 +1,211 @@
+//! Items in the process image of one submodule.
+
+use core::time::Duration;
+
+use super::image::{AsyncImageClient, ImageClient, IoPlace, IoSpan};
+use super::io::IoStatus;
+use crate::abort::AbortCode;
+use crate::bus::ProcessImage;
+use crate::client::{AsyncClient, Client};
+use crate::error::{Error, LengthError};
+use crate::image_field::ImageField;
+
+/// How long a cycle takes at least, as long as something is waited for.
+const CYCLE: Duration = Duration::from_millis(1);
+
+/// The fields of one submodule's data as a [`Client`] of [`ProcessImage`], or an [`AsyncClient`], over an [`ImageClient`] `I`.
+///
+/// `O` and `N` are the frames of outputs and inputs: arrays, vectors or borrowed bytes. Outputs keep what was written last; their
+/// statuses are the caller's, as by [`Plan::set_status`](super::Plan::set_status). Every access exchanges them once: what is written
+/// has gone out when the access ends, and what is read is as new as the client's inputs. A program with a cycle of its own turns
+/// that off with [`by_hand`](Self::by_hand), so that several fields go out together with [`cycle`](Self::cycle).
+///
+/// ```
+/// use lexibus::profinet::{Cyclic, ImageClient, IoPlace, IoSpan, IoStatus};
+/// use lexibus::{Error, Flags, ImageField, Initial, Item, OnImage, Range, Ro, Wo};
+///
+/// // What the compiler emits for two fields of an image:
+/// const TARGET: Item<i32, Wo, OnImage> =
+///     Item::new(OnImage::field(ImageField::output(24, 32)), "Target", Range::Full, Initial::Unknown, "", Flags::NONE);
+/// const ACTUAL: Item<i32, Ro, OnImage> =
+///     Item::new(OnImage::field(ImageField::input(24, 32)), "Actual", Range::Full, Initial::Unknown, "", Flags::NONE);
+///
+/// /// A drive that is always where it should be: 32 bytes each way, and their provider status.
+/// struct Quick;
+///
+/// impl ImageClient for Quick {
+///     type Error = core::convert::Infallible;
+///
+///     fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<Self::Error>> {
+///         inputs.copy_from_slice(outputs);
+///         Ok(())
+///     }
+/// }
+///
+/// let span = Some(IoSpan { offset: 0, length: 33 });
+/// let place = IoPlace { slot: 1, subslot: 1, inputs: span, outputs: span, inputs_consumer: None, outputs_consumer: None };
+/// let mut outputs = [0; 33];
+/// IoStatus::GOOD.write(&mut outputs[32..]);
+/// let mut drive = Cyclic::new(Quick, place, outputs, [0; 33]);
+/// TARGET.at(&mut drive).write(60_000)?;
+/// assert_eq!(ACTUAL.at(&mut drive).read()?, 60_000);
+/// # Ok::<(), Error<core::convert::Infallible>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Cyclic<I, O, N> {
+    image: I,
+    place: IoPlace,
+    outputs: O,
+    inputs: N,
+    is_by_hand: bool,
+}
+
+impl<I, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O, N> {
+    /// The submodule whose data are at `place`, in the frames that `image` exchanges.
+    pub const fn new(image: I, place: IoPlace, outputs: O, inputs: N) -> Self {
+        Self { image, place, outputs, inputs, is_by_hand: false }
+    }
+
+    /// The same, where no access exchanges anything, but what has to wait: the caller calls [`cycle`](Self::cycle) or
+    /// [`cycle_async`](Self::cycle_async).
+    #[must_use]
+    pub fn by_hand(self) -> Self {
+        Self { is_by_hand: true, ..self }
+    }
+
+    /// What exchanges the frames.
+    pub fn image(&mut self) -> &mut I {
+        &mut self.image
+    }
+
+    /// The frame of outputs, as it goes out next.
+    pub fn outputs(&mut self) -> &mut [u8] {
+        self.outputs.as_mut()
+    }
+
+    /// The frame of inputs, as it came last.
+    pub fn inputs(&self) -> &[u8] {
+        self.inputs.as_ref()
+    }
+
+    /// Gives back what exchanges the frames.
+    pub fn into_image(self) -> I {
+        self.image
+    }
+
+    /// Reads a field of the frames as they are.
+    fn get<E>(&self, field: ImageField, buffer: &mut [u8]) -> Result<usize, Error<E>> {
+        let (span, frame) = match field.is_output {
+            true => (self.place.outputs, self.outputs.as_ref()),
+            false => (self.place.inputs, self.inputs.as_ref()),
+        };
+        let data = span_of(span)?.of(frame)?;
+        let provider = IoStatus::from_bytes(data.get(data.len().saturating_sub(1)..).unwrap_or_default());
+        if !field.is_output && !provider.is_good() {
+            return Err(Error::InvalidData);
+        }
+        Ok(field.get(data, buffer)?)
+    }
+
+    /// Writes a field of the outputs, before they go out.
+    fn put<E>(&mut self, field: ImageField, data: &[u8]) -> Result<(), Error<E>> {
+        if !field.is_output {
+            return Err(Error::Abort(AbortCode::READ_ONLY));
+        }
+        Ok(field.put(span_of(self.place.outputs)?.of_mut(self.outputs.as_mut())?, data)?)
+    }
+}
+
+fn span_of(span: Option<IoSpan>) -> Result<IoSpan, LengthError> {
+    span.ok_or(LengthError::new(1, 0))
+}
+
+impl<I: ImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O, N> {
+    /// Sends the outputs, and takes the inputs.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`ImageClient::cycle`].
+    pub fn cycle(&mut self) -> Result<(), Error<I::Error>> {
+        self.image.cycle(self.outputs.as_ref(), self.inputs.as_mut())
+    }
+}
+
+impl<I: AsyncImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Cyclic<I, O, N> {
+    /// Sends the outputs, and takes the inputs, without blocking.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`ImageClient::cycle`].
+    pub async fn cycle_async(&mut self) -> Result<(), Error<I::Error>> {
+        self.image.cycle(self.outputs.as_ref(), self.inputs.as_mut()).await
+    }
+}
+
+/// The next step of a time that has to pass with cycles in between.
+fn step(left: &mut Duration) -> Option<Duration> {
+    let step = (*left).min(CYCLE);
+    *left -= step;
+    (!step.is_zero()).then_some(step)
+}
+
+impl<I: ImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> Client for Cyclic<I, O, N> {
+    type Bus = ProcessImage;
+    type Error = I::Error;
+
+    fn read(&mut self, field: ImageField, buffer: &mut [u8]) -> Result<usize, Error<I::Error>> {
+        if !self.is_by_hand {
+            self.cycle()?;
+        }
+        self.get(field, buffer)
+    }
+
+    fn write(&mut self, field: ImageField, data: &[u8]) -> Result<(), Error<I::Error>> {
+        self.put(field, data)?;
+        if self.is_by_hand {
+            return Ok(());
+        }
+        self.cycle()
+    }
+
+    /// Cycles go on meanwhile.
+    fn wait(&mut self, time: Duration) -> Result<(), Error<I::Error>> {
+        let mut left = time;
+        self.cycle()?;
+        while let Some(step) = step(&mut left) {
+            self.image.wait(step)?;
+            self.cycle()?;
+        }
+        Ok(())
+    }
+}
+
+impl<I: AsyncImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>> AsyncClient for Cyclic<I, O, N> {
+    type Bus = ProcessImage;
+    type Error = I::Error;
+
+    async fn read(&mut self, field: ImageField, buffer: &mut [u8]) -> Result<usize, Error<I::Error>> {
+        if !self.is_by_hand {
+            self.cycle_async().await?;
+        }
+        self.get(field, buffer)
+    }
+
+    async fn write(&mut self, field: ImageField, data: &[u8]) -> Result<(), Error<I::Error>> {
+        self.put(field, data)?;
+        if self.is_by_hand {
+            return Ok(());
+        }
+        self.cycle_async().await
+    }
+
+    async fn wait(&mut self, time: Duration) -> Result<(), Error<I::Error>> {
+        let mut left = time;
+        self.cycle_async().await?;
+        while let Some(step) = step(&mut left) {
+            self.image.wait(step).await?;
+            self.cycle_async().await?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,185 @@
+//! How an item's value travels on one bus: directly to its address, or some other way.
+
+mod limited;
+mod resized;
+mod window;
+
+use crate::bus::{Bus, EscMemory, Object, Parameter, Record};
+use crate::client::{AsyncClient, Client};
+use crate::error::Error;
+use crate::image_field::ImageField;
+use crate::location::Absent;
+use crate::register::Register;
+
+pub use limited::Limited;
+pub use resized::Resized;
+pub use window::{Handshake, ReadWindow, Through, WriteWindow};
+
+/// A way to a value on bus `B`. An address is the direct one; [`Split`], [`Resized`], [`Limited`] and [`Through`] are made of
+/// addresses, and of each other.
+#[diagnostic::on_unimplemented(
+    message = "this item doesn't exist on `{B}`",
+    label = "the item has no address on the client's bus"
+)]
+pub trait Route<B: Bus>: Copy {}
+
+/// A way on which a value can be read.
+#[diagnostic::on_unimplemented(
+    message = "this item can't be read on `{B}`",
+    label = "on the client's bus, the device doesn't let this item be read"
+)]
+pub trait ReadRoute<B: Bus>: Route<B> {
+    /// Reads the value to the start of `buffer` and returns its length, as [`Client::read`] does.
+    ///
+    /// # Errors
+    ///
+    /// Those of the client, and what the way adds to them.
+    fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>>;
+
+    /// The same without blocking.
+    ///
+    /// # Errors
+    ///
+    /// Those of the client, and what the way adds to them.
+    #[allow(async_fn_in_trait)]
+    async fn read_async<C: AsyncClient<Bus = B>>(
+        &self,
+        client: &mut C,
+        buffer: &mut [u8],
+    ) -> Result<usize, Error<C::Error>>;
+}
+
+/// A way on which a value can be written.
+#[diagnostic::on_unimplemented(
+    message = "this item can't be written on `{B}`",
+    label = "on the client's bus, the device doesn't let this item be written"
+)]
+pub trait WriteRoute<B: Bus>: Route<B> {
+    /// Writes the value, as [`Client::write`] does.
+    ///
+    /// # Errors
+    ///
+    /// Those of the client, and what the way adds to them.
+    fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>>;
+
+    /// The same without blocking.
+    ///
+    /// # Errors
+    ///
+    /// Those of the client, and what the way adds to them.
+    #[allow(async_fn_in_trait)]
+    async fn write_async<C: AsyncClient<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>>;
+}
+
+macro_rules! direct {
+    ($($address:ty),*) => {$(
+        impl<B: Bus<Address = $address>> Route<B> for $address {}
+
+        impl<B: Bus<Address = $address>> ReadRoute<B> for $address {
+            #[inline]
+            fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
+                client.read(*self, buffer)
+            }
+
+            async fn read_async<C: AsyncClient<Bus = B>>(
+                &self,
+                client: &mut C,
+                buffer: &mut [u8],
+            ) -> Result<usize, Error<C::Error>> {
+                client.read(*self, buffer).await
+            }
+        }
+
+        impl<B: Bus<Address = $address>> WriteRoute<B> for $address {
+            #[inline]
+            fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
+                client.write(*self, data)
+            }
+
+            async fn write_async<C: AsyncClient<Bus = B>>(
+                &self,
+                client: &mut C,
+                data: &[u8],
+            ) -> Result<(), Error<C::Error>> {
+                client.write(*self, data).await
+            }
+        }
+    )*};
+}
+
+direct!(Object, Register, Record, Parameter, ImageField, EscMemory);
+
+/// Reads on one way, writes on another. A side that is [`Absent`] doesn't compile.
+///
+/// ```
+/// use lexibus::{Absent, CanOpen, Object, ReadRoute, Split, WriteRoute};
+///
+/// // The mode of operation of CiA 402 is written at one object, and read at another.
+/// const MODE: Split<Object, Object> = Split { read: Object::new(0x6061, 0), write: Object::new(0x6060, 0) };
+/// // One that can only be read.
+/// const STATUS: Split<Object, Absent> = Split { read: Object::new(0x6041, 0), write: Absent };
+///
+/// fn both_ways(_: impl ReadRoute<CanOpen> + WriteRoute<CanOpen>) {}
+/// fn to_be_read(_: impl ReadRoute<CanOpen>) {}
+/// both_ways(MODE);
+/// to_be_read(STATUS);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Split<R, W> {
+    /// The way on which the value is read.
+    pub read: R,
+    /// The way on which it is written.
+    pub write: W,
+}
+
+impl<R, W> Split<R, W> {
+    /// Reads on `read`, writes on `write`.
+    #[must_use]
+    pub const fn new(read: R, write: W) -> Self {
+        Self { read, write }
+    }
+}
+
+impl<R> Split<R, Absent> {
+    /// Only reads.
+    #[must_use]
+    pub const fn reading(read: R) -> Self {
+        Self { read, write: Absent }
+    }
+}
+
+impl<W> Split<Absent, W> {
+    /// Only writes.
+    #[must_use]
+    pub const fn writing(write: W) -> Self {
+        Self { read: Absent, write }
+    }
+}
+
+impl<B: Bus, R: Copy, W: Copy> Route<B> for Split<R, W> {}
+
+impl<B: Bus, R: ReadRoute<B>, W: Copy> ReadRoute<B> for Split<R, W> {
+    #[inline]
+    fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
+        self.read.read(client, buffer)
+    }
+
+    async fn read_async<C: AsyncClient<Bus = B>>(
+        &self,
+        client: &mut C,
+        buffer: &mut [u8],
+    ) -> Result<usize, Error<C::Error>> {
+        self.read.read_async(client, buffer).await
+    }
+}
+
+impl<B: Bus, R: Copy, W: WriteRoute<B>> WriteRoute<B> for Split<R, W> {
+    #[inline]
+    fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
+        self.write.write(client, data)
+    }
+
+    async fn write_async<C: AsyncClient<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
+        self.write.write_async(client, data).await
+    }
+}

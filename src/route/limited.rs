@@ -1,0 +1,96 @@
+//! Values of which a bus takes fewer than its item.
+
+use super::{ReadRoute, Route, WriteRoute};
+use crate::bus::Bus;
+use crate::client::{AsyncClient, Client};
+use crate::error::{Error, OutOfRange};
+use crate::pdo::{from_bytes, sign_extend};
+
+/// An integer of which one bus takes these values only, first and last of each run. What comes isn't checked.
+///
+/// ```
+/// use lexibus::{Limited, Object};
+///
+/// // The modes that a drive has on CANopen; on Modbus, -50 saves its parameters.
+/// const MODES: Limited<Object> = Limited::new(Object::new(0x6060, 0), true, &[(-127, -127), (-2, -1), (1, 1), (6, 7)]);
+/// assert!(MODES.takes(-1) && !MODES.takes(-50));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Limited<R> {
+    /// The way to the value.
+    pub at: R,
+    /// Whether the value is in two's complement.
+    pub is_signed: bool,
+    /// First and last value of each run.
+    pub values: &'static [(i64, i64)],
+}
+
+impl<R> Limited<R> {
+    /// On the way `at`, these values only.
+    #[must_use]
+    pub const fn new(at: R, is_signed: bool, values: &'static [(i64, i64)]) -> Self {
+        Self { at, is_signed, values }
+    }
+
+    /// Whether a value can be written.
+    #[must_use]
+    pub fn takes(&self, value: i64) -> bool {
+        self.values.iter().any(|(first, last)| (*first..=*last).contains(&value))
+    }
+
+    fn check(&self, data: &[u8]) -> Result<(), OutOfRange> {
+        let raw = from_bytes(data);
+        let value = match self.is_signed {
+            true => Ok(sign_extend(raw, 8 * data.len() as u32)),
+            false => i64::try_from(raw),
+        };
+        let is_taken = value.is_ok_and(|value| self.takes(value));
+        is_taken.then_some(()).ok_or(OutOfRange)
+    }
+}
+
+impl<B: Bus, R: Route<B>> Route<B> for Limited<R> {}
+
+impl<B: Bus, R: ReadRoute<B>> ReadRoute<B> for Limited<R> {
+    #[inline]
+    fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
+        self.at.read(client, buffer)
+    }
+
+    async fn read_async<C: AsyncClient<Bus = B>>(
+        &self,
+        client: &mut C,
+        buffer: &mut [u8],
+    ) -> Result<usize, Error<C::Error>> {
+        self.at.read_async(client, buffer).await
+    }
+}
+
+impl<B: Bus, R: WriteRoute<B>> WriteRoute<B> for Limited<R> {
+    fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
+        self.check(data)?;
+        self.at.write(client, data)
+    }
+
+    async fn write_async<C: AsyncClient<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
+        self.check(data)?;
+        self.at.write_async(client, data).await
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Object;
+
+    #[test]
+    fn values_by_their_bytes() {
+        let signed = Limited::new(Object::new(0x6060, 0), true, &[(-2, -1), (1, 7)]);
+        assert_eq!(signed.check(&[0xFE]), Ok(()));
+        assert_eq!(signed.check(&[0xFE, 0xFF]), Ok(()));
+        assert_eq!(signed.check(&[0xFE, 0x00]), Err(OutOfRange));
+        let unsigned = Limited::new(Object::new(0x2000, 0), false, &[(0, 0xFE)]);
+        assert_eq!((unsigned.check(&[0xFE]), unsigned.check(&[0xFF])), (Ok(()), Err(OutOfRange)));
+        assert_eq!(unsigned.check(&[0xFF; 8]), Err(OutOfRange));
+    }
+}

@@ -1,0 +1,197 @@
+//! Values that have another width on a bus than their item.
+
+use super::{ReadRoute, Route, WriteRoute};
+use crate::bus::Bus;
+use crate::client::{AsyncClient, Client};
+use crate::error::{Error, LengthError, OutOfRange};
+use crate::pdo::{from_bytes, mask, sign_extend};
+use crate::value::byte_len;
+
+/// An integer that has `bits` bits on the bus, whatever the width of its item.
+///
+/// Where the bus has fewer, a value that doesn't fit isn't sent, and what comes is extended, by its sign where `is_signed`.
+/// Where the bus has more, it is the other way around.
+///
+/// ```
+/// use lexibus::{Client, Error, Location, Object, Register, Resized};
+/// # use lexibus::{Absent, CanOpen, Flags, Initial, Item, OutOfRange, Range, Rw};
+///
+/// // 32 bits on Modbus, 8 bits on CANopen.
+/// type Place = Location<Resized<Object>, Absent, Register>;
+/// const PLACE: Place = Location::new(
+///     Resized::signed(Object::new(0x6060, 0), 8),
+///     Absent,
+///     Register::high_first(0x8001, 2),
+///     Absent,
+///     Absent,
+///     Absent,
+///     Absent,
+/// );
+/// const MODE: Item<i32, Rw, Place> = Item::new(PLACE, "Mode", Range::Full, Initial::Unknown, "", Flags::NONE);
+///
+/// # struct Node(i8);
+/// # impl Client for Node {
+/// #     type Bus = CanOpen;
+/// #     type Error = core::convert::Infallible;
+/// #     fn read(&mut self, _: Object, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>> {
+/// #         buffer[0] = self.0 as u8;
+/// #         Ok(1)
+/// #     }
+/// #     fn write(&mut self, _: Object, data: &[u8]) -> Result<(), Error<Self::Error>> {
+/// #         self.0 = data[0] as i8;
+/// #         assert_eq!(data.len(), 1);
+/// #         Ok(())
+/// #     }
+/// # }
+/// # let mut node = Node(0);
+/// MODE.at(&mut node).write(-50)?; // one byte, 0xCE
+/// assert_eq!(MODE.at(&mut node).read()?, -50);
+/// assert_eq!(MODE.at(&mut node).write(200), Err(Error::OutOfRange(OutOfRange)));
+/// # Ok::<(), Error<core::convert::Infallible>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Resized<R> {
+    /// Where the number is.
+    pub at: R,
+    /// Bits of the number on the bus, 1 to 64. It takes that many, rounded up to whole bytes.
+    pub bits: u8,
+    /// Whether the narrower one of both is in two's complement.
+    pub is_signed: bool,
+}
+
+impl<R> Resized<R> {
+    /// A number of `bits` bits in two's complement.
+    #[must_use]
+    pub const fn signed(at: R, bits: u8) -> Self {
+        Self { at, bits, is_signed: true }
+    }
+
+    /// A number of `bits` bits without a sign.
+    #[must_use]
+    pub const fn unsigned(at: R, bits: u8) -> Self {
+        Self { at, bits, is_signed: false }
+    }
+}
+
+/// `value` of `from` bits as one of `to` bits; nothing where it doesn't fit. The narrower of both is in two's complement
+/// where `is_signed`.
+const fn fit(value: u64, from: u32, to: u32, is_signed: bool) -> Option<u64> {
+    let narrow = if from < to { from } else { to };
+    let low = value & mask(narrow);
+    let number = if is_signed { sign_extend(low, narrow) as u64 } else { low };
+    if number & mask(from) == value & mask(from) {
+        Some(number & mask(to))
+    } else {
+        None
+    }
+}
+
+const fn bits_of(bytes: &[u8]) -> u32 {
+    8 * bytes.len() as u32
+}
+
+/// Puts the number of `bits` bits that `raw` is into `buffer`, which is as long as the value of the item.
+pub(super) fn read(raw: &[u8], bits: u32, is_signed: bool, buffer: &mut [u8]) -> Result<usize, OutOfRange> {
+    let value = fit(from_bytes(raw), bits, bits_of(buffer), is_signed).ok_or(OutOfRange)?;
+    let mut bytes = value.to_le_bytes().into_iter();
+    buffer.fill_with(|| bytes.next().unwrap_or(0));
+    Ok(buffer.len())
+}
+
+/// The number of `bits` bits that the bytes of an item's value are.
+pub(super) fn written(data: &[u8], bits: u32, is_signed: bool) -> Result<[u8; 8], OutOfRange> {
+    fit(from_bytes(data), bits_of(data), bits, is_signed).map(u64::to_le_bytes).ok_or(OutOfRange)
+}
+
+/// As many bytes as `bits` bits take.
+pub(super) fn room(bytes: &mut [u8; 8], bits: u32) -> &mut [u8] {
+    &mut bytes[..byte_len(bits)]
+}
+
+pub(super) fn check(expected: usize, actual: usize) -> Result<(), LengthError> {
+    if expected == actual {
+        Ok(())
+    } else {
+        Err(LengthError::new(expected, actual))
+    }
+}
+
+impl<B: Bus, R: Route<B>> Route<B> for Resized<R> {}
+
+impl<B: Bus, R: ReadRoute<B>> ReadRoute<B> for Resized<R> {
+    fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
+        let (mut raw, bits) = ([0; 8], self.bits.into());
+        let raw = room(&mut raw, bits);
+        check(raw.len(), self.at.read(client, raw)?)?;
+        Ok(read(raw, bits, self.is_signed, buffer)?)
+    }
+
+    async fn read_async<C: AsyncClient<Bus = B>>(
+        &self,
+        client: &mut C,
+        buffer: &mut [u8],
+    ) -> Result<usize, Error<C::Error>> {
+        let (mut raw, bits) = ([0; 8], self.bits.into());
+        let raw = room(&mut raw, bits);
+        check(raw.len(), self.at.read_async(client, raw).await?)?;
+        Ok(read(raw, bits, self.is_signed, buffer)?)
+    }
+}
+
+impl<B: Bus, R: WriteRoute<B>> WriteRoute<B> for Resized<R> {
+    fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
+        let bits = self.bits.into();
+        let mut raw = written(data, bits, self.is_signed)?;
+        self.at.write(client, room(&mut raw, bits))
+    }
+
+    async fn write_async<C: AsyncClient<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
+        let bits = self.bits.into();
+        let mut raw = written(data, bits, self.is_signed)?;
+        self.at.write_async(client, room(&mut raw, bits)).await
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn narrower_on_the_bus() {
+        assert_eq!(written(&(-50_i32).to_le_bytes(), 8, true), Ok([0xCE, 0, 0, 0, 0, 0, 0, 0]));
+        assert_eq!(written(&200_i32.to_le_bytes(), 8, true), Err(OutOfRange));
+        assert_eq!(written(&200_i32.to_le_bytes(), 8, false).map(|bytes| bytes[0]), Ok(200));
+        assert_eq!(written(&(-1_i32).to_le_bytes(), 8, false), Err(OutOfRange));
+        let mut value = [0xAA; 4];
+        assert_eq!(read(&[0xCE], 8, true, &mut value), Ok(4));
+        assert_eq!(i32::from_le_bytes(value), -50);
+        assert_eq!(read(&[0xCE], 8, false, &mut value), Ok(4));
+        assert_eq!(i32::from_le_bytes(value), 0xCE);
+        assert_eq!(read(&[0x0C], 4, true, &mut value), Ok(4));
+        assert_eq!(i32::from_le_bytes(value), -4);
+    }
+
+    #[test]
+    fn wider_on_the_bus() {
+        assert_eq!(written(&[0xCE], 16, true).map(|bytes| bytes[..2].to_vec()), Ok([0xCE, 0xFF].to_vec()));
+        assert_eq!(written(&[0xCE], 16, false).map(|bytes| bytes[..2].to_vec()), Ok([0xCE, 0].to_vec()));
+        let mut value = [0];
+        assert_eq!(read(&[0xCE, 0xFF], 16, true, &mut value), Ok(1));
+        assert_eq!(value, [0xCE]);
+        assert_eq!(read(&[0xCE, 0x00], 16, true, &mut value), Err(OutOfRange));
+        assert_eq!(read(&[0xCE, 0x01], 16, false, &mut value), Err(OutOfRange));
+        assert_eq!(read(&[0xFF; 8], 64, true, &mut value), Ok(1));
+    }
+
+    #[test]
+    fn every_byte_comes_back() {
+        for (bits, is_signed) in [(8, true), (8, false), (16, true), (16, false), (64, true), (64, false)] {
+            for value in 0..=u8::MAX {
+                let bytes = written(&[value], bits, is_signed).unwrap();
+                let mut back = [0];
+                assert_eq!(read(&bytes[..byte_len(bits)], bits, is_signed, &mut back), Ok(1));
+                assert_eq!(back, [value]);
+            }
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! What a bus lacks: a field that the device only gets can't be read, and one that it only sends can't be written; a window is
+//! only on its bus, and no part of a block.
+
+use lexibus::modbus::RegisterClient;
+use lexibus::profinet::{Cyclic, ImageClient};
+use lexibus::{
+    Absent, CanOpen, Client, Flags, Handshake, ImageField, Initial, Item, Location, Range, ReadWindow,
+    Register, Rw, Split, Through,
+};
+
+type OnlyOut = Location<Absent, Absent, Absent, Absent, Absent, Split<Absent, ImageField>>;
+const TARGET: Item<i32, Rw, OnlyOut> = Item::new(
+    OnlyOut::new(Absent, Absent, Absent, Absent, Absent, Split::writing(ImageField::output(0, 32)), Absent),
+    "Target",
+    Range::Full,
+    Initial::Unknown,
+    "",
+    Flags::NONE,
+);
+
+type OnlyIn = Location<Absent, Absent, Absent, Absent, Absent, Split<ImageField, Absent>>;
+const ACTUAL: Item<i32, Rw, OnlyIn> = Item::new(
+    OnlyIn::new(Absent, Absent, Absent, Absent, Absent, Split::reading(ImageField::input(0, 32)), Absent),
+    "Actual",
+    Range::Full,
+    Initial::Unknown,
+    "",
+    Flags::NONE,
+);
+
+const WINDOW: ReadWindow<Register> = ReadWindow {
+    number: Register::holding(1),
+    number_bits: 16,
+    value: Register::high_first(2, 2),
+    value_bits: 32,
+    handshake: Handshake::NONE,
+};
+type Behind = Location<Absent, Absent, Through<ReadWindow<Register>>>;
+const GAIN: Item<u32, Rw, Behind> = Item::new(
+    Behind::new(Absent, Absent, Through::unsigned(0x8033, &WINDOW), Absent, Absent, Absent, Absent),
+    "Gain",
+    Range::Full,
+    Initial::Unknown,
+    "",
+    Flags::NONE,
+);
+
+fn image<I: ImageClient>(mut client: Cyclic<I, [u8; 5], [u8; 5]>) {
+    let _ = TARGET.at(&mut client).write(1);
+    let _ = TARGET.at(&mut client).read();
+    let _ = ACTUAL.at(&mut client).read();
+    let _ = ACTUAL.at(&mut client).write(1);
+}
+
+fn registers<C: RegisterClient>(mut client: C) {
+    let _ = GAIN.at(&mut client).read();
+    let _ = client.read_block((GAIN,));
+}
+
+fn objects<C: Client<Bus = CanOpen>>(mut client: C) {
+    let _ = GAIN.at(&mut client).read();
+}
+
+fn main() {}

@@ -1,0 +1,341 @@
+//! One device on every bus: the accessors of `data/one-drive.toml`, over objects, windows, registers and a process image.
+
+#![cfg(all(feature = "macros", feature = "std"))]
+
+use std::convert::Infallible;
+use std::future::Future;
+use std::pin::pin;
+use std::task::{Context, Poll, Waker};
+use std::time::Duration;
+
+use lexibus::profinet::{AsyncImageClient, Cyclic, ImageClient, IoPlace, IoSpan, IoStatus};
+use lexibus::sim::Device;
+use lexibus::{AbortCode, AsyncClient, CanOpen, Client, CoE, Error, Esc, EscMemory, Modbus, Object, OutOfRange, Timed};
+
+lexibus::dictionary! {
+    /// A made-up drive.
+    #[allow(deprecated)]
+    pub mod one = "tests/data/one-drive.toml" { table: true }
+}
+
+use one::types::Modes;
+use one::{objects, OneDrive, ENTRIES};
+
+/// The result of a future that never has to wait.
+fn now<F: Future>(future: F) -> F::Output {
+    struct Silent;
+    impl std::task::Wake for Silent {
+        fn wake(self: std::sync::Arc<Self>) {}
+    }
+    let waker = Waker::from(std::sync::Arc::new(Silent));
+    match pin!(future).poll(&mut Context::from_waker(&waker)) {
+        Poll::Ready(output) => output,
+        Poll::Pending => panic!("the future waits"),
+    }
+}
+
+/// The drive on CANopen: what is behind its window is what the registers hold.
+fn node() -> Device {
+    let mut device = Device::new(ENTRIES);
+    device
+        .on_write(objects::reading::READ_ADDRESS, |device, number| {
+            let value = match number {
+                0x8001 => device.get(objects::MODE)?.raw(),
+                0x8017 => i32::from(device.get(objects::MASTER_SPEED)?),
+                0x8033 => device.get(objects::GAIN)? as i32,
+                _ => return Err(AbortCode::INVALID_VALUE),
+            };
+            device.set(objects::reading::READ_VALUE, value)?;
+            device.set(objects::reading::READ_ADDRESS, 0)
+        })
+        .unwrap();
+    device
+        .on_write(objects::writing::WRITE_ADDRESS, |device, number| {
+            let value = device.get(objects::writing::WRITE_VALUE)?;
+            match number {
+                0x8033 => device.set(objects::GAIN, value as u32)?,
+                _ => return Err(AbortCode::INVALID_VALUE),
+            }
+            device.set(objects::writing::WRITE_ADDRESS, 0)
+        })
+        .unwrap();
+    device
+}
+
+#[test]
+fn windows_are_as_addresses() {
+    let mut device = node();
+    device.set(objects::MASTER_SPEED, -5).unwrap();
+    let mut drive = OneDrive::new(device.client::<CanOpen>());
+    drive.gain().write(70_000).unwrap();
+    assert_eq!(drive.gain().read(), Ok(70_000));
+    assert_eq!(drive.master_speed().read(), Ok(-5));
+    now(drive.gain().write_async(70_001)).unwrap();
+    assert_eq!(now(drive.gain().read_async()), Ok(70_001));
+    // The item's own range holds here, too.
+    assert_eq!(drive.gain().write(100_001), Err(Error::OutOfRange(OutOfRange)));
+    // An address of its own goes before a window.
+    drive.target_position().write(60_000).unwrap();
+    assert_eq!(device.bytes(Object::new(0x607A, 0)), Ok(60_000_i32.to_le_bytes().as_slice()));
+    assert_eq!(device.bytes(Object::new(0x2006, 2)), Ok(70_001_i32.to_le_bytes().as_slice()));
+}
+
+#[test]
+fn what_the_device_refuses_comes_through_a_window() {
+    let mut device = node();
+    device.fail_next(AbortCode::HARDWARE);
+    assert_eq!(OneDrive::new(device.client::<CanOpen>()).gain().read(), Err(Error::Abort(AbortCode::HARDWARE)));
+    // Nobody clears the number.
+    let mut dead = Device::new(ENTRIES);
+    assert_eq!(OneDrive::new(dead.client::<CanOpen>()).gain().read(), Err(Error::Timeout));
+    assert_eq!(now(OneDrive::new(dead.client::<CanOpen>()).gain().read_async()), Err(Error::Timeout));
+    assert_eq!(OneDrive::new(dead.client::<CanOpen>()).gain().write(1), Err(Error::Timeout));
+}
+
+#[test]
+fn a_window_of_bytes_takes_what_fits() {
+    let mut device = Device::new(ENTRIES);
+    device
+        .on_write(objects::parameter_window::PARAMETER_WRITE, |device, number| {
+            let value = device.get(objects::parameter_window::PARAMETER_WRITE_VALUE)?;
+            assert_eq!((number, value), (58, 199));
+            device.set(objects::parameter_window::PARAMETER_WRITE, 0)
+        })
+        .unwrap();
+    device
+        .on_write(objects::parameter_window::PARAMETER_READ, |device, number| {
+            device.set(objects::parameter_window::PARAMETER_READ_VALUE, number + 150)?;
+            device.set(objects::parameter_window::PARAMETER_READ, 0)
+        })
+        .unwrap();
+    let mut drive = OneDrive::new(device.client::<CanOpen>());
+    drive.station().write(199).unwrap();
+    assert_eq!(drive.station().read(), Ok(208));
+    assert_eq!(drive.station().write(201), Err(Error::OutOfRange(OutOfRange)));
+}
+
+/// A drive on EtherCAT that says what is done to it.
+#[derive(Default)]
+struct Slave {
+    log: Vec<String>,
+    mode: [u8; 2],
+}
+
+impl Client for Slave {
+    type Bus = CoE;
+    type Error = Infallible;
+
+    fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, Error<Infallible>> {
+        self.log.push(format!("read {object}, {} bytes", buffer.len()));
+        match object.index {
+            0x6060 => buffer.copy_from_slice(&self.mode),
+            _ => buffer.fill(0xFF),
+        }
+        Ok(buffer.len())
+    }
+
+    fn write(&mut self, object: Object, data: &[u8]) -> Result<(), Error<Infallible>> {
+        self.log.push(format!("write {object} {data:02X?}"));
+        if object.index == 0x6060 {
+            self.mode.copy_from_slice(data);
+        }
+        Ok(())
+    }
+
+    fn wait(&mut self, time: Duration) -> Result<(), Error<Infallible>> {
+        self.log.push(format!("wait {time:?}"));
+        Ok(())
+    }
+}
+
+impl AsyncClient for Slave {
+    type Bus = CoE;
+    type Error = Infallible;
+
+    async fn read(&mut self, object: Object, buffer: &mut [u8]) -> Result<usize, Error<Infallible>> {
+        Client::read(self, object, buffer)
+    }
+
+    async fn write(&mut self, object: Object, data: &[u8]) -> Result<(), Error<Infallible>> {
+        Client::write(self, object, data)
+    }
+}
+
+#[test]
+fn the_same_window_in_another_order() {
+    let mut drive = OneDrive::new(Slave::default());
+    drive.gain().write(0x1_0203).unwrap();
+    let log = std::mem::take(&mut drive.client().log);
+    assert_eq!(log, ["write 0x2006:01 [33, 80]", "write 0x2006:02 [03, 02, 01, 00]", "wait 3ms"]);
+    assert_eq!(drive.master_speed().read(), Ok(-1));
+    let log = std::mem::take(&mut drive.client().log);
+    assert_eq!(log, ["write 0x2005:01 [17, 80]", "wait 3ms", "read 0x2005:02, 4 bytes"]);
+}
+
+#[test]
+fn time_has_to_come_from_somewhere() {
+    let mut drive = OneDrive::new(Slave::default());
+    assert_eq!(now(drive.gain().read_async()), Err(Error::NoClock));
+    let mut waited = Duration::ZERO;
+    let clock = |time| {
+        waited += time;
+        std::future::ready(())
+    };
+    let mut drive = OneDrive::new(Timed::new(Slave::default(), clock));
+    assert_eq!(now(drive.master_speed().read_async()), Ok(-1));
+    assert_eq!(drive.into_client().into_client().log.len(), 2);
+    assert_eq!(waited, Duration::from_millis(3));
+}
+
+#[test]
+fn each_bus_has_its_own_width() {
+    // 16 bits on EtherCAT.
+    let mut drive = OneDrive::new(Slave::default());
+    drive.mode().write(Modes::SaveParameters).unwrap();
+    assert_eq!(drive.client().log, ["write 0x6060:00 [CE, FF]"]);
+    assert_eq!(drive.mode().read(), Ok(Modes::SaveParameters));
+    // 8 bits on CANopen, where the mode that saves doesn't exist, and where reading goes through the window.
+    let mut device = node();
+    let mut drive = OneDrive::new(device.client::<CanOpen>());
+    assert_eq!(drive.mode().write(Modes::SaveParameters), Err(Error::OutOfRange(OutOfRange)));
+    drive.mode().write(Modes::Torque).unwrap();
+    assert_eq!(drive.mode().read(), Ok(Modes::Torque));
+    assert_eq!(device.bytes(Object::new(0x6060, 0)), Ok([0xFF].as_slice()));
+    // 32 bits on Modbus.
+    let mut drive = OneDrive::new(device.client::<Modbus>());
+    drive.mode().write(Modes::SaveParameters).unwrap();
+    assert_eq!(drive.mode().read(), Ok(Modes::SaveParameters));
+    assert_eq!(device.bytes(objects::MODE.location().modbus), Ok((-50_i32).to_le_bytes().as_slice()));
+}
+
+/// A drive with an image of 16 bytes each way, which answers its channel of variables in the second cycle after a question.
+#[derive(Default)]
+struct Controller {
+    cycles: usize,
+    asked: Option<u16>,
+    gain: i32,
+    is_bad: bool,
+}
+
+impl Controller {
+    fn exchange(&mut self, outputs: &[u8], inputs: &mut [u8]) {
+        self.cycles += 1;
+        let number = |at: usize| u16::from_be_bytes([outputs[at], outputs[at + 1]]);
+        let value = i32::from_be_bytes(outputs[9..13].try_into().unwrap());
+        if number(7) == 0x8033 {
+            self.gain = value;
+        }
+        inputs.fill(0);
+        // It is always where it should be.
+        inputs[1..5].copy_from_slice(&outputs[1..5]);
+        inputs[9..11].copy_from_slice(&(-300_i16).to_be_bytes());
+        inputs[11] = 0b1000;
+        inputs[16] = if self.is_bad { 0 } else { 0x80 };
+        if let Some(asked) = self.asked.replace(number(5)).filter(|asked| *asked == number(5)) {
+            let answer = match asked {
+                0x8033 => self.gain,
+                0x8001 => i32::from(outputs[0] as i8),
+                _ => 0,
+            };
+            inputs[5..9].copy_from_slice(&answer.to_be_bytes());
+        }
+    }
+}
+
+impl ImageClient for Controller {
+    type Error = Infallible;
+
+    fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<Infallible>> {
+        self.exchange(outputs, inputs);
+        Ok(())
+    }
+}
+
+impl AsyncImageClient for Controller {
+    type Error = Infallible;
+
+    async fn cycle(&mut self, outputs: &[u8], inputs: &mut [u8]) -> Result<(), Error<Infallible>> {
+        self.exchange(outputs, inputs);
+        Ok(())
+    }
+
+    async fn wait(&mut self, _: Duration) -> Result<(), Error<Infallible>> {
+        Ok(())
+    }
+}
+
+type Image = Cyclic<Controller, [u8; 17], [u8; 17]>;
+
+fn image() -> OneDrive<Image> {
+    let span = Some(IoSpan { offset: 0, length: 17 });
+    let place =
+        IoPlace { slot: 1, subslot: 1, inputs: span, outputs: span, inputs_consumer: None, outputs_consumer: None };
+    let mut outputs = [0; 17];
+    IoStatus::GOOD.write(&mut outputs[16..]);
+    OneDrive::new(Cyclic::new(Controller::default(), place, outputs, [0; 17]))
+}
+
+#[test]
+fn the_image_is_a_bus() {
+    let mut drive = image();
+    drive.target_position().write(-2).unwrap();
+    assert_eq!(drive.client().outputs()[..6], [0, 0xFF, 0xFF, 0xFF, 0xFE, 0]);
+    assert_eq!((drive.actual_position().read(), drive.torque().read()), (Ok(-2), Ok(-300)));
+    assert_eq!((drive.ready().read(), drive.alarm().read()), (Ok(true), Ok(0)));
+    drive.mode().write(Modes::SaveParameters).unwrap();
+    assert_eq!(drive.client().outputs()[0], 0xCE);
+    // What the image only sends is read through the channel of variables; what it doesn't have goes through it both ways.
+    assert_eq!(drive.mode().read(), Ok(Modes::SaveParameters));
+    drive.gain().write(70_000).unwrap();
+    assert_eq!(drive.gain().read(), Ok(70_000));
+    assert_eq!(now(drive.gain().read_async()), Ok(70_000));
+    assert_eq!(now(drive.torque().read_async()), Ok(-300));
+}
+
+#[test]
+fn fields_of_one_cycle_go_out_together() {
+    let mut drive = OneDrive::new(image().into_client().by_hand());
+    drive.target_position().write(5).unwrap();
+    drive.mode().write(Modes::Position).unwrap();
+    assert_eq!(drive.client().image().cycles, 0);
+    drive.client().cycle().unwrap();
+    assert_eq!((drive.actual_position().read(), drive.client().image().cycles), (Ok(5), 1));
+    // A window takes its time, and the cycles that are in it.
+    drive.gain().write(9).unwrap();
+    assert_eq!((drive.gain().read(), drive.client().image().cycles), (Ok(9), 9));
+}
+
+#[test]
+fn data_that_are_not_valid_are_no_data() {
+    let mut drive = image();
+    drive.client().image().is_bad = true;
+    assert_eq!(drive.torque().read(), Err(Error::InvalidData));
+    drive.target_position().write(1).unwrap();
+}
+
+/// The memory of a slave controller.
+struct Memory([u8; 0x200]);
+
+impl Client for Memory {
+    type Bus = Esc;
+    type Error = Infallible;
+
+    fn read(&mut self, memory: EscMemory, buffer: &mut [u8]) -> Result<usize, Error<Infallible>> {
+        let own = &self.0[usize::from(memory.address)..][..usize::from(memory.length)];
+        buffer.copy_from_slice(own);
+        Ok(own.len())
+    }
+
+    fn write(&mut self, memory: EscMemory, data: &[u8]) -> Result<(), Error<Infallible>> {
+        self.0[usize::from(memory.address)..][..usize::from(memory.length)].copy_from_slice(data);
+        Ok(())
+    }
+}
+
+#[test]
+fn slave_controllers_have_memory() {
+    let mut drive = OneDrive::new(Memory([0; 0x200]));
+    drive.al_control().write(0x0008).unwrap();
+    drive.client().0[0x130] = 8;
+    assert_eq!((drive.al_control().read(), drive.al_status().read()), (Ok(8), Ok(8)));
+}
