@@ -21,7 +21,7 @@ use lexibus_drives::eco::objects::{
     transmit_pdo_1_communication_parameter as tpdo, transmit_pdo_1_mapping_parameter as tpdo_map,
 };
 use lexibus_drives::eco::types::{
-    Controlword, HomingMethod, MappedObject, Mode402, Statusword, StoreParameters, TransmissionType,
+    Controlword, HomingMethod, MappedObject, Mode, Statusword, StoreParameters, TransmissionType,
 };
 use lexibus_drives::eco::{self, codes, pdo};
 
@@ -63,7 +63,7 @@ fn homing() {
     writes(objects::HOMING_METHOD, HomingMethod::MarkerForwards, [0x2F, 0x98, 0x60, 0, 0x22, 0, 0, 0]);
     writes(objects::HOME_OFFSET, -1000, [0x23, 0x7C, 0x60, 0, 0x18, 0xFC, 0xFF, 0xFF]);
     writes(homing_speeds::HOMING_SLOW_SPEED, 1000, [0x23, 0x99, 0x60, 2, 0xE8, 0x03, 0, 0]);
-    writes(objects::MODES_OF_OPERATION_OF_DSP_402, Mode402::Homing, [0x2F, 0x60, 0x60, 0, 6, 0, 0, 0]);
+    writes(objects::MODES_OF_OPERATION, Mode::Homing, [0x2F, 0x60, 0x60, 0, 6, 0, 0, 0]);
     // L4284 to L4300.
     commands(&[0x0000, 0x0080, 0x0000, 0x0006, 0x0007, 0x000F, 0x000F, 0x001F]);
     let start = control(0x000F).in_homing().with_start_homing(true).controlword();
@@ -79,7 +79,7 @@ fn positioner() {
     writes(objects::PROFILE_VELOCITY, 20_000, [0x23, 0x81, 0x60, 0, 0x20, 0x4E, 0, 0]);
     writes(objects::PROFILE_ACCELERATION, 200, [0x23, 0x83, 0x60, 0, 0xC8, 0, 0, 0]);
     writes(objects::PROFILE_DECELERATION, 200, [0x23, 0x84, 0x60, 0, 0xC8, 0, 0, 0]);
-    writes(objects::MODES_OF_OPERATION_OF_DSP_402, Mode402::Positioner, [0x2F, 0x60, 0x60, 0, 1, 0, 0, 0]);
+    writes(objects::MODES_OF_OPERATION, Mode::Positioner, [0x2F, 0x60, 0x60, 0, 1, 0, 0, 0]);
     writes(objects::TARGET_POSITION, 60_000, [0x23, 0x7A, 0x60, 0, 0x60, 0xEA, 0, 0]);
     commands(&[0x004F, 0x005F]);
     writes(objects::TARGET_POSITION, 30_000, [0x23, 0x7A, 0x60, 0, 0x30, 0x75, 0, 0]);
@@ -94,7 +94,7 @@ fn velocity() {
     writes(feed_constant::FEED_CONSTANT, 60, [0x23, 0x92, 0x60, 1, 0x3C, 0, 0, 0]);
     writes(objects::PROFILE_ACCELERATION, 5, [0x23, 0x83, 0x60, 0, 5, 0, 0, 0]);
     writes(objects::PROFILE_DECELERATION, 5, [0x23, 0x84, 0x60, 0, 5, 0, 0, 0]);
-    writes(objects::MODES_OF_OPERATION_OF_DSP_402, Mode402::Velocity, [0x2F, 0x60, 0x60, 0, 3, 0, 0, 0]);
+    writes(objects::MODES_OF_OPERATION, Mode::Velocity, [0x2F, 0x60, 0x60, 0, 3, 0, 0, 0]);
     writes(objects::TARGET_VELOCITY, 1000, [0x23, 0xFF, 0x60, 0, 0xE8, 0x03, 0, 0]);
 }
 
@@ -116,7 +116,7 @@ fn saving_and_guarding() {
 fn interpolator() {
     // L4414 to L4443. The state is at sub-index 2, not 1.
     writes(interpolation_time_period::IP_TIME_UNITS, 1, [0x2F, 0xC2, 0x60, 1, 1, 0, 0, 0]);
-    writes(objects::MODES_OF_OPERATION_OF_DSP_402, Mode402::Interpolator, [0x2F, 0x60, 0x60, 0, 7, 0, 0, 0]);
+    writes(objects::MODES_OF_OPERATION, Mode::Interpolator, [0x2F, 0x60, 0x60, 0, 7, 0, 0, 0]);
     let each_sync = TransmissionType::from_raw(1);
     writes(rpdo::TRANSMISSION_TYPE_OF_RPDO_1, each_sync, [0x2F, 0x00, 0x14, 2, 1, 0, 0, 0]);
     writes(rpdo_map::NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1, 0, [0x2F, 0x00, 0x16, 0, 0, 0, 0, 0]);

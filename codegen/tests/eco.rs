@@ -164,7 +164,7 @@ fn one_register_is_one_item_on_five_buses() {
         let number: u16 = row[0][1..].parse().expect("a number");
         let own = tables.map(|device| {
             let is_window = |binding: &Binding| match binding {
-                Binding::Indirect(window) => window.address == Value::Int(0x8000 + i128::from(number)),
+                Binding::Indirect(window) => window.number == 0x8000 + u32::from(number),
                 _ => false,
             };
             items(device).find(|item| item.bindings.iter().any(is_window)).expect("a register")
@@ -178,8 +178,7 @@ fn one_register_is_one_item_on_five_buses() {
         let is_same_object = !row[8].contains("DIFFERENT") && !row[8].contains("while") && row[8].starts_with("0x60")
             || row[8].starts_with("0x2")
             || row[8].starts_with("0x3");
-        // 0x6060 can only be written, and is an item of its own.
-        let object = is_same_object.then(|| place(&row[8])).filter(|_| number != 1);
+        let object = is_same_object.then(|| place(&row[8]));
         if addresses != printed || own[0].object() != object {
             wrong.push(format!("{}: {addresses:?} {printed:?} {:?} {object:?}", row[0], own[0].object()));
         }
@@ -276,9 +275,8 @@ fn every_parameter_is_there_at_its_line() {
             2 => assert_eq!(unit, "°", "{name}"),
             _ => {}
         }
-        let is_window =
-            |binding: &&Binding| matches!(binding, Binding::Indirect(own) if own.address == Value::Int(code.into()));
-        assert_eq!(item.bindings.iter().filter(is_window).count(), 6, "{name}");
+        let is_window = |binding: &&Binding| matches!(binding, Binding::Indirect(own) if own.number == code);
+        assert_eq!(item.bindings.iter().filter(is_window).count(), 3, "{name}");
         // All that can be set is saved (L3355).
         assert_eq!(is_saved(item), item.access == Access::ReadWrite, "{name}");
     }
@@ -308,8 +306,7 @@ fn what_canopen_saves_is_saved() {
         items(device).filter(|item| is_saved(item)).filter_map(Item::object).map(|own| own.0).collect();
     for index in &cells {
         let index = *index as u16;
-        // The mode is the register R01, which 0x6060 writes.
-        assert!(saved.contains(&index) || index == 0x6060, "0x{index:04X}");
+        assert!(saved.contains(&index), "0x{index:04X}");
     }
     let listed: BTreeSet<u16> = cells.iter().map(|own| *own as u16).collect();
     let beyond: Vec<u16> = saved.difference(&listed).copied().collect();

@@ -120,7 +120,13 @@ fn modes_profiles_and_bit_rates_are_the_printed_ones() {
         list
     };
     assert_eq!(values("Mode"), with_csp(in_registers));
-    assert_eq!(values("Mode402"), with_csp(of_lines(3946, 3952)));
+    // What 0x6060 takes on each bus.
+    let there = |bus: &str| -> BTreeSet<i128> {
+        let limits = item(device, "modes_of_operation").limits_on(bus).expect("limits");
+        limits.allowed.iter().filter_map(|(value, _)| value.as_int()).collect()
+    };
+    assert_eq!(there("canopen"), of_lines(3946, 3952));
+    assert_eq!(there("ethercat"), with_csp(of_lines(3946, 3952)));
     assert_eq!(values("MotionProfile"), of_lines(3969, 3972));
     let rates = lines(&manual, 3422, 3429).filter_map(|(_, text)| text.split_whitespace().nth(2)?.parse::<i128>().ok());
     assert_eq!(values("BitRate"), rates.collect::<BTreeSet<i128>>());

@@ -213,7 +213,7 @@ title = "Window"
 [chapters.objects]
 0x2006 = { name = "Drive Variable Write", code = "record" }
 "0x2006:0" = { name = "Number Of Entries", type = "u8", access = "ro" }
-"0x2006:1" = { name = "Variable Write Address", type = "u16", access = "rw" }
+"0x2006:1" = { name = "Variable Write Address", type = "u16", access = "rw", clears = true }
 "0x2006:2" = { name = "Variable Write Value", type = "u32", access = "rw" }
 [spaces.parameter]
 indirect = { write_address = "Variable Write Address", write = "Variable Write Value", procedure = "write" }
@@ -234,8 +234,16 @@ d1 = { reg = 1, type = "u16", access = "rw" }
 #[test]
 fn e4_the_address_before_the_value() {
     let found = flags(WRITE_WINDOW, &[("TAB049", 14)]);
-    let expected = "`write` writes the number to `Variable Write Address` before the value to `Variable Write Value`";
+    let expected =
+        "`write` writes the number to `Variable Write Address` before the value to `Variable Write Value`, and the \
+                    device begins with the number";
     assert_eq!(message(&found, 0), expected);
+    // A device that doesn't clear the number looks at both after a while.
+    flags(&WRITE_WINDOW.replace(", clears = true", ""), &[]);
+    let rule = "write = \"Variable Write Value\", procedure = \"write\"";
+    let first = "write = { value = \"Variable Write Value\", first = \"address\" }";
+    let found = flags(&WRITE_WINDOW.replace(rule, first), &[("TAB049", 6)]);
+    assert!(message(&found, 0).starts_with("the number is written to `Variable Write Address` before the value"));
     let swapped = WRITE_WINDOW.replace("Variable Write Address\", argument", "X\", argument");
     let swapped =
         swapped.replace("Variable Write Value\", argument = \"value", "Variable Write Address\", argument = \"address");

@@ -250,7 +250,7 @@ pub struct IndirectBinding {
 }
 
 /// One way through a window.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct WindowSide {
     /// The item that takes the number.
     pub number: CompactString,

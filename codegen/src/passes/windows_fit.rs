@@ -1,7 +1,7 @@
 //! After this pass the windows of a register table were held against the values that go through them, and against the procedures
 //! that use them.
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 
 use super::owner::{Index, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
@@ -18,11 +18,9 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     let (mut narrow, mut seen) = (HashSet::new(), HashSet::new());
     for item in owner.items() {
         width(owner, &index, item, &mut narrow, diagnostics);
-        for side in windows(item).filter_map(|window| window.write.as_ref()) {
+        for side in windows(item).filter_map(|window| window.write.as_ref()).filter(|side| seen.insert(*side)) {
             let procedure = device.procedures.iter().find(|own| Some(&own.name) == side.procedure.as_ref());
-            if let Some(procedure) = procedure.filter(|own| seen.insert(&own.name)) {
-                order(&index, side, procedure, diagnostics);
-            }
+            order(&index, side, procedure, item, diagnostics);
         }
     }
 }
@@ -34,7 +32,7 @@ fn windows(item: &Item) -> impl Iterator<Item = &IndirectBinding> {
     })
 }
 
-/// An item with more bits than any of its windows has. One finding for each window stands for all its items.
+/// Items with more bits than any of their windows has on a bus. One finding for each value stands for all its items.
 fn width<'d>(
     owner: Owner<'d>,
     index: &Index<'d>,
@@ -44,12 +42,19 @@ fn width<'d>(
 ) {
     let bits_of = |item: &Item| owner.basic(item.ty).bits();
     let Some(bits) = bits_of(item) else { return };
-    let read = windows(item).filter_map(|window| Some(&window.read.as_ref()?.value));
-    let written = windows(item).filter_map(|window| Some(&window.write.as_ref()?.value));
-    let values: [(_, Vec<&CompactString>); 2] = [("read", read.collect()), ("written", written.collect())];
-    for (verb, names) in values {
-        let widths = names.into_iter().filter_map(|name| Some((bits_of(index.find(name)?)?, name)));
-        let Some((own, name)) = widths.max_by_key(|(own, _)| *own) else { continue };
+    // On each bus, the widest window counts.
+    let mut widest: BTreeMap<(&str, &str), (u32, &CompactString)> = BTreeMap::new();
+    for window in windows(item) {
+        let sides = [("read", &window.read), ("written", &window.write)];
+        for (verb, side) in sides.into_iter().filter_map(|(verb, side)| Some((verb, side.as_ref()?))) {
+            let Some(own) = index.find(&side.value).and_then(bits_of) else { continue };
+            for bus in &window.buses {
+                let entry = widest.entry((verb, bus)).or_insert((own, &side.value));
+                *entry = if own > entry.0 { (own, &side.value) } else { *entry };
+            }
+        }
+    }
+    for ((verb, _), (own, name)) in widest {
         if own < bits && told.insert(name) {
             let (item_name, through) = (brief(&item.name), brief(name));
             let message = format!("`{item_name}` has {bits} bits, and is {verb} through `{through}`, which has {own}");
@@ -59,22 +64,39 @@ fn width<'d>(
     }
 }
 
-/// A procedure that writes the number, and the value after it.
-fn order(index: &Index<'_>, side: &WindowSide, procedure: &Procedure, diagnostics: &mut Diagnostics) {
-    let (number_item, value) = (&side.number, &side.value);
-    let is_cyclic = |item: &Item| item.bindings.iter().any(|binding| matches!(binding, Binding::Image { .. }));
-    if index.find(value).is_some_and(is_cyclic) {
+/// A window, or its procedure, that writes the number first, where the device clears the number once it is done: it has begun
+/// before the value is there. The number and the value of a process image go together.
+fn order(
+    index: &Index<'_>,
+    side: &WindowSide,
+    procedure: Option<&Procedure>,
+    item: &Item,
+    diagnostics: &mut Diagnostics,
+) {
+    let number = index.find(&side.number);
+    let is_cyclic = |own: &Item| own.bindings.iter().any(|binding| matches!(binding, Binding::Image { .. }));
+    let by_row = number.and_then(|own| own.behaviour.as_ref()).is_some_and(|own| own.self_clearing);
+    if index.find(&side.value).is_some_and(is_cyclic) || !side.clears.unwrap_or(by_row) {
         return;
     }
+    let (address, value) = (brief(&side.number), brief(&side.value));
+    let begins = "the device begins with the number";
+    if side.number_first == Some(true) {
+        let message = format!("the number is written to `{address}` before the value to `{value}`, and {begins}");
+        let found = Diagnostic::new(&codes::WINDOW_ORDER, number.map_or(item.at.name, |own| own.at.name), message);
+        diagnostics
+            .push(found.help("`first = \"value\"`, or `clears = false` where the device doesn't clear the number"));
+    }
+    let Some(procedure) = procedure else { return };
     let writes = |step: &Step, wanted: &CompactString| match step {
         Step::Write(item, _) | Step::WriteBits(item, ..) | Step::WriteArgument(item, _) => item == wanted,
         _ => false,
     };
-    let number = procedure.steps.iter().position(|step| writes(step, number_item));
-    let behind = procedure.steps.iter().rposition(|step| writes(step, value));
-    let Some((at, _)) = behind.zip(number).filter(|(behind, number)| number < behind) else { return };
-    let (name, address, value) = (brief(&procedure.name), brief(number_item), brief(value));
-    let message = format!("`{name}` writes the number to `{address}` before the value to `{value}`");
+    let first = procedure.steps.iter().position(|step| writes(step, &side.number));
+    let behind = procedure.steps.iter().rposition(|step| writes(step, &side.value));
+    let Some((at, _)) = behind.zip(first).filter(|(behind, first)| first < behind) else { return };
+    let name = brief(&procedure.name);
+    let message = format!("`{name}` writes the number to `{address}` before the value to `{value}`, and {begins}");
     let span = procedure.step_spans.get(at).copied().unwrap_or(procedure.origin.span);
     diagnostics.push(Diagnostic::new(&codes::WINDOW_ORDER, span, message).help("write the value first"));
 }

@@ -171,7 +171,7 @@ impl<'a> Object<'a> {
     }
 
     fn data_type(&self, item: &Item) -> DataType {
-        data_type(item.ty, self.types, self.context.is_canopen, self.context.is_verbatim)
+        data_type(item.type_on("canopen"), self.types, self.context.is_canopen, self.context.is_verbatim)
     }
 
     /// What there is in the area of communication objects are identifiers, mappings and masks.
@@ -190,7 +190,7 @@ impl<'a> Object<'a> {
         if let Some(code) = data_type.code {
             writer.entry("DataType", format_args!("0x{code:04X}"));
         }
-        let (access, is_mappable, note) = access(item.access, item.mappable);
+        let (access, is_mappable, note) = access(item.access_on("canopen"), item.mappable);
         if let Some(note) = note {
             writer.notes.add(note, place);
         }
