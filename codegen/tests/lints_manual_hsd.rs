@@ -11,6 +11,7 @@ use std::collections::BTreeSet;
 use heads::message;
 use hsd_support::{device, table, Manual};
 use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::diagnostics::Level;
 use lexibus_codegen::source::Source;
 use How::{Doubt, Finding};
 
@@ -65,6 +66,7 @@ const ITEMS: &[(u8, How)] = &[
     (27, Doubt(&[(1576, "2^{31}"), (1578, "2^{31}"), (1580, "2^{31}")])),
     (28, Finding("item_28_one_name_for_two_codes", "TAB002")),
     (28, Doubt(&[(1598, "RESERVED11"), (1599, "RESERVED11")])),
+    (29, Finding("item_29_a_number_that_is_missing", "TAB051")),
     (29, Doubt(&[(1516, "0x0101"), (1518, "0x0103"), (1770, "Non utilizzato")])),
     (30, Finding("item_30_a_meaning_outside_of_the_range", "EDS050")),
     (30, Doubt(&[(1607, "1/100"), (206, "non sia 0")])),
@@ -74,6 +76,7 @@ const ITEMS: &[(u8, How)] = &[
     (34, Doubt(&[(1582, "BIT_A"), (1585, "RESERVED1"), (1772, "| | |"), (1823, "TESTSLIM")])),
     (35, Doubt(&[(1551, "MAXERRORV"), (1832, "MAXERRORV"), (1800, "KPOSLIMMIN"), (1771, "KIQDLIMIN")])),
     (36, Doubt(&[(1572, "32767"), (1559, "32767"), (1563, "32767"), (1545, "5000")])),
+    (37, Finding("item_37_one_quantity_with_two_defaults", "TAB050")),
     (37, Doubt(&[(1519, "-195"), (1521, "195"), (1937, "19.6")])),
     (38, Doubt(&[(1812, "(1)"), (1832, "MAXERRORV")])),
     (39, Doubt(&[(1439, "Sezione 6"), (1758, "CMDCHGPAR")])),
@@ -172,8 +175,13 @@ MAXERRORP = { reg = 0x010F, type = "i32", access = "rw" }
 /// The findings of passages: exactly these, each with its line counted from the first one.
 #[track_caller]
 fn flags(passage: &str, expected: &[(&str, u32)]) -> Compilation {
+    flags_with(passage, &Options { no_profiles: true, ..Options::default() }, expected)
+}
+
+#[track_caller]
+fn flags_with(passage: &str, options: &Options, expected: &[(&str, u32)]) -> Compilation {
     let text = format!("{HEAD}{passage}");
-    let found = check(Source::new("t.toml", text.into()), &Options { no_profiles: true, ..Options::default() });
+    let found = check(Source::new("t.toml", text.into()), options);
     let above = HEAD.lines().count() as u32;
     let list = found.diagnostics.list();
     let line = |at: lexibus_codegen::source::Span| found.sources[0].position(at.start).line.saturating_sub(above);
@@ -337,6 +345,52 @@ fn item_28_one_name_for_two_codes() {
     let own = "RESERVED11 = { reg = 0x012A, type = \"?\", access = \"rw\", cite = 1598 }\n\
                RESERVED11 = { reg = 0x012B, type = \"?\", access = \"rw\", cite = 1599 }\n";
     flags(own, &[("TAB002", 2)]);
+}
+
+#[test]
+fn item_29_a_number_that_is_missing() {
+    let row = |name: &str, code: u16| format!("{name} = {{ reg = {code:#06x}, type = \"i16\", access = \"rw\" }}\n");
+    let rows = |codes: &[u16]| codes.iter().map(|&code| row(&format!("P{code}"), code)).collect::<String>();
+    let mut options = Options { no_profiles: true, ..Options::default() };
+    let own = rows(&[0x200, 0x201, 0x203, 0x204]);
+    flags_with(&own, &options, &[]);
+    options.levels.set("number-gap", Level::Warn).unwrap();
+    let found = flags_with(&own, &options, &[("TAB051", 3)]);
+    assert_eq!(message(&found, 0), "`P515` has the number 0x0203, and nothing has 0x0202");
+    // Parameters at distances of two aren't counted up.
+    flags_with(&rows(&[0x200, 0x202, 0x204, 0x206]), &options, &[]);
+}
+
+#[test]
+fn item_37_one_quantity_with_two_defaults() {
+    let own = r#"PIMAX_I = { reg = 0x0104, type = "i16", access = "rw", unit = "V", scale = 0.1, default = 195, same_quantity = "KIQDLIMAX", cite = 1521 }
+KIQDLIMAX = { reg = 0x0205, type = "i16", access = "wo", unit = "V", scale = { fraction = 15, of = "voltage_base" }, default = 32767, cite = 1774 }
+AMAX = { reg = 0x0119, type = "i16", access = "rw", unit = "ramp", default = 40, same_quantity = "AMAXHOLD", cite = 1573 }
+AMAXHOLD = { reg = 0x0214, type = "i16", access = "wo", unit = "ramp of the shaft", scale = { fraction = 15, of = "ramp_base" }, default = 696, cite = 1809 }
+[given]
+"screw pitch" = { unit = "mm/rev" }
+"counts per turn" = { unit = "count/rev", models = { SM140 = 2000 } }
+[units]
+ramp = { symbol = "count/s²", scale = 10000, machine = { unit = "mm/s²", times = ["screw pitch"], over = ["counts per turn"] } }
+"ramp of the shaft" = { symbol = "rev/s²", machine = { unit = "mm/s²", times = ["screw pitch"] } }
+[[models]]
+name = "SM140"
+constants = { voltage_base = 19.6, ramp_base = 9411 }
+"#;
+    let found = flags(own, &[("TAB050", 1)]);
+    assert_eq!(
+        message(&found, 0),
+        "`PIMAX_I` is the same quantity as `KIQDLIMAX`, and the defaults differ: 19.5 and 19.599 V (SM140)"
+    );
+    // With the counts of the other model, the accelerations differ too.
+    let found = flags(&own.replace("SM140 = 2000", "SM140 = 800"), &[("TAB050", 1), ("TAB050", 3)]);
+    assert!(message(&found, 1).ends_with("500 and 199.89 mm/s² (SM140)"), "{}", message(&found, 1));
+    flags(&own.replace("default = 195", "default = 196"), &[]);
+    let found = flags(
+        &own.replace("unit = \"V\", scale = 0.1, default = 195", "unit = \"A\", scale = 0.1, default = 196"),
+        &[("TAB050", 1)],
+    );
+    assert!(message(&found, 0).ends_with("the units `A` and `V`"));
 }
 
 #[test]

@@ -848,6 +848,13 @@ codes! {
         "a window's procedure writes the number before the value"
         "Where writing the number starts the transfer, what is written then is the value of the last one. Values and numbers of \
          a process image go together; there the order means nothing."
+    TAB050 QUANTITIES_DIFFER "quantities-differ" Lint Warn
+        "two items that are one quantity in two scales have different defaults"
+        "`same_quantity` names an item that is the same quantity in another scale. Their defaults are compared as physical numbers, model by \
+        model, to a thousandth; where the units differ, as numbers of the machine (`[given]`)."
+    TAB051 NUMBER_GAP "number-gap" Lint Allow
+        "a number is missing between parameters that count up by one"
+        "A row of the manual's table may have been lost. Devices leave numbers out as often, so that this lint is off unless asked for."
     MSG001 FRAMING_BYTES "framing-bytes" Lint Warn
         "start, end, escape and escaped bytes of frames contradict each other"
         "Start, end and escape of a frame are three bytes; each of them is escaped where it is data, and what is sent in its place is \

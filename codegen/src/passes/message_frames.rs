@@ -27,7 +27,7 @@ impl Frame {
         let groups = [device.groups.as_slice()];
         Reader { device, owner: Owner { types: &device.types, groups: &groups }, request, frame: &mut frame, times: 1 }
             .fields(fields);
-        if frame.least % 8 != 0 {
+        if !frame.least.is_multiple_of(8) {
             frame.broken = frame.broken.or(Some(frame.least));
         }
         frame
@@ -72,7 +72,7 @@ impl Reader<'_, '_> {
     fn field(&mut self, field: &MessageField) {
         match field {
             MessageField::Constant(bytes) => {
-                if !self.frame.is_open && self.frame.least % 8 == 0 {
+                if !self.frame.is_open && self.frame.least.is_multiple_of(8) {
                     let place = self.frame.least / 8;
                     self.frame.constants.extend(bytes.iter().enumerate().map(|(at, byte)| (place + at, *byte)));
                 }
@@ -115,7 +115,7 @@ impl Reader<'_, '_> {
 
     /// A field of so many bits.
     fn known(&mut self, bits: usize) {
-        if bits % 8 == 0 && self.frame.least % 8 != 0 {
+        if bits.is_multiple_of(8) && !self.frame.least.is_multiple_of(8) {
             self.frame.broken = self.frame.broken.or(Some(self.frame.least));
         }
         self.frame.least += bits;

@@ -26,12 +26,14 @@ mod modules_fit;
 mod names_in_texts_exist;
 mod names_tell_apart;
 pub mod names_unique;
+mod numbers_count_on;
 mod objects_checked;
 mod owner;
 mod pdo_entries_resolved;
 mod pdo_layout_checked;
 mod procedures_possible;
 mod process_image_checked;
+mod quantities_agree;
 mod records_checked;
 mod subslots_distinct;
 pub(crate) mod texts;
@@ -85,6 +87,8 @@ fn device(device: &mut Device, modules: &[Module], format: Option<Format>, diagn
     if is_table {
         messages_shaped::run(device, diagnostics);
         messages_checked::run(device, diagnostics);
+        quantities_agree::run(device, diagnostics);
+        numbers_count_on::run(device, diagnostics);
         mentioned_objects_exist::run(device, diagnostics);
         names_in_texts_exist::run(device, diagnostics);
         windows_fit::run(device, diagnostics);

@@ -71,6 +71,7 @@ const OWN: &[&str] = &[
     "replaced_by",
     "same_as",
     "upper",
+    "same_quantity",
     "count",
     "max_count",
     "stride",

@@ -628,6 +628,8 @@ tables! {
         pub per_axis: Option<bool>,
         /// The item that holds the upper half of the same number, of which this is the lower one.
         pub upper: Option<At<String>>,
+        /// The item that is the same quantity in another scale; the defaults are compared.
+        pub same_quantity: Option<At<String>>,
         /// Another name of the same value.
         pub same_as: Option<At<String>>,
         /// Meant for the vendor or a tool.

@@ -1,8 +1,8 @@
-//! Messages of a command protocol, and how they are framed.
+//! Messages of a command protocol, and the spaces whose numbers they carry.
 
 use super::at::{At, FlagOr, Literal, TextOr};
 use super::format::{
-    field_row, CompletionTable, ExampleTable, FieldTable, FramingTable, MessageTable, NumberOrText, Row, SpaceTable,
+    field_row, CompletionTable, ExampleTable, FieldTable, MessageTable, NumberOrText, Row, SpaceTable,
 };
 use super::references::{References, ITEM_OR_FIELD};
 use super::rows::{Named, Rows};
@@ -10,74 +10,16 @@ use super::tree::{cited, Reader};
 use super::{place, types, value};
 use crate::diagnostics::codes;
 use crate::ir::{
-    Access, Availability, Binding, CompactString, Completion, Device, Doubt, Framing, Item, Message, MessageExample,
-    MessageField, MessageValue, ParameterSpace, Type, Value,
+    Access, Availability, Binding, CompactString, Completion, Device, Doubt, Item, Message, MessageExample, MessageField,
+    MessageValue, ParameterSpace, Type, Value,
 };
 use crate::text::brief;
 
 /// How deep repeated fields are read.
 const MAX_DEPTH: usize = 4;
 
-/// The words of `check`.
-const CHECKS: [(&str, &str); 5] =
-    [("xor", "xor"), ("sum", "sum"), ("lrc", "lrc"), ("crc8", "crc8"), ("crc16", "crc16")];
-
 fn text(at: &At<String>) -> CompactString {
     at.value.as_str().into()
-}
-
-/// How frames are delimited and checked.
-pub(super) fn framing(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, device: &mut Device) {
-    bytes_of_framing(reader, table);
-    let own = &table.value;
-    let (origin, cite) = (reader.origin(table), own.cite.as_ref().map(cited));
-    device.doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));
-    device.framing = Some(Box::new(Framing {
-        start: own.start,
-        end: own.end,
-        escape: own.escape,
-        escape_xor: own.escape_xor,
-        escaped: own.escaped.clone(),
-        check: own.check.as_ref().and_then(|word| reader.word(word, "check", &CHECKS)).unwrap_or_default().into(),
-        check_from: own.check_from.as_ref().map(text),
-        check_escaped: own.check_escaped.unwrap_or(own.escape.is_some()),
-        check_seed: own.seed,
-        max_data: own.max_data,
-        address: own.address.as_ref().map(text),
-        documentation: reader.documentation(own.doc.as_deref(), cite),
-    }));
-    for field in own.check_from.iter().chain(&own.address) {
-        let first = |message: &Message| field_names(&message.request).any(|name| *name == field.value);
-        if !device.messages.iter().any(first) {
-            let names: Vec<_> = device.messages.iter().flat_map(|message| field_names(&message.request)).collect();
-            reader.unresolved("field", &field.value, reader.span(field), names.iter().map(|name| name.as_str()));
-        }
-    }
-}
-
-/// Holds the bytes of the framing against each other.
-fn bytes_of_framing(reader: &mut Reader<'_, '_>, table: &At<FramingTable>) {
-    let own = &table.value;
-    let special = [("start", own.start), ("end", own.end), ("escape", own.escape)];
-    let special: Vec<(&str, u8)> = special.into_iter().filter_map(|(name, byte)| Some((name, byte?))).collect();
-    let mut problems = Vec::new();
-    for (at, (name, byte)) in special.iter().enumerate() {
-        // Start and end may be one byte, which stands between frames.
-        let same = special[..at].iter().find(|(other, own)| own == byte && (*other, *name) != ("start", "end"));
-        problems.extend(same.map(|(other, _)| format!("`{other}` and `{name}` are both 0x{byte:02X}")));
-        if own.escape.is_some() && !own.escaped.contains(byte) {
-            problems.push(format!("0x{byte:02X} is the `{name}` of frames, and isn't escaped"));
-        }
-    }
-    for byte in own.escaped.iter().filter(|_| own.escape.is_some()) {
-        let sent = byte ^ own.escape_xor;
-        if special.iter().any(|(_, own)| *own == sent) {
-            problems.push(format!("0x{byte:02X} is sent as 0x{sent:02X}, which is special itself"));
-        }
-    }
-    for message in problems {
-        reader.report(&codes::FRAMING_BYTES, reader.span(table), message);
-    }
 }
 
 /// The spaces whose numbers are those of parameters.
@@ -247,7 +189,7 @@ fn completion(
 }
 
 /// The names of the values in fields, those of repeated ones too.
-fn field_names(fields: &[MessageField]) -> Box<dyn Iterator<Item = &CompactString> + '_> {
+pub(super) fn field_names(fields: &[MessageField]) -> Box<dyn Iterator<Item = &CompactString> + '_> {
     Box::new(fields.iter().flat_map(|field| -> Box<dyn Iterator<Item = &CompactString>> {
         match field {
             MessageField::Value(value) => Box::new(std::iter::once(&value.item.name)),

@@ -101,6 +101,6 @@ pub(super) fn of_value(row: &Row) -> Option<&'static str> {
         "type" ty "bits" bits "enum" values "access" access "pdo" pdo "min" min "max" max "default" default
         "fixed" fixed "allowed" allowed "unit" unit "scale" scale "offset" offset "na" na "step" step
         "variants" variants "save" save "effective" effective "when" when "writable" writable "clears" clears
-        "once" once "effects" effects "same_as" same_as "upper" upper "reg" reg "esc" esc "length" length "ascii" ascii "param" param
+        "once" once "effects" effects "same_as" same_as "upper" upper "same_quantity" same_quantity "reg" reg "esc" esc "length" length "ascii" ascii "param" param
     )
 }

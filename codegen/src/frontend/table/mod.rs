@@ -15,7 +15,7 @@
 //! | `defaults`, `misplaced` | what rows inherit; keys that say nothing where they stand |
 //! | `device` | the head: device, models, axes |
 //! | `process`, `images` | process data: PDOs, fixed process images |
-//! | `code_tables`, `machines`, `outcomes`, `messages` | codes; state machines and procedures; what commands do in each state; messages and their frames |
+//! | `code_tables`, `machines`, `outcomes`, `messages`, `framing` | codes; state machines and procedures; what commands do in each state; messages and their frames |
 //! | `composites` | numbers that are split over several items |
 //! | `overlay` | tables that say something of what another file describes |
 //! | `lints`, `summary` | what needs the table as it is written; what another place of the manual says |
@@ -32,6 +32,7 @@ mod definitions;
 mod device;
 mod ethercat;
 pub mod format;
+mod framing;
 mod given;
 mod images;
 mod limits;
@@ -305,7 +306,7 @@ impl<'a> Table<'a> {
             messages::message(reader, rows, &message, device);
         }
         if let Some(framing) = self.take(reader, "framing") {
-            messages::framing(reader, &framing, device);
+            framing::read(reader, &framing, device);
         }
         let spaces = self.spaces.iter().map(|(name, table)| (name, table));
         messages::spaces(reader, spaces, device, &mut rows.references);

@@ -440,13 +440,10 @@ impl Rows {
             own.options = needs.iter().map(|need| need.as_str().into()).collect();
         }
         item.availability = (own != Availability::default()).then(|| Box::new(own));
-        if let Some(upper) = &row.upper {
-            self.references.push((upper.clone(), ITEM));
-            item.extensions.push(extension("upper_half", &upper.value, reader.span(upper)));
-        }
-        if let Some(same) = &row.same_as {
-            self.references.push((same.clone(), ITEM));
-            item.extensions.push(extension("same_as", &same.value, reader.span(same)));
+        let others = [("upper_half", &row.upper), ("same_quantity", &row.same_quantity), ("same_as", &row.same_as)];
+        for (key, name) in others.into_iter().filter_map(|(key, name)| Some((key, name.as_ref()?))) {
+            self.references.push((name.clone(), ITEM));
+            item.extensions.push(extension(key, &name.value, reader.span(name)));
         }
     }
 

@@ -1,0 +1,121 @@
+//! After this pass items that a register table calls one quantity, in two scales, were compared: their defaults are the same physical
+//! number on every model.
+
+use super::owner::{Index, Owner};
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{CompactString, Device, Item, MachineUnit, Scale, Value, Variant};
+use crate::text::brief;
+
+/// How far apart, as a part of the greater one, two defaults may be that were rounded to different counts.
+const TOLERANCE: f64 = 0.001;
+
+pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
+    let groups = [device.groups.as_slice()];
+    let owner = Owner { types: &device.types, groups: &groups };
+    let items = Index::new(owner);
+    for item in owner.items() {
+        for view in item.extensions.iter().filter(|own| own.key == "same_quantity") {
+            let Some(other) = items.find(&view.value).filter(|other| !std::ptr::eq(*other, item)) else { continue };
+            let differences = differences(device, &items, item, other);
+            if differences.is_empty() {
+                continue;
+            }
+            let message = format!(
+                "`{}` is the same quantity as `{}`, and the defaults differ: {}",
+                brief(&item.name),
+                brief(&other.name),
+                differences.join("; ")
+            );
+            let found = Diagnostic::new(&codes::QUANTITIES_DIFFER, item.at.default.or(item.origin.span), message);
+            diagnostics.push(found.note_at(other.at.default.or(other.origin.span), "the other one"));
+        }
+    }
+}
+
+/// The models on which the defaults differ, or why they can't be compared.
+fn differences(device: &Device, items: &Index<'_>, one: &Item, other: &Item) -> Vec<String> {
+    let models: Vec<Option<&Variant>> = match device.variants.as_slice() {
+        [] => vec![None],
+        variants => variants.iter().map(Some).collect(),
+    };
+    let mut found = Vec::new();
+    for model in models {
+        let of = |item| Physical::new(device, items, item, model);
+        let (Some(one), Some(other)) = (of(one), of(other)) else { continue };
+        let (one, other) = match (&one.machine, &other.machine) {
+            _ if one.unit == other.unit => ((one.number, one.unit), (other.number, other.unit)),
+            (Some(own), Some(others)) if own.1 == others.1 => (own.clone(), others.clone()),
+            _ => {
+                found.push(format!("the units `{}` and `{}`", brief(&one.unit), brief(&other.unit)));
+                break;
+            }
+        };
+        if (one.0 - other.0).abs() > TOLERANCE * one.0.abs().max(other.0.abs()) {
+            let of = model.map(|model| format!(" ({})", brief(&model.name))).unwrap_or_default();
+            found.push(format!("{} and {} {}{of}", rounded(one.0), rounded(other.0), brief(&one.1)));
+        }
+    }
+    found
+}
+
+/// Five digits of a number are enough to see a difference of a thousandth.
+fn rounded(number: f64) -> f64 {
+    let digits = 4.0 - number.abs().log10().floor();
+    let factor = 10f64.powf(digits.clamp(-300.0, 300.0));
+    if number == 0.0 || !factor.is_finite() {
+        number
+    } else {
+        (number * factor).round() / factor
+    }
+}
+
+/// A default as a physical number, and as one of the machine where its unit says how.
+struct Physical {
+    number: f64,
+    unit: CompactString,
+    machine: Option<(f64, CompactString)>,
+}
+
+impl Physical {
+    fn new(device: &Device, items: &Index<'_>, item: &Item, model: Option<&Variant>) -> Option<Self> {
+        let raw = default(item, model)?;
+        let Some(quantity) = &item.quantity else {
+            return Some(Physical { number: raw, unit: CompactString::default(), machine: None });
+        };
+        let constant = |name: &str| {
+            let (_, value) = model?.constants.iter().find(|(own, _)| own == name)?;
+            value.as_real()
+        };
+        let number = match &quantity.scale {
+            None => raw,
+            Some(Scale::Linear { factor, offset }) => raw * factor + offset,
+            Some(Scale::Fraction { bits, base }) => raw / 2f64.powi((*bits).into()) * constant(base)?,
+            Some(Scale::Exponent { exponent, base, fraction }) => {
+                let exponent = default(items.find(exponent)?, model)?;
+                raw / 2f64.powi((*fraction).into()) * f64::from(*base).powf(exponent)
+            }
+            Some(_) => return None,
+        };
+        let machine = quantity.machine.as_ref().map(|own| (number * machine(device, own, model), own.unit.clone()));
+        Some(Physical { number, unit: quantity.unit.clone(), machine })
+    }
+}
+
+/// What a number of the machine is multiplied with. Numbers that no model knows count as 1: both views have them.
+fn machine(device: &Device, unit: &MachineUnit, model: Option<&Variant>) -> f64 {
+    let number = |name: &CompactString| {
+        let given = device.given.iter().find(|own| own.name == *name);
+        let known =
+            given.into_iter().flat_map(|own| &own.models).find(|(own, _)| Some(own) == model.map(|own| &own.name));
+        known.and_then(|(_, value)| value.as_real()).unwrap_or(1.0)
+    };
+    let product = |list: &[CompactString]| list.iter().map(number).product::<f64>();
+    product(&unit.times) / product(&unit.over)
+}
+
+/// The default of an item on a model.
+fn default(item: &Item, model: Option<&Variant>) -> Option<f64> {
+    let is_own = |name: &CompactString| model.is_some_and(|model| crate::selection::glob(name, &model.name));
+    let variant = item.variants.iter().filter(|own| own.models.iter().any(is_own)).find_map(|own| own.default.as_ref());
+    variant.or(item.default.as_ref()).and_then(Value::as_real)
+}
