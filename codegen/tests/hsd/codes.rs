@@ -1,0 +1,217 @@
+//! Alarms, states, bits, bases, and the table of commands and states.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use lexibus_codegen::ir::{BitMeaning, EnumValue, Outcome, Shape, Value};
+
+use super::hsd_support::{cells, device, line, number, original, table, values, Manual};
+
+#[test]
+fn alarms_and_warnings() {
+    let Some(manual) = Manual::read() else { return };
+    let compilation = table();
+    let device = device(&compilation);
+    let pages = [(0, vec![(2129, 2138), (2140, 2152), (2154, 2159)], 23, 8), (1, vec![(2175, 2188)], 12, 3)];
+    for (at, pages, count, starred) in pages {
+        let own = &device.code_tables[at];
+        let rows: Vec<_> = pages.iter().flat_map(|(from, to)| manual.rows(*from, *to)).collect();
+        let rows: Vec<_> = rows.into_iter().filter(|(_, cells)| cells[0].starts_with("0x")).collect();
+        assert_eq!((rows.len(), own.rows.len()), (count, count));
+        let mut with_mark = 0;
+        for ((at, cells), row) in rows.iter().zip(&own.rows) {
+            assert_eq!(number(&cells[0]), Some(row.code));
+            assert_eq!(line(row.documentation.as_ref().and_then(|own| own.cite.as_deref())), *at);
+            // What `cells` makes of (*) is ().
+            let raw = manual.line(*at);
+            let name = cells[1].replace(['(', ')'], "").replace("1", "").replace("2 INTERP", "2INTERP");
+            let name = if row.code == 0x400B { name.replace('2', "") } else { name };
+            let is_misspelt = name.trim() == "ALWROGSETP";
+            assert!(original(&row.names) == name.trim() || is_misspelt, "{name} {}", original(&row.names));
+            let models = row.availability.as_ref().map_or(&[][..], |own| &own.models);
+            let is_marked = raw.split('|').nth(2).is_some_and(|cell| cell.replace("**", "").contains('*'));
+            with_mark += usize::from(is_marked);
+            let expected = match () {
+                () if is_marked => 2,
+                () if matches!(row.code, 0x4009 | 0x400A) => 1,
+                () => 0,
+            };
+            assert_eq!(models.len(), expected, "{name}");
+            assert!(matches!(&row.cells[..], [Value::Text(remedy)] if !remedy.is_empty()));
+        }
+        assert_eq!(with_mark, starred);
+    }
+}
+
+#[test]
+fn states_homing_states_and_types() {
+    let Some(manual) = Manual::read() else { return };
+    let compilation = table();
+    let device = device(&compilation);
+    let check = |name: &str, from, to, count: usize, code: usize, label: usize| {
+        let rows: Vec<_> =
+            manual.rows(from, to).into_iter().filter(|(_, cells)| number(&cells[code]).is_some()).collect();
+        let own = values(device, name);
+        assert_eq!((rows.len(), own.len()), (count, count), "{name}");
+        for ((_, cells), value) in rows.iter().zip(own) {
+            let is_misspelt = cells[label] == "SARCHINGTACCA";
+            assert_eq!(number(&cells[code]), Some(value.value), "{name}");
+            assert!(original(&value.names) == cells[label] || is_misspelt || name == "MotorType", "{}", cells[label]);
+        }
+    };
+    check("State", 1959, 1974, 14, 0, 2);
+    check("HomingState", 2107, 2114, 6, 0, 1);
+    check("MotorType", 1213, 1221, 6, 0, 2);
+    for (_, cells) in manual.rows(2109, 2114) {
+        let own = values(device, "HomingState").iter().find(|own| number(&cells[0]) == Some(own.value)).expect("it");
+        let types: Vec<i128> = cells[3].split(" - ").filter_map(number).collect();
+        let when: Vec<i128> = own.when.as_ref().expect("types").values.iter().filter_map(Value::as_int).collect();
+        // Index in types 0 and 2, by the text.
+        assert!(types == when || (own.value == 6 && when == [0, 2]), "{cells:?} {when:?}");
+    }
+    for (_, cells) in manual.rows(1215, 1221).iter().filter(|(_, cells)| !cells[0].is_empty()) {
+        let own = values(device, "MotorType").iter().find(|own| number(&cells[0]) == Some(own.value)).expect("it");
+        assert_eq!(own.name, format!("{} {}", cells[1], cells[2]));
+    }
+    // The same six states in section 4.9, in another order.
+    let section: BTreeSet<_> = manual
+        .rows(1005, 1012)
+        .into_iter()
+        .filter_map(|(_, cells)| {
+            let (name, rest) = cells[0].split_once('(')?;
+            Some((number(rest.split(')').next()?)?, name.trim().to_owned()))
+        })
+        .collect();
+    let own = values(device, "HomingState").iter().map(|own| (own.value, original(&own.names).to_owned()));
+    assert_eq!(section, own.collect());
+}
+
+#[test]
+fn bits_are_the_printed_ones() {
+    let Some(manual) = Manual::read() else { return };
+    let compilation = table();
+    let device = device(&compilation);
+    let fields = |name: &str| match &device.types.iter().find(|own| own.name == name).expect("bits").shape {
+        Shape::BitField { fields, .. } => fields,
+        other => panic!("{other:?}"),
+    };
+    let rows: Vec<_> = [(1618, 1631), (1633, 1635)].iter().flat_map(|(from, to)| manual.rows(*from, *to)).collect();
+    let rows: Vec<_> = rows.into_iter().filter(|(_, cells)| number(&cells[0]).is_some()).collect();
+    assert_eq!((rows.len(), fields("BitA").len()), (13, 13));
+    for (at, cells) in &rows {
+        let own = fields("BitA").iter().find(|own| Some(i128::from(own.offset)) == number(&cells[0])).expect("a bit");
+        let availability = own.availability.as_ref();
+        let (models, since) =
+            (availability.map_or(0, |own| own.models.len()), availability.and_then(|own| own.since.as_deref()));
+        let text = &cells[2];
+        assert_eq!(matches!(own.meaning, BitMeaning::Reserved { .. }), text.starts_with("Riservato."), "L{at}");
+        let only = match () {
+            () if text.starts_with("Solo per SM140 e SM137 rev. C") => 2,
+            () if text.starts_with("Solo per SM140") => 1,
+            () => 0,
+        };
+        assert_eq!(models, only, "L{at}");
+        assert_eq!(since, text.contains("ersione 119").then_some("119"), "L{at}");
+    }
+    for (name, from, to, count) in [("BitStato", 2202, 2205, 4), ("InvertedInputs", 2231, 2233, 3)] {
+        let rows = manual.rows(from, to);
+        assert_eq!((rows.len(), fields(name).len()), (count, count));
+        for (_, cells) in rows {
+            let bit = number(cells[0].trim_start_matches("Bit "));
+            let own = fields(name).iter().find(|own| Some(i128::from(own.offset)) == bit).expect("a bit");
+            assert!(name != "BitStato" || original(&own.names) == cells[1], "{cells:?}");
+        }
+    }
+}
+
+#[test]
+fn bases_of_fractions_are_those_of_the_models() {
+    let Some(manual) = Manual::read() else { return };
+    let compilation = table();
+    let device = device(&compilation);
+    let rows = manual.rows(1937, 1940);
+    let names = ["voltage_base", "current_base", "speed_base", "acceleration_base"];
+    assert_eq!(rows.len(), 4);
+    for ((_, cells), name) in rows.iter().zip(names) {
+        for model in &device.variants {
+            let (_, own) = model.constants.iter().find(|(own, _)| own == name).expect("a constant");
+            let printed = &cells[if model.name == "SM140" { 2 } else { 1 }];
+            assert_eq!(own.as_real(), printed.parse().ok(), "{} {name}", model.name);
+        }
+    }
+}
+
+/// The table of commands and states, cell by cell, from both of its halves.
+#[test]
+fn commands_and_states() {
+    let Some(manual) = Manual::read() else { return };
+    let compilation = table();
+    let device = device(&compilation);
+    let machine = device.machines.iter().find(|own| own.name == "axis").expect("the machine");
+    let states = values(device, "State");
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut starred = BTreeSet::new();
+    let mut at = 0;
+    for (from, first, count) in [(1990, 0, 7), (2028, 7, 6)] {
+        let head = cells(manual.line(from - 1)).expect("the states");
+        for (row, own) in machine.outcomes.iter().enumerate() {
+            let cells = cells_with_stars(manual.line(from + row));
+            if cells[0].ends_with('*') && !cells[0].contains("INTER*")
+                || cells[0].contains("INTERP*")
+                || cells[0].contains("INTER*")
+            {
+                starred.insert(row);
+            }
+            for column in 0..count {
+                let name = head[1 + column].split(['(', ' ']).next().unwrap_or_default();
+                let cell = &own.cells[first + column];
+                let state = states.iter().find(|state| state.name == cell.state).expect("the state");
+                assert_eq!(original(&state.names), name);
+                let (kind, expected) = outcomes(&cells[1 + column], states);
+                assert_eq!(cell.outcomes, expected, "{} {name}", own.name);
+                *counts.entry(kind).or_default() += 1;
+                at += 1;
+            }
+        }
+    }
+    assert_eq!((machine.outcomes.len(), at, starred.len()), (34, 442, 13));
+    let expected = [("accepted", 204), ("blank", 13), ("conditional", 2), ("refused", 223)];
+    assert_eq!(counts.into_iter().collect::<Vec<_>>(), expected);
+    let with_models = machine.outcomes.iter().filter(|row| row.availability.is_some()).count();
+    assert_eq!(with_models, 13);
+    let undescribed = machine.outcomes.iter().filter(|row| row.commands.is_empty()).count();
+    assert_eq!(undescribed, 7);
+    assert_eq!(machine.initial.as_deref(), Some("alarm"));
+}
+
+fn cells_with_stars(line: &str) -> Vec<String> {
+    line.trim().trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect()
+}
+
+/// What a cell of the manual means, and its kind.
+fn outcomes(cell: &str, states: &[EnumValue]) -> (&'static str, Vec<Outcome>) {
+    let cell = cell.replace("Effettua l'azzeramento manuale", "");
+    let plain: String = cell.chars().filter(|c| !"(0123456789)".contains(*c)).collect();
+    let one = |text: &str| match text.trim() {
+        "=" | "==" => Outcome::Unchanged,
+        "= errore" | "== errore" => Outcome::Refused,
+        chain => Outcome::States(
+            chain
+                .split('⇒')
+                .map(|state| {
+                    let own = states.iter().find(|own| original(&own.names) == state.trim());
+                    own.unwrap_or_else(|| panic!("{state}")).name.clone()
+                })
+                .collect(),
+        ),
+    };
+    if plain.trim().is_empty() {
+        return ("blank", Vec::new());
+    }
+    let found: Vec<Outcome> = plain.split("oppure").map(one).collect();
+    let kind = match found.as_slice() {
+        [Outcome::Refused] => "refused",
+        [_] => "accepted",
+        _ => "conditional",
+    };
+    (kind, found)
+}
