@@ -34,6 +34,7 @@ pub(crate) mod texts;
 mod titles_are_no_names;
 pub(crate) mod values_checked;
 mod values_named_once;
+mod windows_possible;
 
 use crate::diagnostics::Diagnostics;
 use crate::ir::{Catalog, Device, Format, Module};
@@ -80,6 +81,7 @@ fn device(device: &mut Device, modules: &[Module], format: Option<Format>, diagn
     if is_table {
         mentioned_objects_exist::run(device, diagnostics);
         names_in_texts_exist::run(device, diagnostics);
+        windows_possible::run(device, diagnostics);
     }
 }
 
