@@ -25,10 +25,13 @@ fn everything() -> RustOptions {
     RustOptions { table: Presence::Always, ..RustOptions::default() }
 }
 
-const TABLES: [&str; 4] = [
+const TABLES: [&str; 7] = [
     "tests/data/press.toml",
     "tests/data/hoist.toml",
+    "tests/data/one-drive.toml",
     "dictionaries/aec-vector-step.toml",
+    "dictionaries/eco.toml",
+    "dictionaries/hsd-sm137-sm140.toml",
     "dictionaries/kollmorgen-akd.toml",
 ];
 
