@@ -428,7 +428,6 @@ impl<C> Akd<C> {
         &mut self,
         message: messages::Sdo,
     ) -> rt::message::Call<'_, C, messages::Sdo> {
-        let message = message;
         rt::message::Call::new(&mut self.client, message)
     }
 }
