@@ -754,6 +754,106 @@ impl<C, S> HsdMotor<C, S> {
         objects::TIMEOUTMAXTORQUE.at(&mut self.client)
     }
 }
+/// Numbers that belong to the models of the device.
+pub mod models {
+    /// SM137 rev. B.
+    #[allow(clippy::approx_constant)]
+    pub mod sm137_rev_b {
+        /// voltage\_base.
+        pub const VOLTAGE_BASE: f64 = 19.4;
+        /// current\_base.
+        pub const CURRENT_BASE: f64 = 11.3137;
+        /// speed\_base.
+        pub const SPEED_BASE: f64 = 8000.0;
+        /// acceleration\_base.
+        pub const ACCELERATION_BASE: f64 = 9411.0;
+        /// counts per turn.
+        pub const COUNTS_PER_TURN: f64 = 800.0;
+    }
+    /// SM137 rev. C.
+    #[allow(clippy::approx_constant)]
+    pub mod sm137_rev_c {
+        /// voltage\_base.
+        pub const VOLTAGE_BASE: f64 = 19.4;
+        /// current\_base.
+        pub const CURRENT_BASE: f64 = 11.3137;
+        /// speed\_base.
+        pub const SPEED_BASE: f64 = 8000.0;
+        /// acceleration\_base.
+        pub const ACCELERATION_BASE: f64 = 9411.0;
+        /// counts per turn.
+        pub const COUNTS_PER_TURN: f64 = 800.0;
+    }
+    /// SM140.
+    #[allow(clippy::approx_constant)]
+    pub mod sm140 {
+        /// voltage\_base.
+        pub const VOLTAGE_BASE: f64 = 19.6;
+        /// current\_base.
+        pub const CURRENT_BASE: f64 = 45.2548;
+        /// speed\_base.
+        pub const SPEED_BASE: f64 = 8000.0;
+        /// acceleration\_base.
+        pub const ACCELERATION_BASE: f64 = 9411.0;
+        /// counts per turn.
+        pub const COUNTS_PER_TURN: f64 = 2000.0;
+    }
+}
+/// What only whoever builds the machine knows, and units that depend on it.
+pub mod machine {
+    /// The numbers of a machine.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Machine {
+        /// screw pitch, in mm/rev.
+        ///
+        /// Way of the axis in one turn of the motor.
+        ///
+        /// Manual, line 362, 496, 608.
+        pub screw_pitch: f64,
+        /// counts per turn, in count/rev.
+        ///
+        /// Counts of the encoder in one turn of the motor.
+        ///
+        /// Manual, line 363, 544, 609, 662.
+        ///
+        /// Note: How many counts a turn has is said nowhere; the examples have 800 (L363, L662) and 500 (L544). Chosen: 800 on the SM137 and 2000 on the SM140 (48 x 10000 counts/s² (L1572) is 2089 of 9411 turns/s² (L1808) only with 800, and 40 x 10000 (L1573) is 696 (L1809) only with 2000; the angles of the index go to 799 and 1999 (L1583-1584)).
+        pub counts_per_turn: f64,
+    }
+    impl Machine {
+        /// A value in mm/min, from one in rpm.
+        pub fn rpm_to_mm_per_min(&self, value: f64) -> f64 {
+            value * self.screw_pitch
+        }
+        /// A value in rpm, from one in mm/min.
+        pub fn mm_per_min_to_rpm(&self, value: f64) -> f64 {
+            value / self.screw_pitch
+        }
+        /// A value in mm, from one in count.
+        pub fn count_to_mm(&self, value: f64) -> f64 {
+            value * self.screw_pitch / self.counts_per_turn
+        }
+        /// A value in count, from one in mm.
+        pub fn mm_to_count(&self, value: f64) -> f64 {
+            value * self.counts_per_turn / self.screw_pitch
+        }
+        /// A value in mm/s², from one in count/s².
+        pub fn count_per_s2_to_mm_per_s2(&self, value: f64) -> f64 {
+            value * self.screw_pitch / self.counts_per_turn
+        }
+        /// A value in count/s², from one in mm/s².
+        pub fn mm_per_s2_to_count_per_s2(&self, value: f64) -> f64 {
+            value * self.counts_per_turn / self.screw_pitch
+        }
+        /// A value in mm/s², from one in rev/s².
+        pub fn rev_per_s2_to_mm_per_s2(&self, value: f64) -> f64 {
+            value * self.screw_pitch
+        }
+        /// A value in rev/s², from one in mm/s².
+        pub fn mm_per_s2_to_rev_per_s2(&self, value: f64) -> f64 {
+            value / self.screw_pitch
+        }
+    }
+}
 /// Requests and replies.
 pub mod messages {
     use ::lexibus as rt;

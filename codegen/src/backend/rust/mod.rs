@@ -16,6 +16,7 @@ mod docs;
 mod enumeration;
 mod ethercat;
 mod field_type;
+mod given;
 mod layout;
 mod literal;
 mod machine;

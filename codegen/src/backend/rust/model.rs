@@ -8,6 +8,7 @@ use super::code_table::{self, CodeTableModel};
 use super::composite;
 use super::docs;
 use super::ethercat::{self, EtherCatModel, ModulePaths};
+use super::given::{self, ConstantsModel, GivenModel};
 use super::literal;
 use super::messages::ProtocolModel;
 use super::named::Types;
@@ -62,6 +63,10 @@ pub(super) struct Model<'a> {
     /// Procedures that are nothing but writes of objects.
     pub procedures: Vec<ProcedureModel>,
     pub axes: Option<AxesModel>,
+    /// Constants of the device's models.
+    pub models: Vec<ConstantsModel>,
+    /// What only whoever builds the machine knows.
+    pub given: Option<GivenModel>,
     /// Requests and replies.
     pub protocol: Option<ProtocolModel>,
     pub node_id: Option<u8>,
@@ -211,8 +216,11 @@ impl<'a> Model<'a> {
     pub(super) fn new(device: &'a Device, file: &'a FileInfo, options: &'a RustOptions, place: &Place) -> Self {
         let (scope, types) = Scope::of_device(device, options);
         let procedures = procedure::models(&scope, device);
+        let given = given::model(&scope, device, options);
         let (mut model, protocol) = Model::of_scope(scope, types, options);
         model.procedures = procedures;
+        model.models = given::constants(device);
+        model.given = given;
         let title = title(device);
         model.nest = place.nest;
         model.device_name = device_name(device, file, options.device_name.as_deref());
@@ -268,6 +276,8 @@ impl<'a> Model<'a> {
             types,
             code_tables: Vec::new(),
             procedures: Vec::new(),
+            models: Vec::new(),
+            given: None,
             axes: None,
             protocol: None,
             node_id: None,

@@ -10,8 +10,8 @@ use super::tree::{cited, Reader};
 use super::{place, types, value};
 use crate::diagnostics::codes;
 use crate::ir::{
-    Access, Availability, Binding, CompactString, Completion, Device, Doubt, Item, Message, MessageExample, MessageField,
-    MessageValue, ParameterSpace, Type, Value,
+    Access, Availability, Binding, CompactString, Completion, Device, Doubt, Item, Message, MessageExample,
+    MessageField, MessageValue, ParameterSpace, Type, Value,
 };
 use crate::text::brief;
 

@@ -1,0 +1,143 @@
+//! Numbers that no device holds: constants of its models, and what only whoever builds the machine knows.
+
+use super::docs;
+use super::literal;
+use super::manual;
+use super::options::RustOptions;
+use super::scope::Scope;
+use crate::ir::{Device, Item, MachineUnit, Value};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// A type with the numbers that are given, and what units become by them.
+pub(super) struct GivenModel {
+    pub derives: Vec<String>,
+    pub numbers: Vec<NumberModel>,
+    pub units: Vec<UnitModel>,
+}
+
+/// A number that is given.
+pub(super) struct NumberModel {
+    pub name: String,
+    pub docs: Vec<String>,
+}
+
+/// A unit of the machine: the names of the functions, and their expressions.
+pub(super) struct UnitModel {
+    pub to: [String; 2],
+    pub back: [String; 2],
+    pub symbols: [String; 2],
+}
+
+/// A model of the device that has constants.
+pub(super) struct ConstantsModel {
+    pub name: String,
+    pub title: String,
+    /// Names, documentation, values.
+    pub constants: Vec<(String, String, String)>,
+}
+
+fn wish(name: &str) -> Wish<'_> {
+    Wish { name, fallback: "number".to_owned(), suffix: "other".to_owned() }
+}
+
+/// `None` where nothing is given.
+pub(super) fn model(scope: &Scope<'_>, device: &Device, options: &RustOptions) -> Option<GivenModel> {
+    let wishes: Vec<Wish<'_>> = device.given.iter().map(|own| wish(&own.name)).collect();
+    let names = names_unique::unique(&wishes, &["self", "super", "crate"], Case::Snake);
+    let field = |name: &str| {
+        let at = device.given.iter().position(|own| own.name == name)?;
+        names.get(at).map(|name| format!("self.{}", names_unique::escaped(name)))
+    };
+    let numbers = device.given.iter().zip(&names).map(|(own, name)| {
+        let unit = if own.unit.is_empty() { String::new() } else { format!(", in {}", docs::escape(&own.unit)) };
+        let mut lines = vec![format!("{}{unit}.", docs::escape(&own.name))];
+        let mut sentences = Vec::new();
+        docs::words(own.documentation.as_deref(), &mut sentences);
+        sentences.extend(scope.manual.place(own.documentation.as_deref(), &[]));
+        sentences.extend(own.doubts.iter().map(manual::doubt));
+        lines.extend(sentences.into_iter().flat_map(|sentence| [String::new(), sentence]));
+        NumberModel { name: names_unique::escaped(name), docs: lines }
+    });
+    let numbers: Vec<NumberModel> = numbers.collect();
+    let units = units(device, &field);
+    (!numbers.is_empty()).then(|| GivenModel { derives: options.derives(true), numbers, units })
+}
+
+/// Each unit of the machine once, in the order of the items that have it.
+fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitModel> {
+    let mut found: Vec<(&str, &MachineUnit)> = Vec::new();
+    let items = device.groups.iter().flat_map(|group| &group.items);
+    let fields = device.messages.iter().flat_map(|message| message.values().map(|value| &value.item));
+    let quantities = items.chain(fields).filter_map(|item: &Item| item.quantity.as_ref());
+    for quantity in quantities {
+        let Some(machine) = quantity.machine.as_deref() else { continue };
+        let own = (quantity.unit.as_str(), machine);
+        if !found.contains(&own) {
+            found.push(own);
+        }
+    }
+    let texts: Vec<[String; 2]> = found.iter().map(|(from, to)| [words(from), words(&to.unit)]).collect();
+    let texts: Vec<String> =
+        texts.iter().flat_map(|[from, to]| [format!("{from} to {to}"), format!("{to} to {from}")]).collect();
+    let wishes: Vec<Wish<'_>> =
+        texts.iter().enumerate().map(|(at, name)| Wish { suffix: at.to_string(), ..wish(name) }).collect();
+    let names = names_unique::unique(&wishes, &["self"], Case::Snake);
+    let expression = |times: &[_], over: &[_]| -> Option<String> {
+        let mut text = "value".to_owned();
+        for (names, operator) in [(times, '*'), (over, '/')] {
+            for name in names {
+                let name: &crate::ir::CompactString = name;
+                text += &format!(" {operator} {}", field(name)?);
+            }
+        }
+        Some(text)
+    };
+    let unit = |((from, machine), names): (&(&str, &MachineUnit), &[String])| {
+        Some(UnitModel {
+            to: [names.first()?.clone(), expression(&machine.times, &machine.over)?],
+            back: [names.get(1)?.clone(), expression(&machine.over, &machine.times)?],
+            symbols: [docs::escape(from), docs::escape(&machine.unit)],
+        })
+    };
+    found.iter().zip(names.chunks(2)).filter_map(unit).collect()
+}
+
+/// A symbol as words: `mm/s²` is `mm per s2`.
+fn words(symbol: &str) -> String {
+    symbol.replace('/', " per ").replace('²', "2").replace('%', "percent").replace('°', "deg")
+}
+
+/// The constants of the models.
+pub(super) fn constants(device: &Device) -> Vec<ConstantsModel> {
+    let models: Vec<_> =
+        device.variants.iter().map(|own| (own, constants_of(device, &own.name, &own.constants))).collect();
+    let with: Vec<_> = models.into_iter().filter(|(_, constants)| !constants.is_empty()).collect();
+    let wishes: Vec<Wish<'_>> = with.iter().map(|(own, _)| wish(&own.name)).collect();
+    let names = names_unique::unique(&wishes, &["self", "super", "crate"], Case::Snake);
+    let model = |((own, constants), name): ((&_, _), String)| {
+        let own: &crate::ir::Variant = own;
+        ConstantsModel {
+            name: names_unique::escaped(&name),
+            title: docs::sentence(&docs::escape(&own.name)),
+            constants,
+        }
+    };
+    with.into_iter().zip(names).map(model).collect()
+}
+
+fn constants_of(
+    device: &Device,
+    model: &str,
+    own: &[(crate::ir::CompactString, Value)],
+) -> Vec<(String, String, String)> {
+    let given = device.given.iter().flat_map(|own| own.models.iter().map(move |(name, value)| (own, name, value)));
+    let given = given.filter(|(_, name, _)| *name == model).map(|(own, _, value)| (&own.name, value));
+    let all: Vec<_> = own.iter().map(|(name, value)| (name, value)).chain(given).collect();
+    let wishes: Vec<Wish<'_>> = all.iter().map(|(name, _)| wish(name)).collect();
+    let names = names_unique::unique(&wishes, &[], Case::Snake);
+    let constant = |((name, value), constant): ((&crate::ir::CompactString, &Value), String)| {
+        let real = literal::real(value.as_real()?, 64)?;
+        Some((constant.trim_start_matches('_').to_ascii_uppercase(), docs::sentence(&docs::escape(name)), real))
+    };
+    all.into_iter().zip(names).filter_map(constant).collect()
+}
