@@ -1,0 +1,33 @@
+//! The HSD motors through their bindings: each packet both ways, what becomes of damaged ones, the manual's examples, and a
+//! simulated motor at the other end of a pseudo-terminal.
+
+#![cfg(unix)]
+
+#[path = "hsd/examples.rs"]
+mod examples;
+#[path = "hsd/line.rs"]
+mod line;
+#[path = "hsd/motor.rs"]
+mod motor;
+#[path = "hsd/packets.rs"]
+mod packets;
+
+use lexibus::framing::{FrameError, Framing};
+use lexibus_drives::hsd::messages::FRAMING;
+
+/// The frame of a message.
+fn framed(data: &[u8]) -> Vec<u8> {
+    let mut frame = [0; 160];
+    let length = FRAMING.encode(data, &mut frame).expect("a message of the protocol");
+    frame[..length].to_vec()
+}
+
+/// What a decoder finds in a stream that comes byte by byte.
+fn found(stream: &[u8]) -> Vec<Result<Vec<u8>, FrameError>> {
+    let (mut decoder, mut data, mut all) = (FRAMING.decoder(), [0; 80], Vec::new());
+    for byte in stream {
+        let frame = FRAMING.decode(&mut decoder, *byte, &mut data);
+        all.extend(frame.transpose().map(|frame| frame.map(|length| data[..length].to_vec())));
+    }
+    all
+}

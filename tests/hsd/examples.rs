@@ -1,0 +1,100 @@
+//! The worked examples of the manual, through the bindings. The lines are those of the manual's text.
+
+use lexibus::message::{Message, Reader, Reply, Writer};
+use lexibus::{Client, Error, Parameter, Serial};
+use lexibus_drives::hsd::machine::Machine;
+use lexibus_drives::hsd::messages::*;
+use lexibus_drives::hsd::{models, objects, types};
+
+/// The machine of the examples; those of positioning have 500 counts a turn.
+const MACHINE: Machine = Machine { screw_pitch: 0.32, counts_per_turn: 800.0 };
+
+fn sent(message: &impl Message) -> Vec<u8> {
+    let mut data = [0; MAX_DATA];
+    let mut to = Writer::new(&mut data);
+    message.write(1, &mut to).expect("a message of the protocol");
+    to.written().to_vec()
+}
+
+/// What the null request is answered in L665 and L676.
+const ANSWER: [u8; 6] = [0x01, 0x02, 0x10, 0xAB, 0x09, 0xC1];
+
+#[test]
+fn positions() {
+    // L359-369. The text has 6766.8176 mm, the formula 6780.8465 mm, which gives the printed bytes.
+    let position = MACHINE.mm_to_count(6780.8465) as i32;
+    assert_eq!((position, sent(&CmdMazz { position })), (16_952_116, vec![1, 0x01, 0xAB, 0x34, 0x01, 0x02]));
+    // L544-550, L605-615: 1798046 counts; Q3 is printed as 0x01 with the value, which is 0x001B6F9E.
+    let machine = Machine { counts_per_turn: 500.0, ..MACHINE };
+    let target = machine.mm_to_count(1150.75) as i32;
+    assert_eq!((target, sent(&CmdTraj { target })), (1_798_046, vec![1, 0x02, 0x6F, 0x9E, 0x00, 0x1B]));
+    // L617-623: 468.75 rpm, truncated.
+    let speed = machine.mm_per_min_to_rpm(150.0) as u16;
+    let data = sent(&CmdTrajVel { target, speed });
+    assert_eq!((speed, &data[data.len() - 2..]), (0x01D4, &[0x01, 0xD4][..]));
+    // L662-672: the theoretical position.
+    let poll = sent(&PollTheoreticalPosition);
+    let reply = PollTheoreticalPositionReply::read(&poll, &mut Reader::new(&ANSWER)).expect("a reply");
+    assert_eq!(reply.theoretical_position, 163_647_659);
+    assert!((MACHINE.count_to_mm(reply.theoretical_position.into()) - 65_459.0636).abs() < 1e-4);
+}
+
+#[test]
+fn speeds() {
+    // L496-502: -185 mm/min (the text lacks the sign) are -578.125 rpm, truncated.
+    let speed = MACHINE.mm_per_min_to_rpm(-185.0) as i16;
+    assert_eq!((speed, sent(&CmdJogN { speed })), (-578, vec![1, 0x08, 0xE0, 0x00, 0xFD, 0xBE]));
+    // L1425-1433: the same as a fraction of 8000 rpm.
+    let base = models::sm137_rev_c::SPEED_BASE;
+    let speed = CmdJog::SPEED.raw_by(MACHINE.mm_per_min_to_rpm(-185.0), base).expect("within the base");
+    assert_eq!((speed, sent(&CmdJog { speed })), (-2368, vec![1, 0x08, 0x40, 0x00, 0xF6, 0xC0]));
+    // L672-682: both speeds, in mm/min.
+    let poll = sent(&PollSpeeds);
+    let reply = PollSpeedsReply::read(&poll, &mut Reader::new(&ANSWER)).expect("a reply");
+    let mm_per_min = |rpm| MACHINE.rpm_to_mm_per_min(rpm);
+    let theoretical = mm_per_min(PollSpeedsReply::THEORETICAL_SPEED.physical_by(reply.theoretical_speed, base));
+    let real = mm_per_min(PollSpeedsReply::REAL_SPEED.physical_by(reply.real_speed, base));
+    assert!((theoretical - 195.0781).abs() < 1e-4 && (real - 333.3594).abs() < 1e-4, "{theoretical}, {real}");
+}
+
+#[test]
+fn override_version_and_status() {
+    // L732: 90 % is 0x005A.
+    assert_eq!(sent(&CmdSetOverr { r#override: 90 }), [1, 0x08, 0xD0, 0x00, 0x00, 0x5A]);
+    // L1185: 0x0067 is version 103.
+    let request = sent(&CmdGetVer);
+    let reply = CmdGetVerReply::read(&request, &mut Reader::new(&[1, 0x02, 0x80, 0x00, 0x00, 0x67]));
+    assert_eq!(reply.map(|reply| reply.version), Some(103));
+    assert!(reply.is_some_and(|reply| reply.status == types::BitStato::new().with_command_complete(true)));
+}
+
+/// A motor whose parameters all have the value that was written last.
+struct Last(Vec<u8>);
+
+impl Client for Last {
+    type Bus = Serial;
+    type Error = core::convert::Infallible;
+
+    fn read(&mut self, _: Parameter, buffer: &mut [u8]) -> Result<usize, Error<Self::Error>> {
+        buffer.copy_from_slice(&self.0);
+        Ok(self.0.len())
+    }
+
+    fn write(&mut self, _: Parameter, data: &[u8]) -> Result<(), Error<Self::Error>> {
+        self.0 = data.to_vec();
+        Ok(())
+    }
+}
+
+#[test]
+fn fractions() {
+    // L1705-1708: 200 of 32768 of 8000 rpm are 48.8 rpm.
+    let rpm = objects::RESERVED1.physical_by(200, models::sm137_rev_b::SPEED_BASE);
+    assert!((rpm - 48.8).abs() < 0.05, "{rpm}");
+    // L1880: 5 A are 14482 of the base of 11.313 A (11.3137 A in L1938).
+    let mut client = Last(Vec::new());
+    let base = models::sm137_rev_b::CURRENT_BASE;
+    objects::MAXTORQUE.at(&mut client).write_scaled_by(5.0, base).expect("within the base");
+    assert_eq!(client.0, 14_482_i16.to_le_bytes());
+    assert!((objects::MAXTORQUE.physical_by(14_482, base) - 5.0).abs() < 1e-3);
+}

@@ -1,0 +1,77 @@
+//! A real serial client talks to a simulated motor over a pseudo-terminal.
+
+use std::io::{Read, Write};
+use std::thread;
+use std::time::Duration;
+
+use embedded_io_adapters::std::FromStd;
+use lexibus::clients::serial::SerialLine;
+use lexibus::framing::Framing;
+use lexibus::message::{Failure, Writer};
+use lexibus::{Error, Parameters};
+use lexibus_drives::hsd::messages::{self, CmdNack, Protocol, FRAMING, MAX_DATA};
+use lexibus_drives::hsd::{objects, types, HsdMotor};
+use serialport::{SerialPort, TTYPort};
+
+use super::motor::Motor;
+
+type Line = SerialLine<FromStd<TTYPort>, lexibus::framing::Delimited, 140>;
+
+/// Answers until the other end is closed. In front of each answer the line has some noise.
+fn serve(mut port: TTYPort) {
+    let (mut motor, mut decoder, mut data) = (Motor::default(), FRAMING.decoder(), [0; MAX_DATA]);
+    let mut byte = [0];
+    while let Ok(1) = port.read(&mut byte) {
+        let Ok(Some(length)) = FRAMING.decode(&mut decoder, byte[0], &mut data) else { continue };
+        let (mut reply, mut frame) = ([0; MAX_DATA], [0; 160]);
+        let mut to = Writer::new(&mut reply);
+        motor.answer(&data[..length], &mut to).expect("room for the reply");
+        if to.is_empty() {
+            continue;
+        }
+        let length = FRAMING.encode(to.written(), &mut frame).expect("room for the frame");
+        port.write_all(&[0x55, 0xFF, 0x03]).and_then(|()| port.write_all(&frame[..length])).expect("an open line");
+    }
+}
+
+fn motor(node: u32) -> HsdMotor<Parameters<Line, Protocol, MAX_DATA>> {
+    let (mut near, mut far) = TTYPort::pair().expect("a pseudo-terminal");
+    near.set_timeout(Duration::from_millis(if node == 5 { 5000 } else { 50 })).expect("a time limit");
+    far.set_timeout(Duration::from_secs(5)).expect("a time limit");
+    thread::spawn(move || serve(far));
+    HsdMotor::on(SerialLine::new(FromStd::new(near), messages::FRAMING), node)
+}
+
+#[test]
+fn a_positioning() {
+    let mut motor = motor(5);
+    assert_eq!(motor.cmd_get_sm_stat().send().ok().map(|reply| reply.state), Some(types::State::Stopped));
+    let reply = motor.cmd_traj(1_798_046).send().expect("a reply");
+    assert!(!reply.is_complete());
+    let mut positions = motor.cmd_get_pos().select().expect("a reply");
+    assert!(!positions.poll_position().send().expect("a reply").is_complete());
+    let last = positions.poll_position().send().expect("a reply");
+    assert_eq!((last.is_complete(), last.real_position), (true, 1_798_046));
+    let mut speeds = motor.cmd_get_vel().select().expect("a reply");
+    let reply = speeds.poll_speeds().send().expect("a reply");
+    assert_eq!((reply.real_speed, reply.theoretical_speed), (4267, 2497));
+}
+
+#[test]
+fn parameters_one_by_one_and_together() {
+    let mut motor = motor(5);
+    motor.kp_vel().write_scaled(1.5).expect("written");
+    assert_eq!(motor.kp_vel().read().ok(), Some(150));
+    let settings = [objects::KP_VEL.setting(600).expect("in range"), objects::LOW_SLIM.setting(-5).expect("in range")];
+    motor.cmd_chg_par_n(&settings).send().expect("a reply");
+    assert_eq!((motor.kp_vel().read().ok(), motor.low_slim().read().ok()), (Some(600), Some(-5)));
+}
+
+#[test]
+fn refusals_and_silence() {
+    let mut refusing = motor(5);
+    assert!(matches!(refusing.cmd_reg().send(), Err(Failure::Refused(CmdNack { node: 5, .. }))));
+    // Nobody has this number.
+    let reply = motor(6).cmd_get_ver().send().map(|reply| reply.version);
+    assert!(matches!(reply, Err(Failure::Error(Error::Client(_)))), "{reply:?}");
+}

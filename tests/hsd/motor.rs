@@ -1,0 +1,79 @@
+//! A simulated motor: what it does with the requests that the tests send.
+
+use std::collections::BTreeMap;
+
+use lexibus::message::{Reply, Setting, WriteError, Writer};
+use lexibus::Parameter;
+use lexibus_drives::hsd::messages::*;
+use lexibus_drives::hsd::types::{BitStato, State};
+
+/// A motor that reaches a target at the second poll.
+#[derive(Default)]
+pub struct Motor {
+    parameters: BTreeMap<u32, Setting>,
+    position: i32,
+    target: i32,
+    selected: Selected,
+    polls: u32,
+}
+
+/// What the null request is answered with.
+#[derive(Clone, Copy, Default, PartialEq)]
+enum Selected {
+    #[default]
+    Position,
+    Speeds,
+}
+
+impl Motor {
+    fn status(&self) -> BitStato {
+        BitStato::new().with_command_complete(self.position == self.target)
+    }
+
+    /// Carries out a request to node 5 and writes the reply; nothing to another one, or to what is no request.
+    pub fn answer(&mut self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError> {
+        let Some((5, own)) = Request::parse(request) else { return Ok(()) };
+        match own {
+            Request::CmdTraj(own) => {
+                (self.target, self.polls) = (own.target, 0);
+                CmdTrajReply { status: self.status() }.write(request, to)
+            }
+            Request::PollPosition(_) => self.poll(request, to),
+            Request::CmdGetPos(_) => {
+                self.selected = Selected::Position;
+                CmdGetPosReply { status: self.status() }.write(request, to)
+            }
+            Request::CmdGetVel(_) => {
+                self.selected = Selected::Speeds;
+                CmdGetVelReply { status: self.status() }.write(request, to)
+            }
+            Request::CmdChgParN(own) => {
+                self.parameters.extend(own.settings.iter().map(|own| (own.parameter.0, own)));
+                CmdChgParNReply { status: self.status() }.write(request, to)
+            }
+            Request::CmdGetParN(own) => {
+                let setting = self.parameters.get(&own.parameter.0).copied();
+                let setting = setting.unwrap_or_else(|| Setting::new(Parameter(own.parameter.0), [0; 8], 2));
+                CmdGetParNReply { status: self.status(), setting }.write(request, to)
+            }
+            Request::CmdGetSmStat(_) => {
+                CmdGetSmStatReply { status: self.status(), state: State::Stopped }.write(request, to)
+            }
+            _ => CmdNack { node: 5, status: self.status() }.write(request, to),
+        }
+    }
+
+    fn poll(&mut self, request: &[u8], to: &mut Writer<'_>) -> Result<(), WriteError> {
+        self.polls += 1;
+        if self.polls == 2 {
+            self.position = self.target;
+        }
+        let status = self.status();
+        match self.selected {
+            Selected::Position => PollPositionReply { status, real_position: self.position }.write(request, to),
+            Selected::Speeds => {
+                PollSpeedsReply { status, real_speed: 4267, theoretical_speed: 2497 }.write(request, to)
+            }
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! Every request and reply from its type to its frame and back, whole and damaged.
+
+use std::collections::BTreeSet;
+use std::convert::Infallible;
+use std::fmt::Debug;
+
+use lexibus::framing::FrameError;
+use lexibus::message::{List, Message, Reader, Reply, Request as Received, Setting, Settings, Writer};
+use lexibus::Parameter;
+use lexibus_drives::hsd::messages::*;
+use lexibus_drives::hsd::types::{BitStato, HomingState, MotorType, State};
+
+use super::{found, framed};
+
+const NODE: u32 = 5;
+
+/// The data of a request.
+fn sent(message: &impl Message) -> Vec<u8> {
+    let mut data = [0; MAX_DATA];
+    let mut to = Writer::new(&mut data);
+    message.write(NODE, &mut to).expect("a message of the protocol");
+    to.written().to_vec()
+}
+
+fn answered<'r>(reply: &impl Reply<'r>, request: &[u8]) -> Vec<u8> {
+    let mut data = [0; MAX_DATA];
+    let mut to = Writer::new(&mut data);
+    reply.write(request, &mut to).expect("a message of the protocol");
+    to.written().to_vec()
+}
+
+/// Holds a packet against itself: as bytes and back, and as a frame that comes in two pieces, broken anywhere, and after noise.
+fn framing_holds(data: &[u8]) {
+    let frame = framed(data);
+    for at in 0..=frame.len() {
+        let (first, second) = frame.split_at(at);
+        assert_eq!(found(&[first, second].concat()), [Ok(data.to_vec())]);
+        // The end of the packet before, of which nobody saw the start.
+        let mut stream = frame[at..].to_vec();
+        stream.extend(&frame);
+        assert_eq!(found(&stream).last(), Some(&Ok(data.to_vec())), "from {at} on");
+    }
+}
+
+/// One bit is wrong: the packet is lost or found as it was, never as another one, and the next one is found.
+fn damage_is_found(data: &[u8]) {
+    let (frame, next) = (framed(data), framed(&[9, 8, 0]));
+    for bit in 0..8 * frame.len() {
+        let mut damaged = frame.clone();
+        damaged[bit / 8] ^= 1 << (bit % 8);
+        let mut frames = found(&[damaged, next.clone(), next.clone()].concat());
+        assert_eq!(frames.pop(), Some(Ok(vec![9, 8, 0])), "bit {bit} of {frame:02X?}");
+        let other = |own: &&Result<Vec<u8>, FrameError>| matches!(own, Ok(own) if own != data && own != &[9, 8, 0]);
+        assert_eq!(frames.iter().find(other), None, "bit {bit} of {frame:02X?}");
+    }
+}
+
+/// A request and its reply go there and come back, whole and damaged. `length` is that of the reply's packet as the manual
+/// counts it: with start, check and end, without escapes. Returns the name.
+fn exchanged<'r, M, R>(request: M, reply: R, length: usize) -> &'static str
+where
+    M: for<'q> Received<'q> + Debug + PartialEq,
+    R: for<'q> Reply<'q> + Debug + PartialEq,
+    M: Message<Reply<'r> = R>,
+{
+    let data = sent(&request);
+    assert_eq!(M::parse(&mut Reader::new(&data)), Some((NODE, request)));
+    let answer = answered(&reply, &data);
+    assert_eq!(R::read(&data, &mut Reader::new(&answer)), Some(reply));
+    assert_eq!(answer.len() + 3, length, "{answer:02X?}");
+    for data in [&data, &answer] {
+        framing_holds(data);
+        damage_is_found(data);
+    }
+    assert!(Request::parse(&data).is_some_and(|(node, _)| node == NODE), "a simulated motor knows it");
+    M::NAME
+}
+
+fn done() -> BitStato {
+    BitStato::new().with_command_complete(true)
+}
+
+fn setting(parameter: u32, value: &[u8]) -> Setting {
+    Setting::of(Parameter(parameter), value).expect("eight bytes at most")
+}
+
+/// The 36 named requests, and the null one in its four meanings.
+#[test]
+#[rustfmt::skip]
+fn every_packet_goes_there_and_comes_back() {
+    let mut seen = BTreeSet::new();
+    seen.insert(exchanged(CmdReset, CmdResetReply { status: done() }, 9));
+    seen.insert(exchanged(CmdNoReg, CmdNoRegReply { status: done() }, 9));
+    seen.insert(exchanged(CmdReg, CmdRegReply { status: done() }, 9));
+    seen.insert(exchanged(CmdHold, CmdHoldReply { status: done() }, 9));
+    seen.insert(exchanged(CmdMazz { position: 0x0102_AB34 }, CmdMazzReply { status: done() }, 9));
+    seen.insert(exchanged(CmdAzz, CmdAzzReply { status: done() }, 9));
+    seen.insert(exchanged(CmdJogN { speed: -578 }, CmdJogNReply { status: done() }, 9));
+    seen.insert(exchanged(CmdTraj { target: 1_798_046 }, CmdTrajReply { status: done() }, 9));
+    seen.insert(exchanged(CmdTrajVel { target: 1_798_046, speed: 468 }, CmdTrajVelReply { status: done() }, 10));
+    seen.insert(exchanged(PollPosition, PollPositionReply { status: done(), real_position: 0x09C1_10AB }, 9));
+    seen.insert(exchanged(PollTheoreticalPosition, PollTheoreticalPositionReply { status: done(), theoretical_position: -3 }, 9));
+    seen.insert(exchanged(PollSpeeds, PollSpeedsReply { status: done(), real_speed: -2368, theoretical_speed: 0x02_03 }, 9));
+    seen.insert(exchanged(PollTorques, PollTorquesReply { status: done(), real_torque: 0x1B, theoretical_torque: -1 }, 9));
+    seen.insert(exchanged(CmdEmerg, CmdEmergReply { status: done() }, 9));
+    seen.insert(exchanged(CmdSetOverr { r#override: 90 }, CmdSetOverrReply { status: done() }, 9));
+    seen.insert(exchanged(CmdGetOverr, CmdGetOverrReply { status: done(), r#override: 200 }, 9));
+    seen.insert(exchanged(CmdGetParN { parameter: Parameter(0x0105) }, CmdGetParNReply { status: done(), setting: setting(0x0105, &[150, 0]) }, 11));
+    seen.insert(exchanged(CmdGetParN { parameter: Parameter(0x011C) }, CmdGetParNReply { status: done(), setting: setting(0x011C, &[1, 2, 3, 0x1B]) }, 13));
+    seen.insert(exchanged(CmdChgPar { setting: setting(0x0003, &[2, 3]) }, CmdChgParReply { status: done() }, 9));
+    seen.insert(exchanged(CmdSaveParFl, CmdSaveParFlReply { status: done() }, 9));
+    seen.insert(exchanged(CmdAdcOff, CmdAdcOffReply { status: done() }, 9));
+    seen.insert(exchanged(CmdAzzEl { method: 0 }, CmdAzzElReply { status: done() }, 9));
+    seen.insert(exchanged(CmdGetStatAzz, CmdGetStatAzzReply { status: done(), homing_state: HomingState::from_raw(2) }, 9));
+    seen.insert(exchanged(CmdGetDistMicroZero, CmdGetDistMicroZeroReply { status: done(), distance: 799 }, 11));
+    seen.insert(exchanged(CmdGetPos, CmdGetPosReply { status: done() }, 9));
+    seen.insert(exchanged(CmdGetPosT, CmdGetPosTReply { status: done() }, 9));
+    seen.insert(exchanged(CmdGetVel, CmdGetVelReply { status: done() }, 9));
+    seen.insert(exchanged(CmdGetTor, CmdGetTorReply { status: done() }, 9));
+    seen.insert(exchanged(CmdGetAlarm, CmdGetAlarmReply { status: done(), message: 0x4001 }, 9));
+    seen.insert(exchanged(CmdGetVer, CmdGetVerReply { status: done(), version: 103 }, 9));
+    seen.insert(exchanged(CmdGetType, CmdGetTypeReply { status: done(), r#type: MotorType::from_raw(0x10) }, 9));
+    seen.insert(exchanged(CmdGetSmStat, CmdGetSmStatReply { status: done(), state: State::from_raw(4) }, 9));
+    seen.insert(exchanged(CmdSampleVar { variable_1: 2, variable_2: 3 }, CmdSampleVarReply { status: done() }, 9));
+    seen.insert(exchanged(CmdSampleMem { address_1: 0x0203, address_2: 0x1BFD, sampling_time: 1 }, CmdSampleMemReply { status: done() }, 9));
+    seen.insert(exchanged(CmdRegWait, CmdRegWaitReply { status: done() }, 9));
+    seen.insert(exchanged(CmdHoldWait, CmdHoldWaitReply { status: done() }, 9));
+    seen.insert(exchanged(CmdJog { speed: -2368 }, CmdJogReply { status: done() }, 9));
+    seen.insert(exchanged(CmdAzzElWait { method: 0 }, CmdAzzElWaitReply { status: done() }, 9));
+    seen.insert(exchanged(CmdSample { variable_1: 1, variable_2: 4 }, CmdSampleReply { status: done() }, 9));
+    // What borrows from the packet.
+    let settings = [setting(0x0105, &[150, 0]), setting(0x011C, &[1, 2, 3, 0x1B])];
+    let request = CmdChgParN { settings: Settings::sent(&settings, PARAMETER) };
+    let data = sent(&request);
+    assert_eq!(CmdChgParN::parse(&mut Reader::new(&data)), Some((NODE, request)));
+    let answer = answered(&CmdChgParNReply { status: done() }, &data);
+    assert_eq!(CmdChgParNReply::read(&data, &mut Reader::new(&answer)), Some(CmdChgParNReply { status: done() }));
+    assert_eq!(answer, [5, 2, 0xB8, 0, 0x01, 0x05]);
+    seen.insert(CmdChgParN::NAME);
+    let entries = [CmdGetSampReplyEntry { variable_1: -2, variable_2: 0x1B02 }; 14];
+    let reply = CmdGetSampReply { status: done(), entries: List::from(&entries) };
+    let data_of_samples = sent(&CmdGetSamp);
+    let samples = answered(&reply, &data_of_samples);
+    assert_eq!(CmdGetSampReply::read(&data_of_samples, &mut Reader::new(&samples)), Some(reply));
+    seen.insert(CmdGetSamp::NAME);
+    for data in [&data, &answer, &data_of_samples, &samples] {
+        framing_holds(data);
+        damage_is_found(data);
+    }
+    assert_eq!(seen.len(), 36 + 4, "{seen:?}");
+}
+
+/// The refusal comes instead of each reply but those of the null request, and isn't taken for one.
+#[test]
+fn refusals() {
+    let jog = sent(&CmdJogN { speed: -578 });
+    let refusal = CmdNack { node: 5, status: done() };
+    let data = answered(&refusal, &jog);
+    assert_eq!(data, [5, 2, 0xB0, 0, 0xFD, 0xBE]);
+    framing_holds(&data);
+    assert_eq!(CmdNack::read(&jog, &mut Reader::new(&data)), Some(refusal));
+    assert_eq!(CmdJogNReply::read(&jog, &mut Reader::new(&data)), None);
+    // A position that begins so is no refusal: the null request can't be refused.
+    let poll = sent(&PollPosition);
+    let position = PollPositionReply { status: done(), real_position: 0x0000_B000 };
+    let data = answered(&position, &poll);
+    assert_eq!((data[2], PollPositionReply::read(&poll, &mut Reader::new(&data))), (0xB0, Some(position)));
+    fn never<M: Message<Refusal = Infallible>>(_: M) {}
+    never(PollPosition);
+    never(PollSpeeds);
+}
+
+/// Escapes at every position of a packet of every length.
+#[test]
+fn special_bytes_anywhere() {
+    for length in 1..=MAX_DATA {
+        for special in [0x02, 0x03, 0x1B, 0xFD, 0xFC, 0xE4] {
+            for place in (0..length).step_by(1 + length / 16) {
+                let mut data = vec![0x41; length];
+                data[place] = special;
+                assert_eq!(found(&framed(&data)), [Ok(data)]);
+            }
+            assert_eq!(found(&framed(&vec![special; length])), [Ok(vec![special; length])]);
+        }
+    }
+}
