@@ -53,6 +53,8 @@ pub(crate) struct Side<'a> {
     pub steps: Vec<Step<'a>>,
     /// Name, first bit and length in bits of values in front of anything whose length isn't known.
     places: Vec<(&'a str, u32, u32)>,
+    /// Names of all values.
+    names: Vec<&'a str>,
     /// First bit and length in bits of the first number of a parameter.
     code: Option<(u32, u32)>,
 }
@@ -60,6 +62,7 @@ pub(crate) struct Side<'a> {
 /// Why there is no such shape.
 pub(crate) type Problem = &'static str;
 
+const UNRESOLVED: Problem = "a field names another that there isn't";
 const UNALIGNED: Problem = "bytes begin, or the data end, within a byte";
 const UNKNOWN_LENGTH: Problem = "a value has no length of 1 to 64 bits, and is no text of fixed length";
 const SEVERAL_LENGTHS: Problem = "it has two parts whose length isn't known";
@@ -79,6 +82,10 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
                 Ok(_) => continue,
             },
         };
+        // A name that leads nowhere, and bytes that aren't whole, are told already.
+        if problem == UNRESOLVED || problem == UNALIGNED {
+            continue;
+        }
         let text = format!("no code for the message `{}`: {problem}", brief(&message.name));
         diagnostics.push(Diagnostic::new(&codes::MESSAGE_UNSHAPED, message.origin.span, text));
     }
@@ -146,7 +153,7 @@ pub(crate) fn tail(steps: &[Step<'_>]) -> u32 {
 
 impl<'a> Shaper<'a, '_> {
     fn side(&self, fields: &'a [MessageField]) -> Result<Side<'a>, Problem> {
-        let mut side = Side::default();
+        let mut side = Side { names: names(fields).collect(), ..Side::default() };
         let mut offset = Some(0);
         let mut left = fields;
         while let Some((field, rest)) = left.split_first() {
@@ -176,7 +183,8 @@ impl<'a> Shaper<'a, '_> {
         let places = side.places.clone();
         for step in &mut side.steps {
             if let Step::Length { from, counts, .. } = step {
-                let (_, at, _) = places.iter().find(|(name, ..)| name == counts).ok_or(LENGTH)?;
+                let missing = if named(fields, counts) { LENGTH } else { UNRESOLVED };
+                let (_, at, _) = places.iter().find(|(name, ..)| name == counts).ok_or(missing)?;
                 *from = at / 8;
             }
         }
@@ -245,7 +253,8 @@ impl<'a> Shaper<'a, '_> {
 
     fn echo(&self, field: &str, bytes: Option<(u8, u8)>) -> Result<Step<'a>, Problem> {
         let request = self.request.ok_or(ECHO)?;
-        let (_, at, bits) = request.places.iter().find(|(name, ..)| *name == field).ok_or(ECHO)?;
+        let missing = if request.names.iter().any(|name| name == field) { ECHO } else { UNRESOLVED };
+        let (_, at, bits) = request.places.iter().find(|(name, ..)| *name == field).ok_or(missing)?;
         let is_whole = at.is_multiple_of(8) && bits.is_multiple_of(8);
         let (first, last) = match bytes {
             Some((first, last)) => (first.into(), last.into()),
@@ -305,6 +314,18 @@ impl Step<'_> {
             _ => None,
         }
     }
+}
+
+/// The names of values outside of what is repeated.
+fn names(fields: &[MessageField]) -> impl Iterator<Item = &str> {
+    fields.iter().filter_map(|field| match field {
+        MessageField::Value(value) => Some(value.item.name.as_str()),
+        _ => None,
+    })
+}
+
+fn named(fields: &[MessageField], wanted: &str) -> bool {
+    names(fields).any(|name| name == wanted)
 }
 
 fn has_code(fields: &[MessageField]) -> bool {
