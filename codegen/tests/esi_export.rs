@@ -203,3 +203,15 @@ fn esi_of_a_register_table() {
     let kinds: Vec<NoteKind> = exported.notes.iter().map(|note| note.kind).collect();
     assert!(kinds.contains(&NoteKind::BitField), "{kinds:?}");
 }
+
+#[test]
+fn the_documentation_lists_every_option() {
+    for (documentation, keys) in [
+        (include_str!("../../docs/ethercat.md"), Options::KEYS),
+        (include_str!("../../docs/profinet.md"), lexibus_codegen::backend::gsdml::Options::KEYS),
+    ] {
+        for (key, what) in keys {
+            assert!(documentation.contains(&format!("| `{key}` | {} |", what.trim_end_matches('.'))), "{key}");
+        }
+    }
+}

@@ -22,12 +22,11 @@ doc = "A drive for one axis."
 modbus = { table = "holding" }
 
 [[chapters]]
-name = "Control"
+title = "Control"
 space = "register"
-access = "rw"
 [chapters.registers]
-target = { reg = 1, type = "i32", unit = "µm" }
-speed = { reg = 3, type = "u16" }
+target = { reg = 1, type = "i32", access = "rw", unit = "µm" }
+speed = { reg = 3, type = "u16", access = "rw" }
 
 [[images]]
 name = "outputs"
@@ -51,7 +50,7 @@ position = { at = 1, type = "i32" }
 "#;
 
 /// What no register table says.
-const FACTS: [(&str, &str); 25] = [
+const FACTS: [(&str, &str); 27] = [
     ("vendor-id", "0x0123"),
     ("device-id", "0x0001"),
     ("main-family", "Drives"),
@@ -70,6 +69,8 @@ const FACTS: [(&str, &str); 25] = [
     ("check-device-id", "true"),
     ("process-alarms", "false"),
     ("interface-ident", "0x20"),
+    ("interface-name", "X1"),
+    ("consistent", "true"),
     ("supported-protocols", "SNMP;LLDP"),
     ("ports", "2"),
     ("port-ident", "0x21"),

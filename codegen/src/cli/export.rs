@@ -15,8 +15,8 @@ use crate::ir::{Catalog, Device};
 /// What is written, with the facts that go with it.
 enum Format {
     Eds(Flavour),
-    Esi(esi::Options),
-    Gsdml(gsdml::Options),
+    Esi(Box<esi::Options>),
+    Gsdml(Box<gsdml::Options>),
 }
 
 impl Format {
@@ -24,8 +24,8 @@ impl Format {
         let mut format = match export.format {
             ExportFormat::Eds => Format::Eds(Flavour::Eds),
             ExportFormat::Dcf => Format::Eds(Flavour::Dcf),
-            ExportFormat::Esi => Format::Esi(esi::Options::default()),
-            ExportFormat::Gsdml => Format::Gsdml(gsdml::Options::default()),
+            ExportFormat::Esi => Format::Esi(Box::default()),
+            ExportFormat::Gsdml => Format::Gsdml(Box::default()),
         };
         for (key, value) in &export.facts {
             let set = match &mut format {
