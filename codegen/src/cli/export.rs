@@ -38,6 +38,15 @@ impl Format {
         Ok(format)
     }
 
+    /// What a source has that can't be written.
+    fn nothing(&self) -> &'static str {
+        match self {
+            Format::Eds(_) => "no device with objects",
+            Format::Esi(_) => "no EtherCAT slave and no device with objects",
+            Format::Gsdml(_) => "no PROFINET device and no process image",
+        }
+    }
+
     fn ending(&self) -> &'static str {
         match self {
             Format::Eds(Flavour::Eds) => "eds",
@@ -137,11 +146,7 @@ fn files<'c>(
         Ok(files) => Some(files),
         Err(Refusal::Nothing) if target.many => None,
         Err(Refusal::Nothing) => {
-            let what = match format {
-                Format::Eds(_) => "no device with objects",
-                Format::Esi(_) => "no EtherCAT slave and no device with objects",
-                Format::Gsdml(_) => "no PROFINET device and no process image",
-            };
+            let what = format.nothing();
             reporter.error(&format!("{}: it describes {what}, so there is nothing to export", input.display()));
             None
         }
