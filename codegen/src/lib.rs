@@ -12,7 +12,7 @@
 //! Underneath is a pipeline in which data flows one way:
 //!
 //! ```text
-//! source -> syntax -> frontend/{eds, xdd, esi, gsdml} -> ir -> passes -> backend/{rust, json, eds}
+//! source -> syntax -> frontend/{eds, xdd, esi, gsdml} -> ir -> passes -> backend/{rust, json, eds, esi, gsdml}
 //! ```
 //!
 //! Each stage can be used by itself:

@@ -4,6 +4,7 @@
 mod corpus_support;
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use corpus_support::round_trip::{content, difference, each_object, options, source, take_extensions};
 use corpus_support::xsd::Schema;
@@ -112,7 +113,12 @@ fn check(catalog: &Catalog, exported: &Export) -> Option<String> {
 }
 
 /// Every file that can be exported, with what it becomes.
-fn exports() -> Option<Vec<(String, Catalog, Export)>> {
+fn exports() -> Option<&'static Vec<(String, Catalog, Export)>> {
+    static EXPORTS: OnceLock<Option<Vec<(String, Catalog, Export)>>> = OnceLock::new();
+    EXPORTS.get_or_init(make_exports).as_ref()
+}
+
+fn make_exports() -> Option<Vec<(String, Catalog, Export)>> {
     let mut exports = Vec::new();
     for file in files_of("esi")? {
         let Some(catalog) = read(source(&file), &options()).catalog else { continue };
@@ -132,7 +138,7 @@ fn esi_to_ir_to_esi_to_ir_is_the_identity() {
     let Some(exports) = exports() else { return };
     let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
     let mut wrong = Vec::new();
-    for (name, catalog, exported) in &exports {
+    for (name, catalog, exported) in exports {
         exported.notes.iter().for_each(|note| *kinds.entry(note.kind.name()).or_default() += note.count);
         wrong.extend(check(catalog, exported).map(|message| format!("{name}: {message}")));
     }

@@ -203,3 +203,39 @@ fn esi_of_a_register_table() {
     let kinds: Vec<NoteKind> = exported.notes.iter().map(|note| note.kind).collect();
     assert!(kinds.contains(&NoteKind::BitField), "{kinds:?}");
 }
+
+/// Every table of the project that has objects has a valid ESI.
+#[test]
+fn every_table_with_objects_has_an_esi() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../dictionaries");
+    let files = std::fs::read_dir(folder).expect("the tables").map(|entry| entry.expect("a table").path());
+    let mut options = of_a_slave();
+    for (key, value) in [("vendor-id", "0x1"), ("product-code", "0x2"), ("revision", "1"), ("vendor-name", "Example")] {
+        options.set(key, value).expect("an option");
+    }
+    let mut count = 0;
+    for path in files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")) {
+        let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
+        let compilation =
+            read(Source::new(name.clone() + ".toml", std::fs::read(&path).expect("a table")), &Reading::default());
+        match export(&compilation.catalog.expect("a table"), &options) {
+            Ok(exported) => drop(valid(&name, &exported.text)),
+            Err(Refusal::Nothing) => continue,
+            Err(refusal) => panic!("{name}: {refusal}"),
+        }
+        count += 1;
+    }
+    assert!(count > 0, "no table has objects");
+}
+
+#[test]
+fn the_documentation_lists_every_option() {
+    for (documentation, keys) in [
+        (include_str!("../../docs/ethercat.md"), Options::KEYS),
+        (include_str!("../../docs/profinet.md"), lexibus_codegen::backend::gsdml::Options::KEYS),
+    ] {
+        for (key, what) in keys {
+            assert!(documentation.contains(&format!("| `{key}` | {} |", what.trim_end_matches('.'))), "{key}");
+        }
+    }
+}

@@ -2,7 +2,7 @@
 
 mod corpus_support;
 
-use corpus_support::round_trip::options;
+use corpus_support::round_trip::options as reading;
 use corpus_support::xsd::Schema;
 use lexibus_codegen::backend::gsdml::{export, file_name, Export, Options, Refusal};
 use lexibus_codegen::compile::{check, read};
@@ -22,12 +22,11 @@ doc = "A drive for one axis."
 modbus = { table = "holding" }
 
 [[chapters]]
-name = "Control"
+title = "Control"
 space = "register"
-access = "rw"
 [chapters.registers]
-target = { reg = 1, type = "i32", unit = "µm" }
-speed = { reg = 3, type = "u16" }
+target = { reg = 1, type = "i32", access = "rw", unit = "µm" }
+speed = { reg = 3, type = "u16", access = "rw" }
 
 [[images]]
 name = "outputs"
@@ -51,7 +50,7 @@ position = { at = 1, type = "i32" }
 "#;
 
 /// What no register table says.
-const FACTS: [(&str, &str); 25] = [
+const FACTS: [(&str, &str); 27] = [
     ("vendor-id", "0x0123"),
     ("device-id", "0x0001"),
     ("main-family", "Drives"),
@@ -70,6 +69,8 @@ const FACTS: [(&str, &str); 25] = [
     ("check-device-id", "true"),
     ("process-alarms", "false"),
     ("interface-ident", "0x20"),
+    ("interface-name", "X1"),
+    ("consistent", "true"),
     ("supported-protocols", "SNMP;LLDP"),
     ("ports", "2"),
     ("port-ident", "0x21"),
@@ -80,7 +81,7 @@ const FACTS: [(&str, &str); 25] = [
 ];
 
 fn table() -> Catalog {
-    let compilation = check(Source::new("positioner.toml", TABLE.into()), &options());
+    let compilation = check(Source::new("positioner.toml", TABLE.into()), &reading());
     let findings: Vec<String> =
         compilation.diagnostics.list().iter().map(|found| compilation.one_line(found)).collect();
     assert!(!compilation.diagnostics.has_errors(), "{findings:?}");
@@ -106,7 +107,7 @@ fn gsdml_of_process_images() {
     }
     let name = file_name(&table(), &given()).expect("a name");
     assert_eq!(name, "GSDML-V2.35-Example-Positioner-20240131");
-    let again = read(Source::new((name + ".xml").as_str(), exported.text.into()), &options());
+    let again = read(Source::new((name + ".xml").as_str(), exported.text.into()), &reading());
     let findings: Vec<String> = again.diagnostics.list().iter().map(|found| again.one_line(found)).collect();
     assert_eq!(findings, Vec::<String>::new());
     let catalog = again.catalog.expect("a catalogue");
@@ -135,4 +136,28 @@ fn what_nobody_says_is_asked_for() {
     assert_eq!(file_name(&table(), &Options::default()), None);
     let mut options = Options::default();
     assert!(options.set("device-access", "perhaps").is_err_and(|text| text.contains("`true` or `false`")));
+}
+
+/// Every table of the project that has process images has a valid GSDML.
+#[test]
+fn every_table_with_images_has_a_gsdml() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../dictionaries");
+    let files = std::fs::read_dir(folder).expect("the tables").map(|entry| entry.expect("a table").path());
+    let mut options = given();
+    options.set("vendor-name", "Example").expect("an option");
+    options.set("description", "A device.").expect("an option");
+    for path in files.filter(|path| path.extension().is_some_and(|ending| ending == "toml")) {
+        let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
+        let source = Source::new(name.clone() + ".toml", std::fs::read(&path).expect("a table"));
+        let exported = match export(&check(source, &reading()).catalog.expect("a table"), &options) {
+            Ok(exported) => exported,
+            Err(Refusal::Nothing) => continue,
+            Err(refusal) => panic!("{name}: {refusal}"),
+        };
+        if let Some(schema) = Schema::new("gsdml/GSDML-DeviceProfile-v2.35.xsd") {
+            assert_eq!(schema.violations(&name, [("export.xml", exported.text.as_bytes())]), Vec::<String>::new());
+        }
+        let again = read(Source::new("export.xml", exported.text.into()), &reading());
+        assert!(!again.diagnostics.has_errors() && again.catalog.is_some_and(|own| !own.devices.is_empty()), "{name}");
+    }
 }

@@ -145,8 +145,8 @@ kinds! {
     Renamed = "renamed", "name that occurs twice made unique";
     /// A type without a fixed length.
     UnknownLength = "unknown-length", "type whose length nothing tells written with a length of 0";
-    /// An object of CAN's own services.
-    CanObject = "can-object", "object that is about CAN itself (identifiers, SYNC, heartbeat) left out";
+    /// An object of CAN's own services, or one that the source has on CANopen only.
+    CanObject = "can-object", "object that is on CANopen only, or about CAN itself (identifiers, SYNC, heartbeat), left out";
     /// An object without entries.
     EmptyObject = "empty-object", "object without entries left out";
     /// Half of a group of facts.

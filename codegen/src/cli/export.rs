@@ -15,8 +15,8 @@ use crate::ir::{Catalog, Device};
 /// What is written, with the facts that go with it.
 enum Format {
     Eds(Flavour),
-    Esi(esi::Options),
-    Gsdml(gsdml::Options),
+    Esi(Box<esi::Options>),
+    Gsdml(Box<gsdml::Options>),
 }
 
 impl Format {
@@ -24,8 +24,8 @@ impl Format {
         let mut format = match export.format {
             ExportFormat::Eds => Format::Eds(Flavour::Eds),
             ExportFormat::Dcf => Format::Eds(Flavour::Dcf),
-            ExportFormat::Esi => Format::Esi(esi::Options::default()),
-            ExportFormat::Gsdml => Format::Gsdml(gsdml::Options::default()),
+            ExportFormat::Esi => Format::Esi(Box::default()),
+            ExportFormat::Gsdml => Format::Gsdml(Box::default()),
         };
         for (key, value) in &export.facts {
             let set = match &mut format {
@@ -36,6 +36,15 @@ impl Format {
             set.map_err(|message| Failure::Usage(format!("--set {key}: {message}")))?;
         }
         Ok(format)
+    }
+
+    /// What a source has that can't be written.
+    fn nothing(&self) -> &'static str {
+        match self {
+            Format::Eds(_) => "no device with objects",
+            Format::Esi(_) => "no EtherCAT slave and no device with objects",
+            Format::Gsdml(_) => "no PROFINET device and no process image",
+        }
     }
 
     fn ending(&self) -> &'static str {
@@ -137,11 +146,7 @@ fn files<'c>(
         Ok(files) => Some(files),
         Err(Refusal::Nothing) if target.many => None,
         Err(Refusal::Nothing) => {
-            let what = match format {
-                Format::Eds(_) => "no device with objects",
-                Format::Esi(_) => "no EtherCAT slave and no device with objects",
-                Format::Gsdml(_) => "no PROFINET device and no process image",
-            };
+            let what = format.nothing();
             reporter.error(&format!("{}: it describes {what}, so there is nothing to export", input.display()));
             None
         }

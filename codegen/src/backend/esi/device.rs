@@ -55,8 +55,7 @@ pub(super) fn dictionary(
     between: impl FnOnce(&mut Xml, &mut Context<'_>, &Types<'_>),
 ) {
     let made = objects::of_registers(device, &mut context.notes);
-    let is_canopen_only = device.canopen.is_some() && device.ethercat.is_none();
-    let objects = objects::all(&device.groups, &made, is_canopen_only, &mut context.notes);
+    let objects = objects::of_device(device, &made, &mut context.notes);
     let mut types = Types::new(&device.types, &mut context.notes);
     if device.dictionary_only {
         dictionary::write(xml, context, &mut types, &objects);

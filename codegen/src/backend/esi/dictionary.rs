@@ -12,9 +12,12 @@ use crate::backend::xml::Xml;
 use crate::etg::type_name::{self, Basic};
 use crate::ir::{Access, EnumValue, Group, Item, Shape, Type, TypeDef};
 
+/// An object, its entries by sub-index, and its type.
+type Planned<'g> = (&'g Group, Vec<(u8, &'g Item)>, Plan);
+
 /// Writes a Dictionary, if there is anything in it.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, types: &mut Types<'_>, groups: &[&Group]) {
-    let planned: Vec<(&Group, Vec<(u8, &Item)>, Plan)> = groups
+    let planned: Vec<Planned<'_>> = groups
         .iter()
         .filter_map(|group| {
             let items = entries(group, &mut context.notes);
@@ -146,9 +149,9 @@ fn sub_items(xml: &mut Xml, types: &mut Types<'_>, at: u32, def: &TypeDef, notes
 }
 
 /// What every sub-item has: name, type, length and first bit.
-type Place4<'p> = (&'p CompactString, &'p CompactString, u32, u32);
+type Placed<'p> = (&'p CompactString, &'p CompactString, u32, u32);
 
-fn sub_item(xml: &mut Xml, (own, ty, bits, offset): Place4<'_>, facts: Option<&FieldFacts>, notes: &mut Notes) {
+fn sub_item(xml: &mut Xml, (own, ty, bits, offset): Placed<'_>, facts: Option<&FieldFacts>, notes: &mut Notes) {
     let place = Place::Named(own);
     xml.leaf("Name", own);
     if let Some(facts) = facts {

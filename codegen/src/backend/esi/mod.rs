@@ -115,8 +115,10 @@ impl Context<'_> {
             return None;
         }
         let number = |symbol: &CompactString| {
-            let is_number = symbol.starts_with("#x") && symbol[2..].bytes().all(|digit| digit.is_ascii_hexdigit());
-            if is_number || symbol.bytes().all(|digit| digit.is_ascii_digit()) {
+            let digits = symbol.strip_prefix("#x").unwrap_or("-");
+            if digits.bytes().all(|digit| digit.is_ascii_hexdigit())
+                || symbol.bytes().all(|digit| digit.is_ascii_digit())
+            {
                 return Some(symbol.to_string());
             }
             unit::number(symbol).map(|number| hex(number, 8).to_string())

@@ -70,7 +70,7 @@ fn mailbox(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
 
 /// A module has one profile.
 fn profile(xml: &mut Xml, context: &mut Context<'_>, module: &Module, types: &mut Types<'_>) {
-    let objects = objects::all(&module.groups, &[], false, &mut context.notes);
+    let objects = objects::all(module.groups.iter(), &mut context.notes);
     if module.profiles.is_empty() && objects.is_empty() && types.defs.is_empty() {
         return;
     }

@@ -72,7 +72,7 @@ impl<'a> Types<'a> {
             if let Shape::Record(fields) = &def.shape {
                 let entries = record::expansion(&types, fields);
                 let key = entries.iter().map(|entry| (entry.sub_index, entry.ty)).collect();
-                types.records.entry(key).or_insert_with(Vec::new).push(at);
+                types.records.entry(key).or_default().push(at);
             }
         }
         types

@@ -1,10 +1,10 @@
 //! Channel diagnosis, process alarms, diagnosis of user structures and the log book.
 
-use super::types::{self, Name};
+use super::types;
 use super::Context;
 use crate::backend::note::{NoteKind, Place};
 use crate::backend::xml::Xml;
-use crate::ir::{Catalog, CodeRow, Type, UnitDiagnosis, UnitDiagnosisField, Value};
+use crate::ir::{Catalog, CodeRow, UnitDiagnosis, UnitDiagnosisField, Value};
 
 /// How a list of codes is written.
 struct List {
@@ -175,34 +175,10 @@ fn unit_diagnosis(xml: &mut Xml, context: &mut Context<'_>, diagnosis: &UnitDiag
 }
 
 fn field(xml: &mut Xml, context: &mut Context<'_>, field: &UnitDiagnosisField) {
-    let types = context.types;
-    let is_bits = match field.ty {
-        Type::Boolean => field.bits == 1,
-        Type::Unsigned(width) => !matches!(width, 8 | 16 | 32 | 64) || field.bit_offset % 8 != 0,
-        _ => false,
-    };
-    let Name { name, needs_length, note } = match (is_bits, field.ty) {
-        (true, Type::Boolean) => Name { name: "Bit", needs_length: false, note: None },
-        (true, _) => Name { name: "BitArea", needs_length: false, note: None },
-        (false, ty) => types::name(ty, field.bits, types),
-    };
-    if let Some(note) = note {
-        context.notes.add(note, Place::Named(&field.name));
-    }
-    let values = field.values.and_then(|id| types.get(id.0 as usize));
+    let values = field.values.and_then(|id| context.types.get(id.0 as usize));
     xml.open("Ref");
     xml.optional("ValueItemTarget", values.map(|def| &def.name));
-    xml.attribute("DataType", name);
-    xml.attribute("ByteOffset", field.bit_offset / 8);
-    if is_bits && field.bit_offset % 8 != 0 {
-        xml.attribute("BitOffset", field.bit_offset % 8);
-    }
-    if name == "BitArea" {
-        xml.attribute("BitLength", field.bits);
-    }
-    if needs_length {
-        xml.attribute("Length", field.bits / 8);
-    }
+    types::place(xml, context, field.ty, (field.bit_offset, field.bits), &field.name);
     match &field.default {
         Some(Value::Bool(value)) => xml.attribute("DefaultValue", u8::from(*value)),
         Some(Value::Int(value)) => xml.attribute("DefaultValue", value),

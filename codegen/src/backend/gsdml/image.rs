@@ -104,6 +104,13 @@ impl Maker<'_> {
             places: Places { fixed: Numbers(smallvec![(0, 0)]), ..Places::default() },
             ..ProfinetSettings::default()
         };
+        settings.attributes = self.attributes();
+        settings
+    }
+
+    /// Attributes of the device access point for which the IR has no fields.
+    fn attributes(&mut self) -> Vec<(CompactString, CompactString)> {
+        let options = self.options;
         let wanted = [
             ("ObjectUUID_LocalIndex", self.want(options.object_uuid_index, "object-uuid-index").to_string()),
             (
@@ -113,23 +120,25 @@ impl Maker<'_> {
             ("DeviceAccessSupported", self.want(options.device_access, "device-access").to_string()),
             ("CheckDeviceID_Allowed", self.want(options.check_device_id, "check-device-id").to_string()),
         ];
-        let class = |key: &'static str, value: &Option<String>| value.clone().map(|value| (key, value));
-        let classes = match options.conformance_class {
-            Some(_) => [
-                class("CertificationInfo@ConformanceClass", &options.conformance_class),
-                Some((
-                    "CertificationInfo@ApplicationClass",
-                    options.application_class.clone().filter(|class| class != "none").unwrap_or_default(),
-                )),
-                class("CertificationInfo@NetloadClass", &options.netload_class),
-            ],
-            None => [None, None, None],
-        };
-        let releases =
-            [class("HardwareRelease", &options.hardware_release), class("SoftwareRelease", &options.software_release)];
-        let all = wanted.into_iter().chain(classes.into_iter().flatten()).chain(releases.into_iter().flatten());
-        settings.attributes.extend(all.map(|(key, value)| (CompactString::const_new(key), value.into())));
-        settings
+        let given = [
+            ("HardwareRelease", options.hardware_release.clone()),
+            ("SoftwareRelease", options.software_release.clone()),
+        ];
+        let given = given.into_iter().filter_map(|(key, value)| Some((key, value?)));
+        let all = wanted.into_iter().chain(self.certificate()).chain(given);
+        all.map(|(key, value)| (CompactString::const_new(key), value.into())).collect()
+    }
+
+    /// CertificationInfo, which has a conformance class or isn't there.
+    fn certificate(&mut self) -> Vec<(&'static str, String)> {
+        let options = self.options;
+        let Some(conformance) = options.conformance_class.clone() else { return Vec::new() };
+        let application = self.want(options.application_class.clone(), "application-class");
+        let application = if application == "none" { String::new() } else { application };
+        let netload = options.netload_class.clone().map(|class| ("CertificationInfo@NetloadClass", class));
+        let classes =
+            [("CertificationInfo@ConformanceClass", conformance), ("CertificationInfo@ApplicationClass", application)];
+        classes.into_iter().chain(netload).collect()
     }
 
     /// The submodule with the data.
@@ -153,7 +162,11 @@ impl Maker<'_> {
             };
             match place {
                 Some(_) => self.notes.add(NoteKind::OtherPart, Place::Named(&image.name)),
-                None => *place = Some(Box::new(io_data(image, &source.types, self.notes))),
+                None => {
+                    let data = io_data(image, &source.types, self.notes);
+                    let consistent = self.options.consistent.unwrap_or(false);
+                    *place = Some(Box::new(IoData { consistent, ..data }));
+                }
             }
         }
         submodule
@@ -172,7 +185,7 @@ impl Maker<'_> {
         if let Some(classes) = &options.rt_classes {
             attributes.push(("SupportedRT_Classes".into(), classes.into()));
         }
-        let name: CompactString = options.interface_name.as_deref().unwrap_or("X1").into();
+        let name = CompactString::from(self.want(options.interface_name.clone(), "interface-name"));
         let interface = Submodule {
             id: self.id("Interface"),
             ident,
@@ -240,7 +253,7 @@ fn io_data(image: &ProcessImage, types: &[TypeDef], notes: &mut Notes) -> IoData
     }
     filler(&mut fields, at, image.length.saturating_mul(8));
     let image = ProcessImage { fields, big_endian: true, ..image.clone() };
-    IoData { image, consistent: true, items, channels: Vec::new() }
+    IoData { image, consistent: false, items, channels: Vec::new() }
 }
 
 /// Bytes that no field has.

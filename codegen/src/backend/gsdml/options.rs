@@ -28,6 +28,8 @@ options! {
         module_ident: u32 = "module-ident",
         /// Ident number of the submodule with the process data.
         submodule_ident: u32 = "submodule-ident",
+        /// Whether all data of one direction are consistent with each other; else only each item is.
+        consistent: bool = "consistent",
         /// Subslot of the submodule with the process data.
         subslot: u16 = "subslot",
         /// Least interval between two frames in units of 31.25 µs (MinDeviceInterval).

@@ -2,13 +2,13 @@
 
 use std::fmt::Write as _;
 
-use super::types::{self, Name};
+use super::types;
 use super::Context;
 use crate::backend::note::{NoteKind, Place};
 use crate::backend::xml::Xml;
 use crate::ir::{
     Access, Binding, CompactString, Extension, FParameter, FParameters, Group, GroupKind, Item, Menu, Record,
-    Submodule, Type, Value,
+    Submodule, Value,
 };
 
 /// Writes RecordDataList, if there is anything in it.
@@ -107,31 +107,8 @@ fn parameter(xml: &mut Xml, context: &mut Context<'_>, item: &Item) {
     let ty = values.map_or(item.ty, |(_, base)| base);
     xml.open("Ref");
     xml.optional("ID", id(item));
-    let is_bits = match ty {
-        Type::Boolean | Type::Unsigned(1) => bits == 1,
-        Type::Unsigned(width) => !matches!(width, 8 | 16 | 32 | 64) || offset % 8 != 0,
-        _ => false,
-    };
-    let Name { name, needs_length, note } = match (is_bits, ty) {
-        (true, Type::Boolean | Type::Unsigned(1)) => Name { name: "Bit", needs_length: false, note: None },
-        (true, _) => Name { name: "BitArea", needs_length: false, note: None },
-        (false, _) => types::name(ty, bits, types),
-    };
-    if let Some(note) = note {
-        context.notes.add(note, place);
-    }
     xml.optional("ValueItemTarget", values.map(|(def, _)| &def.name).or_else(|| kept(item, "ValueItemTarget")));
-    xml.attribute("DataType", name);
-    xml.attribute("ByteOffset", offset / 8);
-    if is_bits && offset % 8 != 0 {
-        xml.attribute("BitOffset", offset % 8);
-    }
-    if name == "BitArea" {
-        xml.attribute("BitLength", bits);
-    }
-    if needs_length {
-        xml.attribute("Length", bits / 8);
-    }
+    types::place(xml, context, ty, (offset, bits), &item.name);
     if let Some(default) = item.default.as_ref().and_then(value) {
         xml.attribute("DefaultValue", default);
     }

@@ -1,6 +1,8 @@
 //! Names of data types.
 
-use crate::backend::note::NoteKind;
+use super::Context;
+use crate::backend::note::{NoteKind, Place};
+use crate::backend::xml::Xml;
 use crate::ir::{Shape, TimeFormat, Type, TypeDef};
 
 /// How many names a type may have on the way to what it is.
@@ -45,6 +47,35 @@ pub(super) fn name(ty: Type, bits: u32, types: &[TypeDef]) -> Name<'_> {
     };
     found.note = found.note.or(note);
     found
+}
+
+/// Writes the type and the place of a value in a record.
+pub(super) fn place(xml: &mut Xml, context: &mut Context<'_>, ty: Type, (offset, bits): (u32, u32), of: &str) {
+    let is_byte = offset.is_multiple_of(8);
+    let is_bits = match ty {
+        Type::Boolean | Type::Unsigned(1) => bits == 1,
+        Type::Unsigned(width) => !matches!(width, 8 | 16 | 32 | 64) || !is_byte,
+        _ => false,
+    };
+    let Name { name, needs_length, note } = match ty {
+        Type::Boolean | Type::Unsigned(1) if is_bits => plain("Bit"),
+        _ if is_bits => plain("BitArea"),
+        _ => name(ty, bits, context.types),
+    };
+    if let Some(note) = note {
+        context.notes.add(note, Place::Named(of));
+    }
+    xml.attribute("DataType", name);
+    xml.attribute("ByteOffset", offset / 8);
+    if is_bits && !is_byte {
+        xml.attribute("BitOffset", offset % 8);
+    }
+    if name == "BitArea" {
+        xml.attribute("BitLength", bits);
+    }
+    if needs_length {
+        xml.attribute("Length", bits / 8);
+    }
 }
 
 /// A type that GSDML has under its name, or what a defined type is below its names, bits and values.
