@@ -25,7 +25,7 @@ fn everything() -> RustOptions {
     RustOptions { table: Presence::Always, ..RustOptions::default() }
 }
 
-const TABLES: [&str; 2] = ["tests/data/press.toml", "dictionaries/aec-vector-step.toml"];
+const TABLES: [&str; 3] = ["tests/data/press.toml", "tests/data/one-drive.toml", "dictionaries/aec-vector-step.toml"];
 
 #[test]
 fn tables_compile() {

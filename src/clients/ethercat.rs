@@ -39,6 +39,10 @@
 //! }
 //! ```
 //!
+//! # Memory of the slave controller
+//!
+//! [`Memory`] reads and writes items that have an address in it: AL status, error counters, whatever a device's manual lists.
+//!
 //! # Process data
 //!
 //! `ethercrab` reads from the device which PDOs are assigned, and gives the inputs and the outputs of a SubDevice as
@@ -54,10 +58,13 @@
 //! of `ethercrab`, and needs no buffer of its own.
 
 mod mailbox;
+mod memory;
 mod protocol;
 
 use ethercrab::error::Error as BusError;
 use ethercrab::{MainDevice, SubDevice};
+
+pub use self::memory::Memory;
 
 use self::mailbox::{Mailbox, Sought};
 use self::protocol::{Answer, Command};

@@ -35,6 +35,7 @@ mod titles_are_no_names;
 pub(crate) mod values_checked;
 mod values_named_once;
 mod windows_fit;
+mod windows_possible;
 
 use crate::diagnostics::Diagnostics;
 use crate::ir::{Catalog, Device, Format, Module};
@@ -82,6 +83,7 @@ fn device(device: &mut Device, modules: &[Module], format: Option<Format>, diagn
         mentioned_objects_exist::run(device, diagnostics);
         names_in_texts_exist::run(device, diagnostics);
         windows_fit::run(device, diagnostics);
+        windows_possible::run(device, diagnostics);
     }
 }
 

@@ -1,0 +1,161 @@
+//! How each bus reaches an item: windows, process images, widths and accesses that a bus has for itself, and memory of slave
+//! controllers.
+
+use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::ir::{Access, Binding, Item, Type};
+use lexibus_codegen::source::Source;
+use lexibus_codegen::RustOptions;
+
+const HEAD: &str = r#"
+lexibus = 1
+[device]
+name = "Drive"
+buses = ["canopen", "modbus", "profinet"]
+[spaces.cells]
+bits = 32
+modbus = { table = "holding" }
+"#;
+
+const WINDOW: &str = r#"
+indirect = { write_address = "Number", numbers = "0x8000..0x8FFF", timeout = 20, read = "Value", write = { value = "New value", first = "value" } }
+"#;
+
+const OBJECTS: &str = r#"
+[[chapters]]
+title = "Window"
+[chapters.objects]
+0x2005 = { name = "Number", type = "u16", access = "rw", clears = true }
+0x2006 = { name = "Value", type = "i32", access = "ro" }
+0x2007 = { name = "New value", type = "i32", access = "wo" }
+"#;
+
+fn read(text: &str) -> Compilation {
+    let options = Options { no_profiles: true, ..Options::default() };
+    check(Source::new("t.toml", text.into()), &options)
+}
+
+fn table(window: &str, rows: &str, more: &str) -> String {
+    let window = window.trim();
+    format!("{HEAD}{window}\n{OBJECTS}[[chapters]]\ntitle = \"Cells\"\nspace = \"cells\"\n[chapters.registers]\n{rows}\n{more}")
+}
+
+/// What is said of a table, without what it doesn't have of CANopen.
+fn said(text: &str) -> Vec<String> {
+    let compilation = read(text);
+    let lines = compilation.diagnostics.list().iter().map(|own| compilation.one_line(own));
+    lines.filter(|line| !line.contains("EDS063")).collect()
+}
+
+fn item<'c>(compilation: &'c Compilation, name: &str) -> &'c Item {
+    let devices = compilation.catalog.iter().flat_map(|own| &own.devices);
+    let items: Vec<&Item> = devices.flat_map(|own| &own.groups).flat_map(|group| &group.items).collect();
+    items.into_iter().find(|item| item.name == name).expect("the item")
+}
+
+fn rust(text: &str) -> String {
+    assert_eq!(said(text), [""; 0]);
+    read(text).rust(&RustOptions { accessors: false, ..RustOptions::default() }).expect("code")
+}
+
+/// The lines from the one that has `from` on, to the first that has `to`.
+fn part(text: &str, from: &str, to: &str) -> String {
+    let lines = text.lines().skip_while(|line| !line.contains(from));
+    let mut part: Vec<&str> = Vec::new();
+    for line in lines {
+        part.push(line);
+        if line.contains(to) {
+            break;
+        }
+    }
+    assert!(!part.is_empty(), "no `{from}` in {text}");
+    part.join("\n")
+}
+
+#[test]
+fn code_of_a_window() {
+    let rows = "Gain = { reg = 0x8033, type = \"u32\", access = \"rw\" }\n\
+                Speed = { reg = 0x8017, type = \"i16\", access = \"ro\" }\n\
+                Far = { reg = 0x9000, type = \"i32\", access = \"rw\" }";
+    let text = rust(&table(WINDOW, rows, ""));
+    insta::assert_snapshot!("window", part(&text, "pub mod windows", "pub mod objects"));
+    insta::assert_snapshot!("behind_a_window", part(&text, "    /// Gain.", "pub const FAR"));
+}
+
+#[test]
+fn the_procedure_tells_what_the_window_does_not() {
+    let window = "indirect = { write_address = \"Cell\", read = \"Value\", procedure = \"settle\" }";
+    let rows = "Gain = { reg = 0x8033, type = \"u32\", access = \"ro\" }";
+    let settle = |step: &str| {
+        format!(
+            "[[chapters]]\ntitle = \"More\"\n[chapters.objects]\n0x2008 = {{ name = \"Cell\", type = \"u16\", access = \"rw\" }}\n\
+             [procedures.settle]\narguments = [\"n\"]\nsteps = [{{ write = \"Cell\", argument = \"n\" }}, {step}, {{ read = \"Value\" }}]\n"
+        )
+    };
+    let handshake = |step: &str| part(&rust(&table(window, rows, &settle(step))), "handshake:", "handshake:");
+    let told = handshake("{ wait = \"Cell\", value = 0, timeout = 50 }");
+    assert_eq!(told.trim(), "handshake: rt::Handshake::cleared(50),");
+    assert_eq!(handshake("{ delay = 3 }").trim(), "handshake: rt::Handshake::after(3),");
+}
+
+#[test]
+fn code_of_an_image() {
+    let rows = "Target = { reg = 0x8009, type = \"i32\", access = \"rw\" }\n\
+                Mode = { reg = 0x8001, obj = \"0x6060\", type = \"i32\", access = \"rw\", variants = [{ buses = [\"canopen\"], type = \"i8\", access = \"wo\", allowed = [\"-2..3\"] }] }\n\
+                Alarm = { reg = 0x802E, type = \"u8\", access = \"ro\", esc = 0x0F80 }";
+    let images = "[[images]]\nname = \"out\"\ndirection = \"rx\"\nbytes = 8\n[images.fields]\nTarget = { at = 3 }\nMode = { at = 2, type = \"i8\" }\n\
+                  [[images]]\nname = \"in\"\ndirection = \"tx\"\nbytes = 8\norder = \"little\"\n[images.fields]\nAlarm = { at = 7 }\nTorque = { at = 1, type = \"i16\" }\n";
+    let text = rust(&table("", rows, images));
+    insta::assert_snapshot!("image", part(&text, "pub mod objects", "A register or an entry that can be read."));
+    insta::assert_snapshot!("widths", part(&text, "    /// Mode.", "    /// Alarm."));
+    let compilation = read(&table("", rows, images));
+    let mode = item(&compilation, "Mode");
+    assert_eq!((mode.type_on("canopen"), mode.access_on("canopen")), (Type::Integer(8), Access::WriteOnly));
+    assert_eq!((mode.type_on("modbus"), mode.access_on("modbus")), (Type::Integer(32), Access::ReadWrite));
+    assert!(mode.limits_on("canopen").is_some() && mode.limits_on("modbus").is_none());
+    let is_narrow = |own: &Binding| matches!(own, Binding::Image { bits: 8, ty: Some(Type::Integer(8)), .. });
+    assert!(mode.bindings.iter().any(is_narrow));
+}
+
+#[test]
+fn mistakes() {
+    let rows = "Gain = { reg = 0x8033, type = \"u32\", access = \"rw\" }";
+    let window = |text: &str| said(&table(text, rows, ""));
+    #[track_caller]
+    fn has(found: &[String], words: &str) {
+        assert!(found.iter().any(|line| line.contains(words)), "{words}: {found:#?}");
+    }
+    assert_eq!(window(WINDOW), [""; 0]);
+    has(&window("indirect = {}"), "which has the value");
+    has(&window("indirect = { read = \"Value\" }"), "an item that takes the number");
+    has(&window("indirect = { write_address = \"Numbr\", read = \"Value\" }"), "no item called `Numbr`");
+    has(&window(&WINDOW.replace("0x8000..0x8FFF", "all")), "`all` are no numbers");
+    has(&window(&WINDOW.replace("first = \"value\"", "first = \"both\"")), "`both` is no order of writes");
+    has(
+        &window("indirect = { write_address = \"Number\", read = { value = \"Value\", first = \"value\" } }"),
+        "before a value can be read",
+    );
+    has(&window(&WINDOW.replace("indirect = {", "indirect = { buses = [\"can\"],")), "`can` is no bus");
+    let far = said(&table(
+        "indirect = { write_address = \"Number\", read = \"Value\" }",
+        "Far = { reg = 0x18000, type = \"u32\", access = \"ro\", buses = [\"canopen\"] }",
+        "",
+    ));
+    has(&far, "the number 98304 of `Far` doesn't fit `Number`, which has 16 bits");
+    let text = said(&table(
+        "indirect = { write_address = \"Number\", read = \"Value\" }",
+        "Name = { reg = 0x8000, type = \"str(4)\", access = \"ro\", buses = [\"canopen\"] }",
+        "",
+    ));
+    has(&text, "`Name` is only found behind a window");
+    let variant = |text: &str| {
+        said(&table(
+            "",
+            &format!("Mode = {{ reg = 0x8001, type = \"i32\", access = \"rw\", variants = [{{ {text} }}] }}"),
+            "[[models]]\nname = \"A\"\n",
+        ))
+    };
+    assert_eq!(variant("buses = [\"modbus\"], type = \"i16\""), [""; 0]);
+    has(&variant("buses = [\"modbus\"], type = \"f32\""), "an integer may have another width");
+    has(&variant("buses = [\"modbus\"], access = \"r\""), "`r` is no access");
+    has(&variant("models = [\"A\"], type = \"i16\""), "is one on some `buses`");
+}

@@ -1,0 +1,46 @@
+//! The memory of a slave controller, read and written by its addresses.
+
+use ethercrab::error::Error as BusError;
+use ethercrab::{Command, MainDevice, SubDevice};
+
+use crate::bus::{Esc, EscMemory};
+use crate::client::AsyncClient;
+use crate::error::{Error, LengthError};
+
+/// The memory of the slave controller of one SubDevice (ETG.1000.4): the client of items that have an address in it.
+///
+/// It needs no mailbox, and works in every state. `ethercrab` and the device itself use this memory, too: a write to what
+/// belongs to them (states, sync managers, FMMUs) disturbs them.
+#[derive(Clone, Copy, Debug)]
+pub struct Memory<'m> {
+    maindevice: &'m MainDevice<'m>,
+    station: u16,
+}
+
+impl<'m> Memory<'m> {
+    /// That of the SubDevice `subdevice`.
+    pub fn new(maindevice: &'m MainDevice<'m>, subdevice: &SubDevice) -> Self {
+        Self { maindevice, station: subdevice.configured_address() }
+    }
+}
+
+impl AsyncClient for Memory<'_> {
+    type Bus = Esc;
+    type Error = BusError;
+
+    async fn read(&mut self, memory: EscMemory, buffer: &mut [u8]) -> Result<usize, Error<BusError>> {
+        let command = Command::fprd(self.station, memory.address);
+        let received = command.receive_slice(self.maindevice, memory.length).await.map_err(Error::Client)?;
+        buffer.iter_mut().zip(received.iter()).for_each(|(to, from)| *to = *from);
+        Ok(received.len())
+    }
+
+    async fn write(&mut self, memory: EscMemory, data: &[u8]) -> Result<(), Error<BusError>> {
+        if data.len() != usize::from(memory.length) {
+            return Err(Error::Length(LengthError::new(memory.length.into(), data.len())));
+        }
+        let command = Command::fpwr(self.station, memory.address);
+        command.send_receive_slice(self.maindevice, data).await.map_err(Error::Client)?;
+        Ok(())
+    }
+}
