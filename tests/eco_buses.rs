@@ -119,7 +119,8 @@ fn on_modbus() -> Outcome<()> {
 struct Cyclically {
     before: [u8; 32],
     changes: Vec<(usize, String)>,
-    cycles: usize,
+    /// What a window wrote: the number and the value of each cycle that changed one of them.
+    pairs: Vec<String>,
 }
 
 /// First byte and length of each field that the drive gets (L6077 to L6098).
@@ -136,8 +137,10 @@ impl ImageClient for Cyclically {
                 self.changes.push((at, hex(&outputs[field])));
             }
         }
+        if outputs[26..32] != self.before[26..32] {
+            self.pairs.push(hex(&outputs[26..32]));
+        }
         self.before.copy_from_slice(&outputs[..32]);
-        self.cycles += 1;
         // Status word: homing done, after a while; position.
         let done = if self.before[1] == 0x43 || self.before[2] == 1 { 0x40 } else { 0 };
         inputs[..2].copy_from_slice(&[0, done]);
@@ -156,13 +159,13 @@ fn on_profinet() -> Outcome<()> {
     let span = Some(IoSpan { offset: 0, length: 33 });
     let place =
         IoPlace { slot: 1, subslot: 1, inputs: span, outputs: span, inputs_consumer: None, outputs_consumer: None };
-    let drive = Cyclically { before: [0; 32], changes: Vec::new(), cycles: 0 };
+    let drive = Cyclically { before: [0; 32], changes: Vec::new(), pairs: Vec::new() };
     let mut outputs = [0; 33];
     IoStatus::GOOD.write(&mut outputs[32..]);
     let mut drive = Cyclic::new(drive, place, outputs, [0; 33]);
     let position = configure_home_position!(&mut drive);
     assert_eq!(position, 6000);
-    // L6375 to L6427. What the image lacks goes through its window: the address, and the value where it differs from the last one.
+    // L6375 to L6427. What the image lacks goes through its window.
     let expected = [
         (26, "80 02"),
         (28, "00 00 00 3C"),
@@ -190,6 +193,16 @@ fn on_profinet() -> Outcome<()> {
     ];
     let changes = &drive.image().changes;
     assert_eq!(changes.iter().map(|(at, field)| (*at, field.as_str())).collect::<Vec<_>>(), expected);
+    // Number and value change in one cycle: no variable gets the value of another.
+    let pairs = [
+        "80 02 00 00 00 3C",
+        "80 1B 00 00 00 00",
+        "80 12 00 00 00 21",
+        "80 13 00 00 00 00",
+        "80 15 00 00 00 0A",
+        "80 16 00 00 00 64",
+    ];
+    assert_eq!(drive.image().pairs, pairs);
     Ok(())
 }
 
