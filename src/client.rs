@@ -6,9 +6,6 @@ use core::time::Duration;
 use crate::bus::Bus;
 use crate::error::Error;
 
-/// What is written where: an address, and the bytes.
-pub type Written<'d, B> = (<B as Bus>::Address, &'d [u8]);
-
 /// Reads and writes one device, waiting for each answer.
 ///
 /// Bytes are in the order of CANopen, the least significant first, on every bus: a client of a bus with another order
@@ -38,23 +35,6 @@ pub trait Client {
     ///
     /// The same as of [`read`](Self::read).
     fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
-
-    /// Writes two values, one after the other; at once where the bus carries both together.
-    ///
-    /// A [`WriteWindow`](crate::WriteWindow) takes a number and a value. In a process image, the number of the last access and the
-    /// value of the next one would make a third.
-    ///
-    /// # Errors
-    ///
-    /// The same as of [`write`](Self::write); the first may be written then.
-    fn write_both(
-        &mut self,
-        first: Written<'_, Self::Bus>,
-        second: Written<'_, Self::Bus>,
-    ) -> Result<(), Error<Self::Error>> {
-        self.write(first.0, first.1)?;
-        self.write(second.0, second.1)
-    }
 
     /// Waits so long, or a little longer.
     ///
@@ -110,20 +90,6 @@ pub trait AsyncClient {
     ///
     /// The same as of [`read`](Self::read).
     async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
-
-    /// Writes two values, as [`Client::write_both`] does.
-    ///
-    /// # Errors
-    ///
-    /// The same as of [`write`](Self::write); the first may be written then.
-    async fn write_both(
-        &mut self,
-        first: Written<'_, Self::Bus>,
-        second: Written<'_, Self::Bus>,
-    ) -> Result<(), Error<Self::Error>> {
-        self.write(first.0, first.1).await?;
-        self.write(second.0, second.1).await
-    }
 
     /// Waits so long, as [`Client::wait`] does. Unless said otherwise, there is no clock: that is up to the executor.
     ///
@@ -200,14 +166,6 @@ impl<C: Client, D: FnMut(Duration)> Client for Timed<C, D> {
         self.client.write(address, data)
     }
 
-    fn write_both(
-        &mut self,
-        first: Written<'_, Self::Bus>,
-        second: Written<'_, Self::Bus>,
-    ) -> Result<(), Error<Self::Error>> {
-        self.client.write_both(first, second)
-    }
-
     fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         (self.delay)(time);
         Ok(())
@@ -230,14 +188,6 @@ impl<C: AsyncClient, D: FnMut(Duration) -> F, F: Future<Output = ()>> AsyncClien
         self.client.write(address, data).await
     }
 
-    async fn write_both(
-        &mut self,
-        first: Written<'_, Self::Bus>,
-        second: Written<'_, Self::Bus>,
-    ) -> Result<(), Error<Self::Error>> {
-        self.client.write_both(first, second).await
-    }
-
     async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         (self.delay)(time).await;
         Ok(())
@@ -254,14 +204,6 @@ impl<T: Client + ?Sized> Client for &mut T {
 
     fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>> {
         T::write(self, address, data)
-    }
-
-    fn write_both(
-        &mut self,
-        first: Written<'_, Self::Bus>,
-        second: Written<'_, Self::Bus>,
-    ) -> Result<(), Error<Self::Error>> {
-        T::write_both(self, first, second)
     }
 
     fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
@@ -283,14 +225,6 @@ impl<T: AsyncClient + ?Sized> AsyncClient for &mut T {
 
     async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>> {
         T::write(self, address, data).await
-    }
-
-    async fn write_both(
-        &mut self,
-        first: Written<'_, Self::Bus>,
-        second: Written<'_, Self::Bus>,
-    ) -> Result<(), Error<Self::Error>> {
-        T::write_both(self, first, second).await
     }
 
     async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {

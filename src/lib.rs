@@ -114,7 +114,7 @@ pub use accessor::Accessor;
 pub use axes::{Axes, Axis, AxisBus, AxisRange, AxisStep};
 pub use bit_field::DebugBits;
 pub use bus::{Bus, CanOpen, CoE, Esc, EscMemory, Modbus, Object, Parameter, ProcessImage, Profinet, Record, Serial};
-pub use client::{AsyncClient, Client, Timed, Written};
+pub use client::{AsyncClient, Client, Timed};
 pub use composite::Composite;
 pub use data_type::DataType;
 pub use emergency::Emergency;

@@ -6,7 +6,7 @@ use super::image::{AsyncImageClient, ImageClient, IoPlace, IoSpan};
 use super::io::IoStatus;
 use crate::abort::AbortCode;
 use crate::bus::ProcessImage;
-use crate::client::{AsyncClient, Client, Written};
+use crate::client::{AsyncClient, Client};
 use crate::error::{Error, LengthError};
 use crate::image_field::ImageField;
 
@@ -168,16 +168,6 @@ impl<I: ImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>>
         self.cycle()
     }
 
-    /// Both go out in one cycle.
-    fn write_both(
-        &mut self,
-        first: Written<'_, ProcessImage>,
-        second: Written<'_, ProcessImage>,
-    ) -> Result<(), Error<I::Error>> {
-        self.put(first.0, first.1)?;
-        self.write(second.0, second.1)
-    }
-
     /// Cycles go on meanwhile.
     fn wait(&mut self, time: Duration) -> Result<(), Error<I::Error>> {
         let mut left = time;
@@ -207,15 +197,6 @@ impl<I: AsyncImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[
             return Ok(());
         }
         self.cycle_async().await
-    }
-
-    async fn write_both(
-        &mut self,
-        first: Written<'_, ProcessImage>,
-        second: Written<'_, ProcessImage>,
-    ) -> Result<(), Error<I::Error>> {
-        self.put(first.0, first.1)?;
-        self.write(second.0, second.1).await
     }
 
     async fn wait(&mut self, time: Duration) -> Result<(), Error<I::Error>> {

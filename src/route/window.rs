@@ -245,15 +245,16 @@ impl<A: Copy> Through<WriteWindow<A>> {
 
 impl<B: Bus> WriteRoute<B> for Through<WriteWindow<B::Address>> {
     fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
-        let [(first, mut one, bits), (second, mut other, other_bits)] = self.writes(data)?;
-        client.write_both((first, resized::room(&mut one, bits)), (second, resized::room(&mut other, other_bits)))?;
+        for (address, mut bytes, bits) in self.writes(data)? {
+            client.write(address, resized::room(&mut bytes, bits))?;
+        }
         settle(client, self.window.number, self.window.number_bits, self.window.handshake)
     }
 
     async fn write_async<C: AsyncClient<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
-        let [(first, mut one, bits), (second, mut other, other_bits)] = self.writes(data)?;
-        let first = (first, &*resized::room(&mut one, bits));
-        client.write_both(first, (second, resized::room(&mut other, other_bits))).await?;
+        for (address, mut bytes, bits) in self.writes(data)? {
+            client.write(address, resized::room(&mut bytes, bits)).await?;
+        }
         settle_async(client, self.window.number, self.window.number_bits, self.window.handshake).await
     }
 }
