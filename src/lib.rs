@@ -134,7 +134,9 @@ pub use pdo::{AnyPdo, CobId, Mappable, MappedEntry, Pdo, Remappable, Rpdo, SdoWr
 pub use quantity::{Exponential, Fraction, Number, OrNone, PerItem, Quantity, Reciprocal, Scaled};
 pub use range::Range;
 pub use register::{Register, RegisterPart, RegisterTable, WordOrder};
-pub use route::{Handshake, Limited, ReadRoute, ReadWindow, Resized, Route, Split, Through, WriteRoute, WriteWindow};
+pub use route::{
+    Closed, Direct, Exists, Handshake, Limited, ReadRoute, ReadWindow, Resized, Split, Through, WriteRoute, WriteWindow,
+};
 pub use table::{AccessRights, Bound, Entry, RawInitial};
 pub use text::{Domain, OctetString, Opaque, UnicodeString, Utf16, VisibleString};
 pub use time::{TimeDifference, TimeOfDay};

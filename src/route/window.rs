@@ -2,7 +2,7 @@
 
 use core::time::Duration;
 
-use super::{resized, ReadRoute, Route, WriteRoute};
+use super::{resized, ReadRoute, WriteRoute};
 use crate::bus::Bus;
 use crate::client::{AsyncClient, Client};
 use crate::error::{Error, OutOfRange};
@@ -144,9 +144,6 @@ impl<W> Through<W> {
         u64::from(self.number).to_le_bytes()
     }
 }
-
-impl<B: Bus> Route<B> for Through<ReadWindow<B::Address>> {}
-impl<B: Bus> Route<B> for Through<WriteWindow<B::Address>> {}
 
 /// Without a clock, the transfers themselves are the time.
 fn unless_no_clock<E>(waited: Result<(), Error<E>>) -> Result<(), Error<E>> {
