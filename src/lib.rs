@@ -113,7 +113,7 @@ pub use accessor::Accessor;
 pub use axes::{Axes, Axis, AxisBus, AxisRange, AxisStep};
 pub use bit_field::DebugBits;
 pub use bus::{Bus, CanOpen, CoE, Esc, EscMemory, Modbus, Object, Parameter, ProcessImage, Profinet, Record, Serial};
-pub use client::{AsyncClient, Client, Timed};
+pub use client::{AsyncClient, Client, Timed, Write};
 pub use data_type::DataType;
 pub use emergency::Emergency;
 pub use enumeration::Enumeration;
@@ -135,7 +135,7 @@ pub use quantity::{Exponential, Fraction, Number, OrNone, PerItem, Quantity, Rec
 pub use range::Range;
 pub use register::{Register, RegisterPart, RegisterTable, WordOrder};
 pub use route::{
-    Closed, Direct, Exists, Handshake, Limited, ReadRoute, ReadWindow, Resized, Split, Through, WriteRoute, WriteWindow,
+    Closed, Direct, Handshake, Limited, ReadRoute, ReadWindow, Resized, Split, Through, WriteRoute, WriteWindow,
 };
 pub use table::{AccessRights, Bound, Entry, RawInitial};
 pub use text::{Domain, OctetString, Opaque, UnicodeString, Utf16, VisibleString};

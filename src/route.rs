@@ -8,27 +8,16 @@ use crate::bus::{Bus, EscMemory, Object, Parameter, Record};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::image_field::ImageField;
-use crate::location::Absent;
 use crate::register::Register;
 
 pub use limited::Limited;
 pub use resized::Resized;
 pub use window::{Handshake, ReadWindow, Through, WriteWindow};
 
-/// Stands for a place that exists on bus `B`. [`Absent`] is none: that is what the compiler says of an item that a bus lacks.
-#[diagnostic::on_unimplemented(
-    message = "this item doesn't exist on `{B}`",
-    label = "the item has no address on the client's bus"
-)]
-pub trait Exists<B: Bus> {
-    /// Where it is.
-    fn place(&self) -> B::Address;
-}
-
 /// An address of a value's own on bus `B`, with nothing in between.
 #[diagnostic::on_unimplemented(
-    message = "this item has no address of its own on `{B}`, or another width there",
-    label = "such an item is read by itself"
+    message = "this item doesn't exist on `{B}`, or has no address of its own there",
+    label = "the client's bus doesn't have this item at an address of the item's width"
 )]
 pub trait Direct<B: Bus>: Copy {
     /// The address.
@@ -38,8 +27,8 @@ pub trait Direct<B: Bus>: Copy {
 /// A way on which a value can be read. An address is the direct one; [`Split`], [`Resized`], [`Limited`] and [`Through`] are made
 /// of addresses, and of each other.
 #[diagnostic::on_unimplemented(
-    message = "this item can't be read on `{B}`",
-    label = "on the client's bus, the device doesn't let this item be read"
+    message = "this item doesn't exist on `{B}`, or can't be read there",
+    label = "the client's bus has no way to read this item"
 )]
 pub trait ReadRoute<B: Bus>: Copy {
     /// Reads the value to the start of `buffer` and returns its length, as [`Client::read`] does.
@@ -64,8 +53,8 @@ pub trait ReadRoute<B: Bus>: Copy {
 
 /// A way on which a value can be written.
 #[diagnostic::on_unimplemented(
-    message = "this item can't be written on `{B}`",
-    label = "on the client's bus, the device doesn't let this item be written"
+    message = "this item doesn't exist on `{B}`, or can't be written there",
+    label = "the client's bus has no way to write this item"
 )]
 pub trait WriteRoute<B: Bus>: Copy {
     /// Writes the value, as [`Client::write`] does.
@@ -125,47 +114,6 @@ macro_rules! direct {
 }
 
 direct!(Object, Register, Record, Parameter, ImageField, EscMemory);
-
-// What isn't there can't be reached: the condition of these implementations holds for no bus, and is what the compiler tells.
-
-impl<B: Bus> Direct<B> for Absent
-where
-    Absent: Exists<B>,
-{
-    fn address(self) -> B::Address {
-        self.place()
-    }
-}
-
-impl<B: Bus> ReadRoute<B> for Absent
-where
-    Absent: Exists<B>,
-{
-    fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {
-        client.read(self.place(), buffer)
-    }
-
-    async fn read_async<C: AsyncClient<Bus = B>>(
-        &self,
-        client: &mut C,
-        buffer: &mut [u8],
-    ) -> Result<usize, Error<C::Error>> {
-        client.read(self.place(), buffer).await
-    }
-}
-
-impl<B: Bus> WriteRoute<B> for Absent
-where
-    Absent: Exists<B>,
-{
-    fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
-        client.write(self.place(), data)
-    }
-
-    async fn write_async<C: AsyncClient<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
-        client.write(self.place(), data).await
-    }
-}
 
 /// The direction of a [`Split`] that its bus doesn't have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
