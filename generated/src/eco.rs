@@ -6861,7 +6861,7 @@ pub mod objects {
         rt::Absent,
         rt::Absent,
         rt::Absent,
-        rt::Split<rt::Absent, rt::ImageField>,
+        rt::Split<rt::Closed, rt::ImageField>,
         rt::Absent,
     >;
     /// The location of what is found on CANopen, EtherCAT, PROFINET.
@@ -6891,7 +6891,7 @@ pub mod objects {
         rt::Register,
         rt::Absent,
         rt::Absent,
-        rt::Split<rt::Through<rt::ReadWindow<rt::ImageField>>, rt::Absent>,
+        rt::Split<rt::Through<rt::ReadWindow<rt::ImageField>>, rt::Closed>,
         rt::Absent,
     >;
     /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
@@ -6919,8 +6919,8 @@ pub mod objects {
     >;
     /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
     pub type OnCanOpenWindowInCoEWindowInModbusImage = rt::Location<
-        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Absent>,
-        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Absent>,
+        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Closed>,
+        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Closed>,
         rt::Register,
         rt::Absent,
         rt::Absent,
@@ -6929,12 +6929,12 @@ pub mod objects {
     >;
     /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
     pub type OnCanOpenWindowInCoEWindowInModbusImageWindowIn = rt::Location<
-        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Absent>,
-        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Absent>,
+        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Closed>,
+        rt::Split<rt::Through<rt::ReadWindow<rt::Object>>, rt::Closed>,
         rt::Register,
         rt::Absent,
         rt::Absent,
-        rt::Split<rt::Through<rt::ReadWindow<rt::ImageField>>, rt::Absent>,
+        rt::Split<rt::Through<rt::ReadWindow<rt::ImageField>>, rt::Closed>,
         rt::Absent,
     >;
     /// The location of what is found on CANopen, EtherCAT, Modbus, PROFINET.
