@@ -45,8 +45,7 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
     fn fetch<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
     where
         C: Client,
-        L: On<C::Bus>,
-        L::Route: ReadRoute<C::Bus>,
+        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
     {
         let length = self.item.location().route().read(self.client, buffer)?;
         Ok(filled(buffer, length)?)
@@ -55,8 +54,7 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
     async fn fetch_async<'b>(&mut self, buffer: &'b mut [u8]) -> Result<&'b [u8], Error<C::Error>>
     where
         C: AsyncClient,
-        L: On<C::Bus>,
-        L::Route: ReadRoute<C::Bus>,
+        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
     {
         let length = self.item.location().route().read_async(self.client, buffer).await?;
         Ok(filled(buffer, length)?)
@@ -66,8 +64,7 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
     fn send(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
     where
         C: Client,
-        L: On<C::Bus>,
-        L::Route: WriteRoute<C::Bus>,
+        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
     {
         self.item.location().route().write(self.client, data)
     }
@@ -75,8 +72,7 @@ impl<'c, C, V: Value, A, L> Accessor<'c, C, V, A, L> {
     async fn send_async(&mut self, data: &[u8]) -> Result<(), Error<C::Error>>
     where
         C: AsyncClient,
-        L: On<C::Bus>,
-        L::Route: WriteRoute<C::Bus>,
+        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
     {
         self.item.location().route().write_async(self.client, data).await
     }

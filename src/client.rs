@@ -36,6 +36,16 @@ pub trait Client {
     /// The same as of [`read`](Self::read).
     fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
 
+    /// Writes two values, in this order; at once where the bus can, as in one cycle of a process image. Unless said otherwise,
+    /// one after the other.
+    ///
+    /// # Errors
+    ///
+    /// The same as of [`write`](Self::write); the first value may have been written then.
+    fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
+        writes.into_iter().try_for_each(|(address, data)| self.write(address, data))
+    }
+
     /// Waits so long, or a little longer.
     ///
     /// Some devices need time between two transfers of one access: see [`Handshake`](crate::Handshake). Unless said
@@ -48,6 +58,9 @@ pub trait Client {
         sleep(time)
     }
 }
+
+/// An address, and the bytes that are written there.
+pub type Write<'d, B> = (<B as Bus>::Address, &'d [u8]);
 
 /// Lets the thread sleep, where there are threads.
 #[inline]
@@ -90,6 +103,18 @@ pub trait AsyncClient {
     ///
     /// The same as of [`read`](Self::read).
     async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>>;
+
+    /// Writes two values, as [`Client::write_both`] does.
+    ///
+    /// # Errors
+    ///
+    /// The same as of [`Client::write_both`].
+    async fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
+        for (address, data) in writes {
+            self.write(address, data).await?;
+        }
+        Ok(())
+    }
 
     /// Waits so long, as [`Client::wait`] does. Unless said otherwise, there is no clock: that is up to the executor.
     ///
@@ -166,6 +191,10 @@ impl<C: Client, D: FnMut(Duration)> Client for Timed<C, D> {
         self.client.write(address, data)
     }
 
+    fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
+        self.client.write_both(writes)
+    }
+
     fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         (self.delay)(time);
         Ok(())
@@ -188,6 +217,10 @@ impl<C: AsyncClient, D: FnMut(Duration) -> F, F: Future<Output = ()>> AsyncClien
         self.client.write(address, data).await
     }
 
+    async fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
+        self.client.write_both(writes).await
+    }
+
     async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
         (self.delay)(time).await;
         Ok(())
@@ -204,6 +237,10 @@ impl<T: Client + ?Sized> Client for &mut T {
 
     fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>> {
         T::write(self, address, data)
+    }
+
+    fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
+        T::write_both(self, writes)
     }
 
     fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {
@@ -225,6 +262,10 @@ impl<T: AsyncClient + ?Sized> AsyncClient for &mut T {
 
     async fn write(&mut self, address: <Self::Bus as Bus>::Address, data: &[u8]) -> Result<(), Error<Self::Error>> {
         T::write(self, address, data).await
+    }
+
+    async fn write_both(&mut self, writes: [Write<'_, Self::Bus>; 2]) -> Result<(), Error<Self::Error>> {
+        T::write_both(self, writes).await
     }
 
     async fn wait(&mut self, time: Duration) -> Result<(), Error<Self::Error>> {

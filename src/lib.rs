@@ -117,7 +117,7 @@ pub use accessor::Accessor;
 pub use axes::{Axes, Axis, AxisBus, AxisRange, AxisStep};
 pub use bit_field::DebugBits;
 pub use bus::{Bus, CanOpen, CoE, Esc, EscMemory, Modbus, Object, Parameter, ProcessImage, Profinet, Record, Serial};
-pub use client::{AsyncClient, Client, Timed};
+pub use client::{AsyncClient, Client, Timed, Write};
 pub use composite::Composite;
 pub use data_type::DataType;
 pub use emergency::Emergency;
@@ -139,7 +139,9 @@ pub use pdo::{AnyPdo, CobId, Mappable, MappedEntry, Pdo, Remappable, Rpdo, SdoWr
 pub use quantity::{Exponential, Fraction, Number, OrNone, PerItem, Quantity, Reciprocal, Scaled};
 pub use range::Range;
 pub use register::{Register, RegisterPart, RegisterTable, WordOrder};
-pub use route::{Handshake, Limited, ReadRoute, ReadWindow, Resized, Route, Split, Through, WriteRoute, WriteWindow};
+pub use route::{
+    Closed, Direct, Handshake, Limited, ReadRoute, ReadWindow, Resized, Split, Through, WriteRoute, WriteWindow,
+};
 pub use table::{AccessRights, Bound, Entry, RawInitial};
 pub use text::{Domain, OctetString, Opaque, UnicodeString, Utf16, VisibleString};
 pub use time::{TimeDifference, TimeOfDay};

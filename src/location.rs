@@ -5,13 +5,12 @@ use crate::bus::{
 };
 use crate::image_field::ImageField;
 use crate::register::Register;
-use crate::route::Route;
 
 /// Stands in a [`Location`] for a bus on which the item doesn't exist.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Absent;
 
-/// How an item is reached on each bus. Each field is a [`Route`], as a rule the bus's address itself, or [`Absent`].
+/// How an item is reached on each bus. Each field is a route, as a rule the bus's address itself, or [`Absent`].
 ///
 /// ```
 /// use lexibus::{Absent, Location, Modbus, Object, On, Register};
@@ -29,17 +28,17 @@ pub struct Absent;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Location<C = Absent, E = Absent, M = Absent, P = Absent, S = Absent, I = Absent, X = Absent> {
-    /// On CANopen: an [`Object`], another [`Route`] over objects, or [`Absent`].
+    /// On CANopen: an [`Object`], another route over objects, or [`Absent`].
     pub canopen: C,
     /// On CANopen over EtherCAT: the same.
     pub coe: E,
-    /// On Modbus: a [`Register`], another [`Route`] over registers, or [`Absent`].
+    /// On Modbus: a [`Register`], another route over registers, or [`Absent`].
     pub modbus: M,
     /// In a record of PROFINET: a [`Record`], or [`Absent`].
     pub profinet: P,
     /// On a serial protocol: a [`Parameter`], or [`Absent`].
     pub serial: S,
-    /// In a fixed process image: an [`ImageField`](crate::ImageField), another [`Route`] over such fields, or [`Absent`].
+    /// In a fixed process image: an [`ImageField`](crate::ImageField), another route over such fields, or [`Absent`].
     pub image: I,
     /// In the memory of an EtherCAT slave controller: an [`EscMemory`](crate::EscMemory), or [`Absent`].
     pub esc: X,
@@ -53,10 +52,11 @@ impl<C, E, M, P, S, I, X> Location<C, E, M, P, S, I, X> {
     }
 }
 
-/// Implemented by the locations that have a route on bus `B`.
+/// Says how an item is reached on bus `B`.
 pub trait On<B: Bus> {
-    /// How the item is reached there.
-    type Route: Route<B>;
+    /// The way there, as a [`ReadRoute`](crate::ReadRoute), a [`WriteRoute`](crate::WriteRoute) or both; [`Absent`] where there is
+    /// none.
+    type Route: Copy;
 
     /// The item's route on bus `B`.
     fn route(&self) -> Self::Route;
@@ -64,7 +64,7 @@ pub trait On<B: Bus> {
 
 macro_rules! on {
     ($($bus:ident $field:ident $location:ident<$($parameter:ident),*> $(, $other:ident)*;)*) => {$(
-        impl<R: Route<$bus> $(, $other)*> On<$bus> for $location<$($parameter),*> {
+        impl<R: Copy $(, $other)*> On<$bus> for $location<$($parameter),*> {
             type Route = R;
 
             #[inline]

@@ -8,27 +8,29 @@ use crate::bus::{Bus, EscMemory, Object, Parameter, Record};
 use crate::client::{AsyncClient, Client};
 use crate::error::Error;
 use crate::image_field::ImageField;
-use crate::location::Absent;
 use crate::register::Register;
 
 pub use limited::Limited;
 pub use resized::Resized;
 pub use window::{Handshake, ReadWindow, Through, WriteWindow};
 
-/// A way to a value on bus `B`. An address is the direct one; [`Split`], [`Resized`], [`Limited`] and [`Through`] are made of
-/// addresses, and of each other.
+/// An address of a value's own on bus `B`, with nothing in between.
 #[diagnostic::on_unimplemented(
-    message = "this item doesn't exist on `{B}`",
-    label = "the item has no address on the client's bus"
+    message = "this item doesn't exist on `{B}`, or has no address of its own there",
+    label = "the client's bus doesn't have this item at an address of the item's width"
 )]
-pub trait Route<B: Bus>: Copy {}
+pub trait Direct<B: Bus>: Copy {
+    /// The address.
+    fn address(self) -> B::Address;
+}
 
-/// A way on which a value can be read.
+/// A way on which a value can be read. An address is the direct one; [`Split`], [`Resized`], [`Limited`] and [`Through`] are made
+/// of addresses, and of each other.
 #[diagnostic::on_unimplemented(
-    message = "this item can't be read on `{B}`",
-    label = "on the client's bus, the device doesn't let this item be read"
+    message = "this item doesn't exist on `{B}`, or can't be read there",
+    label = "the client's bus has no way to read this item"
 )]
-pub trait ReadRoute<B: Bus>: Route<B> {
+pub trait ReadRoute<B: Bus>: Copy {
     /// Reads the value to the start of `buffer` and returns its length, as [`Client::read`] does.
     ///
     /// # Errors
@@ -51,10 +53,10 @@ pub trait ReadRoute<B: Bus>: Route<B> {
 
 /// A way on which a value can be written.
 #[diagnostic::on_unimplemented(
-    message = "this item can't be written on `{B}`",
-    label = "on the client's bus, the device doesn't let this item be written"
+    message = "this item doesn't exist on `{B}`, or can't be written there",
+    label = "the client's bus has no way to write this item"
 )]
-pub trait WriteRoute<B: Bus>: Route<B> {
+pub trait WriteRoute<B: Bus>: Copy {
     /// Writes the value, as [`Client::write`] does.
     ///
     /// # Errors
@@ -73,7 +75,11 @@ pub trait WriteRoute<B: Bus>: Route<B> {
 
 macro_rules! direct {
     ($($address:ty),*) => {$(
-        impl<B: Bus<Address = $address>> Route<B> for $address {}
+        impl<B: Bus<Address = $address>> Direct<B> for $address {
+            fn address(self) -> $address {
+                self
+            }
+        }
 
         impl<B: Bus<Address = $address>> ReadRoute<B> for $address {
             #[inline]
@@ -109,15 +115,19 @@ macro_rules! direct {
 
 direct!(Object, Register, Record, Parameter, ImageField, EscMemory);
 
-/// Reads on one way, writes on another. A side that is [`Absent`] doesn't compile.
+/// The direction of a [`Split`] that its bus doesn't have.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Closed;
+
+/// Reads on one way, writes on another. A side that is [`Closed`] doesn't compile.
 ///
 /// ```
-/// use lexibus::{Absent, CanOpen, Object, ReadRoute, Split, WriteRoute};
+/// use lexibus::{CanOpen, Closed, Object, ReadRoute, Split, WriteRoute};
 ///
 /// // The mode of operation of CiA 402 is written at one object, and read at another.
 /// const MODE: Split<Object, Object> = Split { read: Object::new(0x6061, 0), write: Object::new(0x6060, 0) };
 /// // One that can only be read.
-/// const STATUS: Split<Object, Absent> = Split { read: Object::new(0x6041, 0), write: Absent };
+/// const STATUS: Split<Object, Closed> = Split::reading(Object::new(0x6041, 0));
 ///
 /// fn both_ways(_: impl ReadRoute<CanOpen> + WriteRoute<CanOpen>) {}
 /// fn to_be_read(_: impl ReadRoute<CanOpen>) {}
@@ -140,23 +150,21 @@ impl<R, W> Split<R, W> {
     }
 }
 
-impl<R> Split<R, Absent> {
+impl<R> Split<R, Closed> {
     /// Only reads.
     #[must_use]
     pub const fn reading(read: R) -> Self {
-        Self { read, write: Absent }
+        Self { read, write: Closed }
     }
 }
 
-impl<W> Split<Absent, W> {
+impl<W> Split<Closed, W> {
     /// Only writes.
     #[must_use]
     pub const fn writing(write: W) -> Self {
-        Self { read: Absent, write }
+        Self { read: Closed, write }
     }
 }
-
-impl<B: Bus, R: Copy, W: Copy> Route<B> for Split<R, W> {}
 
 impl<B: Bus, R: ReadRoute<B>, W: Copy> ReadRoute<B> for Split<R, W> {
     #[inline]

@@ -9,7 +9,7 @@ use std::convert::Infallible;
 use can_script::{node, Script};
 use lexibus::clients::canopen::Node;
 use lexibus::codes::Cell;
-use lexibus::{CanOpen, Error, Fixed, Item, On, Pdo, Readable, Rw, Writable};
+use lexibus::{CanOpen, Error, Fixed, Item, On, Pdo, ReadRoute, Readable, Rw, Writable, WriteRoute};
 use lexibus_drives::eco::objects::{self, feed_constant, homing_speeds, interpolation_time_period};
 use lexibus_drives::eco::objects::{
     drive_parameters_settings, drive_variable_read, drive_variable_write, store_parameter_field,
@@ -39,6 +39,7 @@ where
     V: Fixed,
     A: Writable,
     L: On<CanOpen>,
+    L::Route: WriteRoute<CanOpen>,
 {
     let mut own = node(&[confirmed(request)]);
     item.at(&mut own).write(value).expect("written");
@@ -138,6 +139,7 @@ where
     V: Fixed,
     A: Readable,
     L: On<CanOpen>,
+    L::Route: ReadRoute<CanOpen>,
 {
     item.at(own).read()
 }

@@ -9,10 +9,13 @@ use std::time::Duration;
 use ethercrab::error::{Error as BusError, MailboxError};
 use ethercrab::subdevice_group::{Op, PreOp};
 use ethercrab::{DefaultLock, MainDevice, MainDeviceConfig, PduStorage, SubDeviceGroup, Timeouts};
-use lexibus::clients::ethercat::{is_a, Sdo};
+use lexibus::clients::ethercat::{is_a, Memory, Sdo};
 use lexibus::ethercat::{configure_async, Assignment, Device, Mailbox, StartupCommand, Transition};
 use lexibus::Emergency;
-use lexibus::{AbortCode, AsyncClient, Error, LengthError, Object, OutOfRange, Pdo, SdoWrite, Step};
+use lexibus::{
+    AbortCode, AsyncClient, Error, EscMemory, Flags, Initial, Item, LengthError, Object, OctetString, OnEsc,
+    OutOfRange, Pdo, Range, Ro, Rw, SdoWrite, Step,
+};
 
 #[path = "../examples/support/ethercat/mod.rs"]
 mod ethercat;
@@ -112,6 +115,29 @@ fn objects_of_every_length() {
             drive.axis_label().write_async(&text[..length]).await.unwrap();
             assert_eq!(drive.axis_label().read_into_async(&mut buffer).await, Ok(&text[..length]));
         }
+    });
+}
+
+#[test]
+fn memory_of_the_slave_controller() {
+    const fn item<V: lexibus::Value, A>(address: u16, length: u16) -> Item<V, A, OnEsc> {
+        Item::new(OnEsc::memory(address, length), "Memory", Range::Full, Initial::Unknown, "", Flags::NONE)
+    }
+    const AL_STATUS: Item<u16, Ro, OnEsc> = item(0x0130, 2);
+    const WATCHDOG_DIVIDER: Item<u16, Rw, OnEsc> = item(0x0400, 2);
+    const PORT_TIMES: Item<OctetString, Ro, OnEsc> = item(0x0900, 16);
+    with_segment(vec![servo().0, servo().0], |maindevice| async move {
+        let group = pre_op(maindevice).await;
+        let memory = |at| Memory::new(maindevice, &group.subdevice(maindevice, at).expect("a SubDevice"));
+        let (mut first, mut second) = (memory(0), memory(1));
+        assert_eq!(AL_STATUS.at(&mut first).read_async().await, Ok(2), "Pre-Operational");
+        WATCHDOG_DIVIDER.at(&mut second).write_async(0x1234).await.unwrap();
+        assert_eq!(WATCHDOG_DIVIDER.at(&mut second).read_async().await, Ok(0x1234));
+        assert_eq!(WATCHDOG_DIVIDER.at(&mut first).read_async().await, Ok(0));
+        let mut buffer = [0; 20];
+        assert_eq!(PORT_TIMES.at(&mut first).read_into_async(&mut buffer).await.map(<[u8]>::len), Ok(16));
+        let short = first.write(EscMemory::new(0x0400, 2), &[1]).await;
+        assert_eq!(short, Err(Error::Length(LengthError::new(2, 1))));
     });
 }
 

@@ -16,7 +16,7 @@ use lexibus::clients::modbus::{ModbusClient, ModbusError};
 use lexibus::modbus::AsyncRegisterClient;
 use lexibus::{
     CobId, Error, Fixed, Flags, Initial, Item, MappedEntry, Modbus, NodeId, On, OnCanOpen, Range, Ro, Rw, Step,
-    VisibleString, Writable,
+    VisibleString, Writable, WriteRoute,
 };
 use lexibus_drives::eco::objects::{self, feed_constant, homing_speeds};
 use lexibus_drives::eco::types::{
@@ -59,6 +59,7 @@ where
     V: Fixed + 'static,
     A: Writable + 'static,
     L: On<Modbus> + Copy + 'static,
+    L::Route: WriteRoute<Modbus>,
 {
     let head = [[1, 0x10].as_slice(), &address.to_be_bytes(), &[0, 2]].concat();
     let request = [head.as_slice(), &[4], &raw.to_be_bytes(), &crc].concat();

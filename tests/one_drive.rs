@@ -10,7 +10,10 @@ use std::time::Duration;
 
 use lexibus::profinet::{AsyncImageClient, Cyclic, ImageClient, IoPlace, IoSpan, IoStatus};
 use lexibus::sim::Device;
-use lexibus::{AbortCode, AsyncClient, CanOpen, Client, CoE, Error, Esc, EscMemory, Modbus, Object, OutOfRange, Timed};
+use lexibus::{
+    AbortCode, AsyncClient, Axes, Axis, AxisRange, AxisStep, CanOpen, Client, CoE, Error, Esc, EscMemory, Modbus,
+    Object, OutOfRange, Timed,
+};
 
 lexibus::dictionary! {
     /// A made-up drive.
@@ -173,6 +176,28 @@ fn the_same_window_in_another_order() {
 }
 
 #[test]
+fn each_axis_has_its_windows() {
+    static AXES: Axes = Axes {
+        count: 2,
+        ranges: &[
+            AxisRange { first: 0x2005, last: 0x2005, step: AxisStep::SubIndexStride(2) },
+            AxisRange { first: 0x6000, last: 0x67FF, step: AxisStep::Index(0x800) },
+        ],
+        shared: &[],
+    };
+    let mut slave = Slave::default();
+    let mut drive = OneDrive::new(Axis::new(&mut slave, &AXES, 2));
+    assert_eq!(drive.master_speed().read(), Ok(-1));
+    drive.target_position().write(1).unwrap();
+    let mut third = OneDrive::new(Axis::new(&mut slave, &AXES, 3));
+    assert!(matches!(third.master_speed().read(), Err(Error::NoSuchAxis { axis: 3, .. })));
+    assert_eq!(
+        slave.log,
+        ["write 0x2005:03 [17, 80]", "wait 3ms", "read 0x2005:04, 4 bytes", "write 0x687A:00 [01, 00, 00, 00]"]
+    );
+}
+
+#[test]
 fn time_has_to_come_from_somewhere() {
     let mut drive = OneDrive::new(Slave::default());
     assert_eq!(now(drive.gain().read_async()), Err(Error::NoClock));
@@ -214,6 +239,8 @@ struct Controller {
     cycles: usize,
     asked: Option<u16>,
     gain: i32,
+    /// What the gain was set to.
+    gains: Vec<i32>,
     is_bad: bool,
 }
 
@@ -224,6 +251,7 @@ impl Controller {
         let value = i32::from_be_bytes(outputs[9..13].try_into().unwrap());
         if number(7) == 0x8033 {
             self.gain = value;
+            self.gains.push(value);
         }
         inputs.fill(0);
         // It is always where it should be.
@@ -289,6 +317,10 @@ fn the_image_is_a_bus() {
     drive.gain().write(70_000).unwrap();
     assert_eq!(drive.gain().read(), Ok(70_000));
     assert_eq!(now(drive.gain().read_async()), Ok(70_000));
+    // No cycle had the number with the value of another.
+    assert!(drive.client().image().gains.iter().all(|gain| *gain == 70_000));
+    now(drive.gain().write_async(70_001)).unwrap();
+    assert_eq!(drive.client().image().gain, 70_001);
     assert_eq!(now(drive.torque().read_async()), Ok(-300));
 }
 

@@ -173,12 +173,15 @@ fn images_are_the_printed_ones() {
     }
 }
 
+/// Index, sub-index and bits.
+type Mapped = (u16, u8, u32);
+
 #[test]
 fn pdos_of_ethercat_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
     let compilation = table();
     let device = device(&compilation);
-    let mut printed: Vec<(u16, Vec<(u16, u8, u32)>)> = Vec::new();
+    let mut printed: Vec<(u16, Vec<Mapped>)> = Vec::new();
     for (_, text) in lines(&manual, 5540, 5574) {
         let indices = hex_numbers(text, 4);
         if text.starts_with("oggetto 0x") {
@@ -195,7 +198,7 @@ fn pdos_of_ethercat_are_the_printed_ones() {
     assert_eq!(own.len(), 8);
     for (index, entries) in &printed {
         let pdo = own.iter().find(|pdo| pdo.mapping_index == *index).expect("a PDO");
-        let mut there: Vec<(u16, u8, u32)> = Vec::new();
+        let mut there: Vec<Mapped> = Vec::new();
         for entry in &pdo.entries {
             match entry.kind {
                 // A mode has one byte, and is printed with two (E3 of the notes).

@@ -20,8 +20,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     where
         A: Readable,
         C: Client,
-        L: On<C::Bus>,
-        L::Route: ReadRoute<C::Bus>,
+        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
     {
         let mut buffer = [0; 8];
         let room = room::<V>(&mut buffer);
@@ -38,8 +37,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     where
         A: Readable,
         C: AsyncClient,
-        L: On<C::Bus>,
-        L::Route: ReadRoute<C::Bus>,
+        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
     {
         let mut buffer = [0; 8];
         let room = room::<V>(&mut buffer);
@@ -57,8 +55,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     where
         A: Writable,
         C: Client,
-        L: On<C::Bus>,
-        L::Route: WriteRoute<C::Bus>,
+        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
     {
         let mut buffer = [0; 8];
         let length = encode(&self.item, value, &mut buffer)?;
@@ -74,8 +71,7 @@ impl<C, V: Fixed, A, L> Accessor<'_, C, V, A, L> {
     where
         A: Writable,
         C: AsyncClient,
-        L: On<C::Bus>,
-        L::Route: WriteRoute<C::Bus>,
+        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
     {
         let mut buffer = [0; 8];
         let length = encode(&self.item, value, &mut buffer)?;

@@ -20,8 +20,7 @@ macro_rules! octets {
             where
                 A: Readable,
                 C: Client,
-                L: On<C::Bus>,
-                L::Route: ReadRoute<C::Bus>,
+                L: On<C::Bus, Route: ReadRoute<C::Bus>>,
             {
                 self.fetch(buffer)
             }
@@ -35,8 +34,7 @@ macro_rules! octets {
             where
                 A: Readable,
                 C: AsyncClient,
-                L: On<C::Bus>,
-                L::Route: ReadRoute<C::Bus>,
+                L: On<C::Bus, Route: ReadRoute<C::Bus>>,
             {
                 self.fetch_async(buffer).await
             }
@@ -50,8 +48,7 @@ macro_rules! octets {
             where
                 A: Writable,
                 C: Client,
-                L: On<C::Bus>,
-                L::Route: WriteRoute<C::Bus>,
+                L: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {
                 self.send(data)
             }
@@ -65,8 +62,7 @@ macro_rules! octets {
             where
                 A: Writable,
                 C: AsyncClient,
-                L: On<C::Bus>,
-                L::Route: WriteRoute<C::Bus>,
+                L: On<C::Bus, Route: WriteRoute<C::Bus>>,
             {
                 self.send_async(data).await
             }

@@ -18,8 +18,7 @@ impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
     where
         A: Readable,
         C: Client,
-        L: On<C::Bus>,
-        L::Route: ReadRoute<C::Bus>,
+        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
     {
         self.read().map(|raw| V::physical(raw, ()))
     }
@@ -33,8 +32,7 @@ impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
     where
         A: Readable,
         C: AsyncClient,
-        L: On<C::Bus>,
-        L::Route: ReadRoute<C::Bus>,
+        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
     {
         self.read_async().await.map(|raw| V::physical(raw, ()))
     }
@@ -49,8 +47,7 @@ impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
     where
         A: Writable,
         C: Client,
-        L: On<C::Bus>,
-        L::Route: WriteRoute<C::Bus>,
+        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
     {
         self.write(V::raw(physical, ())?)
     }
@@ -64,8 +61,7 @@ impl<C, V: Quantity<Other = ()>, A, L> Accessor<'_, C, V, A, L> {
     where
         A: Writable,
         C: AsyncClient,
-        L: On<C::Bus>,
-        L::Route: WriteRoute<C::Bus>,
+        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
     {
         self.write_async(V::raw(physical, ())?).await
     }
@@ -82,8 +78,7 @@ impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
     where
         A: Readable,
         C: Client,
-        L: On<C::Bus>,
-        L::Route: ReadRoute<C::Bus>,
+        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
     {
         self.read().map(|raw| V::physical(raw, other))
     }
@@ -97,8 +92,7 @@ impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
     where
         A: Readable,
         C: AsyncClient,
-        L: On<C::Bus>,
-        L::Route: ReadRoute<C::Bus>,
+        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
     {
         self.read_async().await.map(|raw| V::physical(raw, other))
     }
@@ -112,8 +106,7 @@ impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
     where
         A: Writable,
         C: Client,
-        L: On<C::Bus>,
-        L::Route: WriteRoute<C::Bus>,
+        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
     {
         self.write(V::raw(physical, other)?)
     }
@@ -127,8 +120,7 @@ impl<C, V: Quantity<Other = f64>, A, L> Accessor<'_, C, V, A, L> {
     where
         A: Writable,
         C: AsyncClient,
-        L: On<C::Bus>,
-        L::Route: WriteRoute<C::Bus>,
+        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
     {
         self.write_async(V::raw(physical, other)?).await
     }

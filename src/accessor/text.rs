@@ -18,8 +18,7 @@ impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
     where
         A: Readable,
         C: Client,
-        L: On<C::Bus>,
-        L::Route: ReadRoute<C::Bus>,
+        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
     {
         Ok(decode_visible(self.fetch(buffer)?)?)
     }
@@ -33,8 +32,7 @@ impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
     where
         A: Readable,
         C: AsyncClient,
-        L: On<C::Bus>,
-        L::Route: ReadRoute<C::Bus>,
+        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
     {
         Ok(decode_visible(self.fetch_async(buffer).await?)?)
     }
@@ -48,8 +46,7 @@ impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
     where
         A: Writable,
         C: Client,
-        L: On<C::Bus>,
-        L::Route: WriteRoute<C::Bus>,
+        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
     {
         self.send(encode_visible(text)?)
     }
@@ -63,8 +60,7 @@ impl<C, A, L> Accessor<'_, C, VisibleString, A, L> {
     where
         A: Writable,
         C: AsyncClient,
-        L: On<C::Bus>,
-        L::Route: WriteRoute<C::Bus>,
+        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
     {
         self.send_async(encode_visible(text)?).await
     }
@@ -80,8 +76,7 @@ impl<C, A, L> Accessor<'_, C, UnicodeString, A, L> {
     where
         A: Readable,
         C: Client,
-        L: On<C::Bus>,
-        L::Route: ReadRoute<C::Bus>,
+        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
     {
         Ok(Utf16::new(self.fetch(buffer)?)?)
     }
@@ -95,8 +90,7 @@ impl<C, A, L> Accessor<'_, C, UnicodeString, A, L> {
     where
         A: Readable,
         C: AsyncClient,
-        L: On<C::Bus>,
-        L::Route: ReadRoute<C::Bus>,
+        L: On<C::Bus, Route: ReadRoute<C::Bus>>,
     {
         Ok(Utf16::new(self.fetch_async(buffer).await?)?)
     }
@@ -110,8 +104,7 @@ impl<C, A, L> Accessor<'_, C, UnicodeString, A, L> {
     where
         A: Writable,
         C: Client,
-        L: On<C::Bus>,
-        L::Route: WriteRoute<C::Bus>,
+        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
     {
         self.send(encode_utf16(text, scratch)?)
     }
@@ -125,8 +118,7 @@ impl<C, A, L> Accessor<'_, C, UnicodeString, A, L> {
     where
         A: Writable,
         C: AsyncClient,
-        L: On<C::Bus>,
-        L::Route: WriteRoute<C::Bus>,
+        L: On<C::Bus, Route: WriteRoute<C::Bus>>,
     {
         self.send_async(encode_utf16(text, scratch)?).await
     }

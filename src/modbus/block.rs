@@ -6,6 +6,7 @@ use crate::error::LengthError;
 use crate::item::Item;
 use crate::location::On;
 use crate::register::Register;
+use crate::route::Direct;
 use crate::value::{byte_len, Fixed};
 
 /// What can be read as a part of a [`Block`]: an [`Item`] that can be read, is a register or a bit of Modbus, and has a type
@@ -32,13 +33,13 @@ pub trait BlockItem {
     fn decode(&self, bytes: &[u8]) -> Result<Self::Native, LengthError>;
 }
 
-impl<V: Fixed, A: Readable, L: On<Modbus, Route = Register>> BlockItem for Item<V, A, L> {
+impl<V: Fixed, A: Readable, L: On<Modbus, Route: Direct<Modbus>>> BlockItem for Item<V, A, L> {
     type Native = V::Native;
 
     const LENGTH: usize = byte_len(V::BITS);
 
     fn register(&self) -> Register {
-        self.location().route()
+        self.location().route().address()
     }
 
     fn decode(&self, bytes: &[u8]) -> Result<V::Native, LengthError> {

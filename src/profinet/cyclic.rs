@@ -6,7 +6,7 @@ use super::image::{AsyncImageClient, ImageClient, IoPlace, IoSpan};
 use super::io::IoStatus;
 use crate::abort::AbortCode;
 use crate::bus::ProcessImage;
-use crate::client::{AsyncClient, Client};
+use crate::client::{AsyncClient, Client, Write};
 use crate::error::{Error, LengthError};
 use crate::image_field::ImageField;
 
@@ -168,6 +168,15 @@ impl<I: ImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[u8]>>
         self.cycle()
     }
 
+    /// Both go out in the same cycle.
+    fn write_both(&mut self, writes: [Write<'_, ProcessImage>; 2]) -> Result<(), Error<I::Error>> {
+        writes.into_iter().try_for_each(|(field, data)| self.put(field, data))?;
+        if self.is_by_hand {
+            return Ok(());
+        }
+        self.cycle()
+    }
+
     /// Cycles go on meanwhile.
     fn wait(&mut self, time: Duration) -> Result<(), Error<I::Error>> {
         let mut left = time;
@@ -193,6 +202,14 @@ impl<I: AsyncImageClient, O: AsRef<[u8]> + AsMut<[u8]>, N: AsRef<[u8]> + AsMut<[
 
     async fn write(&mut self, field: ImageField, data: &[u8]) -> Result<(), Error<I::Error>> {
         self.put(field, data)?;
+        if self.is_by_hand {
+            return Ok(());
+        }
+        self.cycle_async().await
+    }
+
+    async fn write_both(&mut self, writes: [Write<'_, ProcessImage>; 2]) -> Result<(), Error<I::Error>> {
+        writes.into_iter().try_for_each(|(field, data)| self.put(field, data))?;
         if self.is_by_hand {
             return Ok(());
         }

@@ -1,6 +1,6 @@
 //! Values of which a bus takes fewer than its item.
 
-use super::{ReadRoute, Route, WriteRoute};
+use super::{ReadRoute, WriteRoute};
 use crate::bus::Bus;
 use crate::client::{AsyncClient, Client};
 use crate::error::{Error, OutOfRange};
@@ -48,8 +48,6 @@ impl<R> Limited<R> {
         is_taken.then_some(()).ok_or(OutOfRange)
     }
 }
-
-impl<B: Bus, R: Route<B>> Route<B> for Limited<R> {}
 
 impl<B: Bus, R: ReadRoute<B>> ReadRoute<B> for Limited<R> {
     #[inline]

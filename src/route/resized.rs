@@ -1,6 +1,6 @@
 //! Values that have another width on a bus than their item.
 
-use super::{ReadRoute, Route, WriteRoute};
+use super::{ReadRoute, WriteRoute};
 use crate::bus::Bus;
 use crate::client::{AsyncClient, Client};
 use crate::error::{Error, LengthError, OutOfRange};
@@ -115,8 +115,6 @@ pub(super) fn check(expected: usize, actual: usize) -> Result<(), LengthError> {
         Err(LengthError::new(expected, actual))
     }
 }
-
-impl<B: Bus, R: Route<B>> Route<B> for Resized<R> {}
 
 impl<B: Bus, R: ReadRoute<B>> ReadRoute<B> for Resized<R> {
     fn read<C: Client<Bus = B>>(&self, client: &mut C, buffer: &mut [u8]) -> Result<usize, Error<C::Error>> {

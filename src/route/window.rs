@@ -2,7 +2,7 @@
 
 use core::time::Duration;
 
-use super::{resized, ReadRoute, Route, WriteRoute};
+use super::{resized, ReadRoute, WriteRoute};
 use crate::bus::Bus;
 use crate::client::{AsyncClient, Client};
 use crate::error::{Error, OutOfRange};
@@ -71,7 +71,7 @@ pub struct WriteWindow<A> {
     pub value: A,
     /// Bits of the value.
     pub value_bits: u8,
-    /// Whether the number is written before the value.
+    /// Whether the number is written before the value. In a process image both go out in one cycle.
     pub is_number_first: bool,
     /// How the device says that it has taken the value.
     pub handshake: Handshake,
@@ -144,9 +144,6 @@ impl<W> Through<W> {
         u64::from(self.number).to_le_bytes()
     }
 }
-
-impl<B: Bus> Route<B> for Through<ReadWindow<B::Address>> {}
-impl<B: Bus> Route<B> for Through<WriteWindow<B::Address>> {}
 
 /// Without a clock, the transfers themselves are the time.
 fn unless_no_clock<E>(waited: Result<(), Error<E>>) -> Result<(), Error<E>> {
@@ -245,16 +242,16 @@ impl<A: Copy> Through<WriteWindow<A>> {
 
 impl<B: Bus> WriteRoute<B> for Through<WriteWindow<B::Address>> {
     fn write<C: Client<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
-        for (address, mut bytes, bits) in self.writes(data)? {
-            client.write(address, resized::room(&mut bytes, bits))?;
-        }
+        let [(first, mut one, bits), (second, mut other, other_bits)] = self.writes(data)?;
+        let writes = [(first, &*resized::room(&mut one, bits)), (second, &*resized::room(&mut other, other_bits))];
+        client.write_both(writes)?;
         settle(client, self.window.number, self.window.number_bits, self.window.handshake)
     }
 
     async fn write_async<C: AsyncClient<Bus = B>>(&self, client: &mut C, data: &[u8]) -> Result<(), Error<C::Error>> {
-        for (address, mut bytes, bits) in self.writes(data)? {
-            client.write(address, resized::room(&mut bytes, bits)).await?;
-        }
+        let [(first, mut one, bits), (second, mut other, other_bits)] = self.writes(data)?;
+        let writes = [(first, &*resized::room(&mut one, bits)), (second, &*resized::room(&mut other, other_bits))];
+        client.write_both(writes).await?;
         settle_async(client, self.window.number, self.window.number_bits, self.window.handshake).await
     }
 }

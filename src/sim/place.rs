@@ -4,7 +4,7 @@ use crate::bus::Object;
 use crate::item::Item;
 use crate::location::{Absent, Location};
 use crate::register::Register;
-use crate::route::{Limited, Resized, Split, Through};
+use crate::route::{Closed, Limited, Resized, Split, Through};
 use crate::value::Value;
 
 /// What names an item: a handle of the bindings, an object, or a register. Bindings need nothing else implemented.
@@ -77,6 +77,12 @@ impl<T, R: Part<T>, W: Part<T>> Part<T> for Split<R, W> {
 
     fn is_resized(&self) -> bool {
         self.read.is_resized() || self.write.is_resized()
+    }
+}
+
+impl<T> Part<T> for Closed {
+    fn part(&self) -> Option<T> {
+        None
     }
 }
 

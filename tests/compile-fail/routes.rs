@@ -4,11 +4,11 @@
 use lexibus::modbus::RegisterClient;
 use lexibus::profinet::{Cyclic, ImageClient};
 use lexibus::{
-    Absent, CanOpen, Client, Flags, Handshake, ImageField, Initial, Item, Location, Range, ReadWindow,
+    Absent, CanOpen, Client, Closed, Flags, Handshake, ImageField, Initial, Item, Location, Range, ReadWindow,
     Register, Rw, Split, Through,
 };
 
-type OnlyOut = Location<Absent, Absent, Absent, Absent, Absent, Split<Absent, ImageField>>;
+type OnlyOut = Location<Absent, Absent, Absent, Absent, Absent, Split<Closed, ImageField>>;
 const TARGET: Item<i32, Rw, OnlyOut> = Item::new(
     OnlyOut::new(Absent, Absent, Absent, Absent, Absent, Split::writing(ImageField::output(0, 32)), Absent),
     "Target",
@@ -18,7 +18,7 @@ const TARGET: Item<i32, Rw, OnlyOut> = Item::new(
     Flags::NONE,
 );
 
-type OnlyIn = Location<Absent, Absent, Absent, Absent, Absent, Split<ImageField, Absent>>;
+type OnlyIn = Location<Absent, Absent, Absent, Absent, Absent, Split<ImageField, Closed>>;
 const ACTUAL: Item<i32, Rw, OnlyIn> = Item::new(
     OnlyIn::new(Absent, Absent, Absent, Absent, Absent, Split::reading(ImageField::input(0, 32)), Absent),
     "Actual",

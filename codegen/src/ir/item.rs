@@ -100,6 +100,12 @@ impl Item {
         self.variants_on(bus).find_map(|own| own.ty).unwrap_or(self.ty)
     }
 
+    /// The type that the value has as an object: on CANopen, or on EtherCAT where it is no object of CANopen.
+    pub fn object_type(&self) -> Type {
+        let is_on_canopen = |binding: &Binding| matches!(binding, Binding::Object { buses, .. } if buses.canopen);
+        self.type_on(if self.bindings.iter().any(is_on_canopen) { "canopen" } else { "ethercat" })
+    }
+
     /// What may be done on a bus, by its name in register tables.
     pub fn access_on(&self, bus: &str) -> Access {
         self.variants_on(bus).find_map(|own| own.access).unwrap_or(self.access)

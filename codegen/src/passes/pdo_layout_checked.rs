@@ -253,7 +253,7 @@ impl<'a> Layout<'a> {
         // Bit fields and enumerations are as long as their integer.
         let owner = Owner { types: &self.device.types, groups: &[] };
         let is_own = self.device.entry(entry.index, entry.sub_index).is_some();
-        let ty = if is_own { owner.basic(item.ty) } else { item.ty };
+        let ty = if is_own { owner.basic(item.object_type()) } else { item.ty };
         match ty.bits() {
             Some(bits) if bits != entry.bits => {
                 let message = format!("{object} is mapped with {} bits, but {ty} has {bits}", entry.bits);

@@ -37,9 +37,9 @@ Reepsts  = { param = 2, type = "u8", access = "ro" }
 "position" = { param = 3, type = "u8", access = "ro" }
 "Variable address" = { param = 4, type = "u16", access = "rw" }
 "Variable value" = { param = 5, type = "i32", access = "ro" }
-"offset sign" = { param = 96, type = "u16", access = "rw" }
-"offset high" = { param = 97, type = "u16", access = "rw" }
-"offset low" = { param = 98, type = "u16", access = "rw" }
+"offset sign" = { param = 906, type = "u16", access = "rw" }
+"offset high" = { param = 907, type = "u16", access = "rw" }
+"offset low" = { param = 908, type = "u16", access = "rw" }
 [[chapters]]
 title = "Objects that the examples refer to"
 [chapters.objects]

@@ -189,7 +189,7 @@ fn arguments(
         (false, true) => "rt::Tpdo",
         (false, false) => return None,
     };
-    let bits = bits(scope.base(item.ty)).filter(|bits| (1..=MAX_ENTRY).contains(bits))?;
+    let bits = bits(scope.base(item.object_type())).filter(|bits| (1..=MAX_ENTRY).contains(bits))?;
     let field = field_type::field_type(scope, item.ty, bits).path(outer);
     Some(format!("{field}¦ {direction}¦ {}", word(index, sub_index, bits)))
 }

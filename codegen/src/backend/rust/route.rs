@@ -115,8 +115,8 @@ impl Kind {
         match self {
             Kind::Absent => "rt::Absent".to_owned(),
             Kind::One(leg) => leg.ty(net, true),
-            Kind::Reads(leg) => format!("rt::Split<«{}¦ rt::Absent»>", leg.ty(net, true)),
-            Kind::Writes(leg) => format!("rt::Split<«rt::Absent¦ {}»>", leg.ty(net, false)),
+            Kind::Reads(leg) => format!("rt::Split<«{}¦ rt::Closed»>", leg.ty(net, true)),
+            Kind::Writes(leg) => format!("rt::Split<«rt::Closed¦ {}»>", leg.ty(net, false)),
             Kind::Both(read, write) => format!("rt::Split<«{}¦ {}»>", read.ty(net, true), write.ty(net, false)),
         }
     }

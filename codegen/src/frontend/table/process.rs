@@ -120,7 +120,7 @@ fn entry(reader: &mut Reader<'_, '_>, text: &At<String>, device: &Device) -> Opt
         return None;
     };
     let item = device.entry(index, sub_index);
-    let known = item.and_then(|item| match item.ty {
+    let known = item.and_then(|item| match item.object_type() {
         Type::Named(id) => device.types.get(id.0 as usize).and_then(|def| def.bits),
         ty => ty.bits(),
     });
