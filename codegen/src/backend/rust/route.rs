@@ -142,8 +142,8 @@ pub(super) struct Way<'i> {
     pub window: Option<(usize, u32)>,
     /// Bits of the number there, where they aren't those of the item.
     pub resized: Option<u8>,
-    /// The only values there.
-    pub limited: Option<&'i Limits>,
+    /// The only values there, and whether the item's have a sign.
+    pub limited: Option<(&'i Limits, bool)>,
     /// Whether the narrower one of the item and the number there has a sign.
     pub is_signed: bool,
 }
@@ -170,7 +170,9 @@ impl Way<'_> {
             None => at.to_owned(),
         };
         match self.limited {
-            Some(limits) => format!("rt::Limited::new(«{own}¦ {}¦ &[«{}»]»)", self.is_signed, runs(limits).join("¦ ")),
+            Some((limits, is_signed)) => {
+                format!("rt::Limited::new(«{own}¦ {is_signed}¦ &[«{}»]»)", runs(limits).join("¦ "))
+            }
             None => own,
         }
     }

@@ -1,0 +1,119 @@
+//! What documentation calls the places of an item.
+
+use super::{Field, Place};
+use crate::backend::rust::docs;
+use crate::backend::rust::route::{Net, Route};
+use crate::ir::{RegisterBinding, RegisterSpace};
+
+impl Place<'_> {
+    /// What the documentation calls the places.
+    pub fn facts(&self) -> String {
+        let object = |(index, sub): (u16, u8)| format!("0x{index:04X}:{sub:02X}");
+        let mut facts = Vec::new();
+        match (self.canopen, self.coe) {
+            (Some(canopen), Some(coe)) if canopen != coe => {
+                facts.push(format!("{} on CANopen", object(canopen)));
+                facts.push(format!("{} on EtherCAT", object(coe)));
+            }
+            (canopen, coe) => facts.extend(canopen.or(coe).map(object)),
+        }
+        facts.extend(self.modbus.map(register_facts));
+        facts.extend(self.serial.map(|code| format!("parameter {code}")));
+        facts.extend(self.image.map(|field| field.facts()));
+        facts.extend(self.numbers());
+        facts.join(", ")
+    }
+
+    /// The place in a few words.
+    pub fn heading(&self) -> String {
+        let object = self.canopen.or(self.coe).map(|(index, sub)| format!("0x{index:04X}:{sub:02X}"));
+        let register = self.modbus.map(|register| match register.bit_offset {
+            Some(bit) => format!("register {} from bit {bit}", register.address),
+            None => format!("register {}", register.address),
+        });
+        let serial = self.serial.map(|code| format!("parameter {code}"));
+        let found: Vec<String> = object.into_iter().chain(register).chain(serial).collect();
+        if !found.is_empty() {
+            return found.join(", ");
+        }
+        let memory = self.esc.map(|(address, _)| format!("memory 0x{address:04X}"));
+        self.image.map(|field| field.facts()).or(memory).or(self.numbers()).unwrap_or_default()
+    }
+
+    /// The buses on which the item is behind a window, and its number there.
+    fn numbers(&self) -> Option<String> {
+        let window = |route: &Route<'_>| [route.read, route.write].iter().flatten().find_map(|way| way.window);
+        let (_, number) = self.routes.iter().find_map(window)?;
+        let on = Net::ALL.iter().zip(&self.routes).filter(|(_, route)| window(route).is_some());
+        let on: Vec<&str> = on.map(|(net, _)| net.title()).collect();
+        Some(format!("number 0x{number:04X} behind a window on {}", on.join(", ")))
+    }
+
+    /// What tells the item from others of its name.
+    pub fn suffix(&self) -> String {
+        match (self.modbus, self.canopen.or(self.coe), self.serial) {
+            (Some(register), _, _) => {
+                // Two tables of Modbus have the same numbers.
+                let table = match register.space {
+                    RegisterSpace::Holding => "",
+                    RegisterSpace::Input => "input_",
+                    RegisterSpace::Coil => "coil_",
+                    RegisterSpace::DiscreteInput => "discrete_",
+                };
+                match register.bit_offset {
+                    Some(bit) => format!("{table}{}_{bit}", register.address),
+                    None => format!("{table}{}", register.address),
+                }
+            }
+            (None, Some((index, sub)), _) => format!("{index:04X}_{sub}"),
+            (None, None, Some(code)) => code.to_string(),
+            (None, None, None) => match (self.image, self.esc) {
+                (Some(field), _) => format!("{}_{}", field.image, field.first),
+                (None, Some((address, _))) => format!("{address:04X}"),
+                (None, None) => self.numbers().unwrap_or_else(|| "0".to_owned()),
+            },
+        }
+    }
+}
+
+impl Field<'_> {
+    fn facts(self) -> String {
+        let (byte, bit) = (self.first / 8, self.first % 8);
+        let last = (self.first + self.bits.max(1) - 1) / 8;
+        let place = match (bit, self.bits % 8) {
+            (0, 0) if byte == last => format!("byte {byte}"),
+            (0, 0) => format!("bytes {byte} to {last}"),
+            _ if self.bits == 1 => format!("bit {bit} of byte {byte}"),
+            _ => format!("{} bits from bit {bit} of byte {byte} on", self.bits),
+        };
+        format!("{place} of the image {}", docs::escape(self.image))
+    }
+}
+
+fn register_facts(register: &RegisterBinding) -> String {
+    let table = match register.space {
+        RegisterSpace::Holding => "holding register",
+        RegisterSpace::Input => "input register",
+        RegisterSpace::Coil => "coil",
+        RegisterSpace::DiscreteInput => "discrete input",
+    };
+    let bits = match register.words_per_address {
+        0 | 1 => String::new(),
+        words => format!(" of {} bits", 16 * u16::from(words)),
+    };
+    let each = if bits.is_empty() { "" } else { " each" };
+    let mut facts = match register.last() {
+        last if last <= register.address => format!("{table} {}{bits}", register.address),
+        last => format!("{table}s {} to {last}{bits}{each}", register.address),
+    };
+    if let Some(bit) = register.bit_offset {
+        facts += &format!(" from bit {bit}");
+    }
+    if register.low_word_first && register.count > 1 {
+        facts += ", low word first";
+    }
+    if register.bytes_swapped {
+        facts += ", bytes swapped";
+    }
+    facts
+}
