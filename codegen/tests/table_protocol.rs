@@ -106,6 +106,15 @@ fn mistakes_in_messages() {
 }
 
 #[test]
+fn units_of_the_machine_and_halves_of_numbers() {
+    let lines = "Low = { reg = 2, type = \"u16\", access = \"rw\", upper = \"High\", unit = \"position\", same_quantity = \"Lowest\" }\n\
+                 [given]\n\"screw pitch\" = { unit = \"mm/turns\", models = { X1 = 5, X2 = \"five\" } }\n\
+                 [units]\nposition = { symbol = \"count\", machine = { unit = \"feet\", times = [\"pitch\"], over = [\"counts\"] } }\n\
+                 [[models]]\nname = \"X1\"\n";
+    insta::assert_snapshot!(findings(lines).join("\n"));
+}
+
+#[test]
 fn images_have_items_and_fields_of_their_own() {
     let lines = "[[images]]\nname = \"in\"\ndirection = \"tx\"\nbytes = 8\norder = \"little\"\n[images.fields]\n\
                  Speed = { at = 1 }\nready = { at = 0, bit = 3, type = \"bool\", doc = \"It can go\" }\n\
