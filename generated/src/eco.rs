@@ -6711,6 +6711,136 @@ pub mod codes {
         }
     }
 }
+/// Sequences of writes, in their order. Each is sent with `SdoWrite::send`.
+pub mod procedures {
+    use ::lexibus as rt;
+    /// The values of the example of a positioner, on Modbus and PROFINET.
+    ///
+    /// Manual, line 1401-1432, 6374-6387.
+    pub const CONFIGURE_POSITIONER: [rt::SdoWrite; 9] = [
+        rt::SdoWrite::new_u32(0x6092, 0x01, 0x0000_003C),
+        rt::SdoWrite::new_u32(0x6083, 0x00, 0x0000_0064),
+        rt::SdoWrite::new_u32(0x6084, 0x00, 0x0000_0064),
+        rt::SdoWrite::new_u32(0x6081, 0x00, 0x0000_03E8),
+        rt::SdoWrite::new_u16(0x6086, 0x00, 0x0000),
+        rt::SdoWrite::new_u8(0x6098, 0x00, 0x21),
+        rt::SdoWrite::new_u32(0x607C, 0x00, 0x0000_0000),
+        rt::SdoWrite::new_u32(0x6099, 0x02, 0x0000_000A),
+        rt::SdoWrite::new_u32(0x609A, 0x00, 0x0000_0064),
+    ];
+    /// Resets alarms and gives the motor torque, by DSP 402.
+    ///
+    /// Manual, line 4282-4291, 4323-4332, 4366-4373, 4448-4457, 4541-4548.
+    pub const ENABLE: [rt::SdoWrite; 6] = [
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x0000),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x0080),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x0000),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x0006),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x0007),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x000F),
+    ];
+    /// Takes the torque off, by DSP 402.
+    ///
+    /// Manual, line 4248-4252, 4383, 4595.
+    pub const DISABLE: [rt::SdoWrite; 1] = [rt::SdoWrite::new_u16(0x6040, 0x00, 0x0002)];
+    /// Ten turns further, by DSP 402; the drive is enabled already. For a position instead of a distance, 0x000F and 0x001F.
+    ///
+    /// Manual, line 4301-4348.
+    pub const POSITION_BY_402: [rt::SdoWrite; 8] = [
+        rt::SdoWrite::new_u32(0x6092, 0x01, 0x0000_1770),
+        rt::SdoWrite::new_u32(0x6081, 0x00, 0x0000_4E20),
+        rt::SdoWrite::new_u32(0x6083, 0x00, 0x0000_00C8),
+        rt::SdoWrite::new_u32(0x6084, 0x00, 0x0000_00C8),
+        rt::SdoWrite::new_u8(0x6060, 0x00, 0x01),
+        rt::SdoWrite::new_u32(0x607A, 0x00, 0x0000_EA60),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x004F),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x005F),
+    ];
+    /// 1000 rpm, by DSP 402; the drive is enabled already.
+    ///
+    /// Manual, line 4349-4377.
+    pub const VELOCITY_BY_402: [rt::SdoWrite; 5] = [
+        rt::SdoWrite::new_u32(0x6092, 0x01, 0x0000_003C),
+        rt::SdoWrite::new_u32(0x6083, 0x00, 0x0000_0005),
+        rt::SdoWrite::new_u32(0x6084, 0x00, 0x0000_0005),
+        rt::SdoWrite::new_u8(0x6060, 0x00, 0x03),
+        rt::SdoWrite::new_u32(0x60FF, 0x00, 0x0000_03E8),
+    ];
+    /// Set-point and control word in RPDO 1, position and state in TPDO 1, each SYNC.
+    ///
+    /// Manual, line 4419-4443, 4517-4535.
+    pub const MAP_INTERPOLATOR: [rt::SdoWrite; 10] = [
+        rt::SdoWrite::new_u8(0x1400, 0x02, 0x01),
+        rt::SdoWrite::new_u8(0x1600, 0x00, 0x00),
+        rt::SdoWrite::new_u32(0x1600, 0x01, 0x60C1_0120),
+        rt::SdoWrite::new_u32(0x1600, 0x02, 0x6040_0010),
+        rt::SdoWrite::new_u8(0x1600, 0x00, 0x02),
+        rt::SdoWrite::new_u8(0x1800, 0x02, 0x01),
+        rt::SdoWrite::new_u8(0x1A00, 0x00, 0x00),
+        rt::SdoWrite::new_u32(0x1A00, 0x01, 0x6064_0020),
+        rt::SdoWrite::new_u32(0x1A00, 0x02, 0x6041_0010),
+        rt::SdoWrite::new_u8(0x1A00, 0x00, 0x02),
+    ];
+    /// The interpolator, by DSP 402; the PDOs are mapped and the drive is enabled already. From the last step on the drive waits for a set-point and SYNC each millisecond.
+    ///
+    /// Manual, line 4406-4470, 4566-4587.
+    pub const INTERPOLATE: [rt::SdoWrite; 4] = [
+        rt::SdoWrite::new_u32(0x6092, 0x01, 0x0000_1770),
+        rt::SdoWrite::new_u8(0x60C2, 0x01, 0x01),
+        rt::SdoWrite::new_u8(0x6060, 0x00, 0x07),
+        rt::SdoWrite::new_u16(0x6040, 0x00, 0x001F),
+    ];
+    /// Node guarding each 500 ms.
+    ///
+    /// Manual, line 4235-4242.
+    pub const GUARD: [rt::SdoWrite; 2] = [
+        rt::SdoWrite::new_u16(0x100C, 0x00, 0x01F4),
+        rt::SdoWrite::new_u8(0x100D, 0x00, 0x02),
+    ];
+    /// No node guarding.
+    ///
+    /// Manual, line 4244-4246.
+    pub const STOP_GUARDING: [rt::SdoWrite; 2] = [
+        rt::SdoWrite::new_u16(0x100C, 0x00, 0x0000),
+        rt::SdoWrite::new_u8(0x100D, 0x00, 0x00),
+    ];
+    /// Slot of the positioner.
+    ///
+    /// Manual, line 5598-5611, 5646: Position Mode.
+    pub const SLOT_POSITION: [rt::SdoWrite; 7] = [
+        rt::SdoWrite::new_u8(0x1C12, 0x00, 0x00),
+        rt::SdoWrite::new_u16(0x1C12, 0x01, 0x1602),
+        rt::SdoWrite::new_u8(0x1C12, 0x00, 0x01),
+        rt::SdoWrite::new_u8(0x1C13, 0x00, 0x00),
+        rt::SdoWrite::new_u16(0x1C13, 0x01, 0x1A02),
+        rt::SdoWrite::new_u8(0x1C13, 0x00, 0x01),
+        rt::SdoWrite::new_u8(0x6060, 0x00, 0x01),
+    ];
+    /// Slot of the interpolator, the default.
+    ///
+    /// Manual, line 5614-5625, 5647, 5845: Interpolated Mode.
+    pub const SLOT_INTERPOLATED: [rt::SdoWrite; 7] = [
+        rt::SdoWrite::new_u8(0x1C12, 0x00, 0x00),
+        rt::SdoWrite::new_u16(0x1C12, 0x01, 0x1600),
+        rt::SdoWrite::new_u8(0x1C12, 0x00, 0x01),
+        rt::SdoWrite::new_u8(0x1C13, 0x00, 0x00),
+        rt::SdoWrite::new_u16(0x1C13, 0x01, 0x1A02),
+        rt::SdoWrite::new_u8(0x1C13, 0x00, 0x01),
+        rt::SdoWrite::new_u8(0x6060, 0x00, 0x07),
+    ];
+    /// Slot of the velocity mode.
+    ///
+    /// Manual, line 5628-5640, 5648: Velocity Mode.
+    pub const SLOT_VELOCITY: [rt::SdoWrite; 7] = [
+        rt::SdoWrite::new_u8(0x1C12, 0x00, 0x00),
+        rt::SdoWrite::new_u16(0x1C12, 0x01, 0x1603),
+        rt::SdoWrite::new_u8(0x1C12, 0x00, 0x01),
+        rt::SdoWrite::new_u8(0x1C13, 0x00, 0x00),
+        rt::SdoWrite::new_u16(0x1C13, 0x01, 0x1A03),
+        rt::SdoWrite::new_u8(0x1C13, 0x00, 0x01),
+        rt::SdoWrite::new_u8(0x6060, 0x00, 0x03),
+    ];
+}
 /// Windows: what takes the number of a value, and what has the value then.
 pub mod windows {
     use ::lexibus as rt;
@@ -17747,6 +17877,14 @@ pub mod pdo {
     /// RxPDO 0x1600: Interpolated position.
     ///
     /// Mapping 0x1600, 48 bits.
+    ///
+    /// With mode 7. CANopen's example has the set-point in front of the control word.
+    ///
+    /// Manual, line 5540-5543, 5581-5583, 5621-5625.
+    ///
+    /// Note: The control word first (L5541-5543), and last in the mapping of CANopen's example (L4425-4426). Chosen: the control word first (each bus has its own mapping).
+    ///
+    /// Note: The numbers of the sync managers aren't printed (L5577-5583). Chosen: 2 and 3 (ETG.1000.4 has process data there where there is a mailbox).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct InterpolatedPosition {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
@@ -17808,6 +17946,12 @@ pub mod pdo {
     /// RxPDO 0x1601: Mode.
     ///
     /// Mapping 0x1601, 32 bits.
+    ///
+    /// Besides another RxPDO, where the mode has to change while the bus runs.
+    ///
+    /// Manual, line 5544-5547.
+    ///
+    /// Note: Modes of Operation has two bytes here (L5547), and one as an object (L3779). Chosen: one byte and one of padding (both lengths hold then).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Mode {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
@@ -17870,6 +18014,10 @@ pub mod pdo {
     /// RxPDO 0x1602: Position.
     ///
     /// Mapping 0x1602, 48 bits.
+    ///
+    /// With mode 1.
+    ///
+    /// Manual, line 5549-5552, 5607-5611.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Position {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
@@ -17931,6 +18079,10 @@ pub mod pdo {
     /// RxPDO 0x1603: Velocity.
     ///
     /// Mapping 0x1603, 48 bits.
+    ///
+    /// With mode 3.
+    ///
+    /// Manual, line 5553-5556, 5636-5640.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Velocity {
         /// Controlword: 0x6040:00, 16 bits from bit 0.
@@ -17992,6 +18144,8 @@ pub mod pdo {
     /// TxPDO 0x1A00: Status.
     ///
     /// Mapping 0x1A00, 16 bits.
+    ///
+    /// Manual, line 5561-5562.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Status {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
@@ -18047,6 +18201,10 @@ pub mod pdo {
     /// TxPDO 0x1A01: Mode display.
     ///
     /// Mapping 0x1A01, 32 bits.
+    ///
+    /// Manual, line 5564-5566.
+    ///
+    /// Note: Modes of Operation Display has two bytes here (L5566), and one as an object (L3780). Chosen: one byte and one of padding (both lengths hold then).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct ModeDisplay {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
@@ -18111,6 +18269,10 @@ pub mod pdo {
     /// TxPDO 0x1A02: Actual position.
     ///
     /// Mapping 0x1A02, 48 bits.
+    ///
+    /// With modes 1 and 7.
+    ///
+    /// Manual, line 5568-5570, 5581-5583, 5601-5605.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct ActualPosition {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
@@ -18172,6 +18334,10 @@ pub mod pdo {
     /// TxPDO 0x1A03: Actual velocity.
     ///
     /// Mapping 0x1A03, 48 bits.
+    ///
+    /// With mode 3.
+    ///
+    /// Manual, line 5572-5574, 5630-5634.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct ActualVelocity {
         /// Statusword: 0x6041:00, 16 bits from bit 0.
@@ -18237,6 +18403,14 @@ pub mod view {
     /// RxPDO 0x1600: Interpolated position.
     ///
     /// Mapping 0x1600, 48 bits.
+    ///
+    /// With mode 7. CANopen's example has the set-point in front of the control word.
+    ///
+    /// Manual, line 5540-5543, 5581-5583, 5621-5625.
+    ///
+    /// Note: The control word first (L5541-5543), and last in the mapping of CANopen's example (L4425-4426). Chosen: the control word first (each bus has its own mapping).
+    ///
+    /// Note: The numbers of the sync managers aren't printed (L5577-5583). Chosen: 2 and 3 (ETG.1000.4 has process data there where there is a mailbox).
     pub struct InterpolatedPosition<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -18289,6 +18463,12 @@ pub mod view {
     /// RxPDO 0x1601: Mode.
     ///
     /// Mapping 0x1601, 32 bits.
+    ///
+    /// Besides another RxPDO, where the mode has to change while the bus runs.
+    ///
+    /// Manual, line 5544-5547.
+    ///
+    /// Note: Modes of Operation has two bytes here (L5547), and one as an object (L3779). Chosen: one byte and one of padding (both lengths hold then).
     pub struct Mode<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -18348,6 +18528,10 @@ pub mod view {
     /// RxPDO 0x1602: Position.
     ///
     /// Mapping 0x1602, 48 bits.
+    ///
+    /// With mode 1.
+    ///
+    /// Manual, line 5549-5552, 5607-5611.
     pub struct Position<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -18400,6 +18584,10 @@ pub mod view {
     /// RxPDO 0x1603: Velocity.
     ///
     /// Mapping 0x1603, 48 bits.
+    ///
+    /// With mode 3.
+    ///
+    /// Manual, line 5553-5556, 5636-5640.
     pub struct Velocity<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -18452,6 +18640,8 @@ pub mod view {
     /// TxPDO 0x1A00: Status.
     ///
     /// Mapping 0x1A00, 16 bits.
+    ///
+    /// Manual, line 5561-5562.
     pub struct Status<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -18494,6 +18684,10 @@ pub mod view {
     /// TxPDO 0x1A01: Mode display.
     ///
     /// Mapping 0x1A01, 32 bits.
+    ///
+    /// Manual, line 5564-5566.
+    ///
+    /// Note: Modes of Operation Display has two bytes here (L5566), and one as an object (L3780). Chosen: one byte and one of padding (both lengths hold then).
     pub struct ModeDisplay<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -18553,6 +18747,10 @@ pub mod view {
     /// TxPDO 0x1A02: Actual position.
     ///
     /// Mapping 0x1A02, 48 bits.
+    ///
+    /// With modes 1 and 7.
+    ///
+    /// Manual, line 5568-5570, 5581-5583, 5601-5605.
     pub struct ActualPosition<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -18605,6 +18803,10 @@ pub mod view {
     /// TxPDO 0x1A03: Actual velocity.
     ///
     /// Mapping 0x1A03, 48 bits.
+    ///
+    /// With mode 3.
+    ///
+    /// Manual, line 5572-5574, 5630-5634.
     pub struct ActualVelocity<B> {
         pub(super) data: B,
         pub(super) bit: usize,
