@@ -253,7 +253,7 @@ impl<'a> Shaper<'a, '_> {
 
     fn echo(&self, field: &str, bytes: Option<(u8, u8)>) -> Result<Step<'a>, Problem> {
         let request = self.request.ok_or(ECHO)?;
-        let missing = if request.names.iter().any(|name| *name == field) { ECHO } else { UNRESOLVED };
+        let missing = if request.names.contains(&field) { ECHO } else { UNRESOLVED };
         let (_, at, bits) = request.places.iter().find(|(name, ..)| *name == field).ok_or(missing)?;
         let is_whole = at.is_multiple_of(8) && bits.is_multiple_of(8);
         let (first, last) = match bytes {

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, HashSet};
 
 use super::owner::{Index, Owner};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Binding, CompactString, Device, IndirectBinding, Item, Procedure, Step, WindowSide};
+use crate::ir::{Binding, CompactString, Device, IndirectBinding, Item, Procedure, Step, Value, WindowSide};
 use crate::text::brief;
 
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
@@ -41,7 +41,7 @@ fn width<'d>(
     diagnostics: &mut Diagnostics,
 ) {
     let bits_of = |item: &Item| owner.basic(item.ty).bits();
-    let Some(bits) = bits_of(item) else { return };
+    let Some(bits) = bits_of(item).map(|bits| bits.min(needed(owner, item))) else { return };
     // On each bus, the widest window counts.
     let mut widest: BTreeMap<(&str, &str), (u32, &CompactString)> = BTreeMap::new();
     for window in windows(item) {
@@ -99,4 +99,14 @@ fn order(
     let message = format!("`{name}` writes the number to `{address}` before the value to `{value}`, and {begins}");
     let span = procedure.step_spans.get(at).copied().unwrap_or(procedure.origin.span);
     diagnostics.push(Diagnostic::new(&codes::WINDOW_ORDER, span, message).help("write the value first"));
+}
+
+/// How many bits the greatest value has, where none is below zero and the greatest is known; else any number.
+fn needed(owner: Owner<'_>, item: &Item) -> u32 {
+    let limit = |limit: &Option<Value>| limit.as_ref().and_then(Value::as_int);
+    let low = limit(&item.limits.low).or_else(|| Some(owner.basic(item.ty).integer_range()?.0));
+    match (low, limit(&item.limits.high)) {
+        (Some(0..), Some(high @ 0..)) => i128::BITS - high.leading_zeros(),
+        _ => u32::MAX,
+    }
 }

@@ -92,7 +92,7 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
                 value(&mut own, fields.next(), Some(list), rules, tail);
             }
             Step::Settings { max, .. } => {
-                own.write.extend(max.into_iter().flat_map(|max| limit("settings.iter().count()", *max)));
+                own.write.extend(max.iter().flat_map(|max| limit("settings.iter().count()", *max)));
                 value(&mut own, fields.next(), None, rules, tail);
             }
             _ => value(&mut own, fields.next(), None, rules, tail),
