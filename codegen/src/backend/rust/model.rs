@@ -215,7 +215,7 @@ impl<'a> Model<'a> {
         model.code_tables = code_table::models(&device.code_tables, options);
         model.axes = axes::model(device, place.nest);
         model.bus_facts = bus_facts::models(device, place.nest);
-        model.bus_facts.extend(composite::models(&device.composites));
+        model.bus_facts.extend(composite::models(&device.composites, place.nest));
         model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);
         model
     }
