@@ -17,7 +17,7 @@ use crate::error::OutOfRange;
 /// assert!(PULSES.split(10_000).is_err());
 ///
 /// // Ten thousands, hundreds and units, beside a sign that is 1 below zero:
-/// const OFFSET: Composite<3> = Composite::new(100).signed(1);
+/// const OFFSET: Composite<3> = Composite::signed(100, 1);
 /// assert_eq!(OFFSET.join_signed(1, [1, 23, 45]), Ok(-12_345));
 /// assert_eq!(OFFSET.split_signed(-12_345), Ok((1, [1, 23, 45])));
 /// ```
@@ -34,10 +34,10 @@ impl<const N: usize> Composite<N> {
         Self { base, negative: None }
     }
 
-    /// The same with an item for the sign, which has this value below zero and 0 otherwise.
+    /// The same with an item for the sign, which has the value `negative` below zero and 0 otherwise.
     #[must_use]
-    pub const fn signed(self, negative: u16) -> Self {
-        Self { negative: Some(negative), ..self }
+    pub const fn signed(base: u16, negative: u16) -> Self {
+        Self { base, negative: Some(negative) }
     }
 
     /// The number of its digits, the most significant one first.
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn signs_are_told_apart() {
-        const OFFSET: Composite<3> = Composite::new(100).signed(1);
+        const OFFSET: Composite<3> = Composite::signed(100, 1);
         for number in [0, 1, -1, 999_999, -999_999] {
             let (sign, digits) = OFFSET.split_signed(number).expect("digits");
             assert_eq!(OFFSET.join_signed(sign, digits), Ok(number));

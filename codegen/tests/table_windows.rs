@@ -155,7 +155,7 @@ fn numbers_in_several_items() {
     let code = rust(&text);
     for part in [
         "/// offset in high, low to the base 100. sign is 2 below zero. In pulse. From the marker.",
-        "pub const OFFSET: rt::Composite<2> = rt::Composite::new(100).signed(2);",
+        "pub const OFFSET: rt::Composite<2> = rt::Composite::signed(100, 2);",
         "rt::Composite<2> = rt::Composite::new(16);",
     ] {
         assert!(code.contains(part), "{part}\n{code}");
@@ -171,4 +171,15 @@ fn numbers_in_several_items() {
         let list = said(&text.replacen(old, new, 1));
         assert!(list.first().is_some_and(|own| own.starts_with(found)), "{found}: {list:?}");
     }
+}
+
+/// Long names break their lines as `prettyplease` would.
+#[test]
+fn constants_keep_the_form_of_generated_code() {
+    let long = "offset of the second axis from the marker of the first one";
+    let text = format!("{WINDOWS}{COMPOSITE}\"{long}\" = {{ parts = [\"high\", \"low\"], base = 50000, sign = \"sign\", negative = 40000 }}\n");
+    let code = rust(&text);
+    let body = code.lines().skip_while(|line| line.starts_with("//") || line.is_empty());
+    let body: String = body.flat_map(|line| [line, "\n"]).collect();
+    assert_eq!(body, prettyplease::unparse(&syn::parse_file(&body).expect("Rust")));
 }

@@ -46,7 +46,7 @@ pub const MASTER_ENCODER_MARKS: rt::Composite<2> = rt::Composite::new(100);
 /// max\_following\_error\_a in A5, A6 to the base 100. In °. Largest following error, of the parameters A.
 pub const MAX_FOLLOWING_ERROR_A: rt::Composite<2> = rt::Composite::new(100);
 /// space\_offset in H6, H7, H8 to the base 100. H5 is 1 below zero. In pulse. Offset in pulses of the master encoder.
-pub const SPACE_OFFSET: rt::Composite<3> = rt::Composite::new(100).signed(1);
+pub const SPACE_OFFSET: rt::Composite<3> = rt::Composite::signed(100, 1);
 /// What a master has to know of Eco.
 pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
     identity: IDENTITY,

@@ -1,6 +1,7 @@
 //! Numbers that are split over several items: a constant for each, which joins and splits them.
 
 use super::bus_facts::{self, FactModel};
+use super::data::Data;
 use super::docs;
 use crate::ir::Composite;
 use crate::passes::names_unique::{self, Case, Wish};
@@ -8,18 +9,19 @@ use crate::passes::names_unique::{self, Case, Wish};
 /// Names of constants that stand beside them.
 const BESIDE: [&str; 6] = ["device", "axes", "module", "entries", "identity", "node_id"];
 
-pub(super) fn models(composites: &[Composite]) -> Vec<FactModel> {
+/// `nest` is how far the text is moved to the right afterwards.
+pub(super) fn models(composites: &[Composite], nest: usize) -> Vec<FactModel> {
     let wishes: Vec<Wish<'_>> = composites.iter().enumerate().map(wish).collect();
     let reserved: Vec<&str> = bus_facts::RESERVED.iter().chain(&BESIDE).copied().collect();
     let names = names_unique::unique(&wishes, &reserved, Case::Snake);
-    composites.iter().zip(names).map(|(own, name)| model(own, &name.to_ascii_uppercase())).collect()
+    composites.iter().zip(names).map(|(own, name)| model(own, &name.to_ascii_uppercase(), nest)).collect()
 }
 
 fn wish((number, own): (usize, &Composite)) -> Wish<'_> {
     Wish { name: &own.name, fallback: format!("composite {number}"), suffix: number.to_string() }
 }
 
-fn model(own: &Composite, name: &str) -> FactModel {
+fn model(own: &Composite, name: &str, nest: usize) -> FactModel {
     let parts: Vec<String> = own.parts.iter().map(|part| docs::escape(part)).collect();
     let mut sentences =
         vec![docs::sentence(&format!("{} in {} to the base {}", docs::escape(&own.name), parts.join(", "), own.base))];
@@ -33,9 +35,12 @@ fn model(own: &Composite, name: &str) -> FactModel {
     if !text.is_empty() {
         sentences.push(docs::sentence(&docs::escape(text)));
     }
-    let sign = own.sign.as_ref().map_or_else(String::new, |(_, value)| format!(".signed({value})"));
-    FactModel {
-        docs: sentences.join(" "),
-        code: format!("pub const {name}: rt::Composite<{}> = rt::Composite::new({}){sign};", own.parts.len(), own.base),
-    }
+    let start = format!("pub const {name}: rt::Composite<{}> = ", own.parts.len());
+    let base = Data::text(own.base.to_string());
+    let value = match &own.sign {
+        None => Data::Call("rt::Composite::new", vec![base]),
+        Some((_, negative)) => Data::Call("rt::Composite::signed", vec![base, Data::text(negative.to_string())]),
+    };
+    let code = format!("{start}{};", value.render(0, start.len(), 1, nest));
+    FactModel { docs: sentences.join(" "), code }
 }

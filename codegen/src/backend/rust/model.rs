@@ -234,7 +234,7 @@ impl<'a> Model<'a> {
         model.axes = axes::model(device, place.nest);
         model.protocol = protocol;
         model.bus_facts = bus_facts::models(device, place.nest);
-        model.bus_facts.extend(composite::models(&device.composites));
+        model.bus_facts.extend(composite::models(&device.composites, place.nest));
         model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);
         model
     }
