@@ -74,10 +74,12 @@ fn part(text: &str, from: &str, to: &str) -> String {
 #[test]
 fn code_of_a_window() {
     let rows = "Gain = { reg = 0x8033, type = \"u32\", access = \"rw\" }\n\
+                \"Other gain\" = { reg = 0x8034, type = \"u32\", access = \"rw\" }\n\
                 Speed = { reg = 0x8017, type = \"i16\", access = \"ro\" }\n\
                 Far = { reg = 0x9000, type = \"i32\", access = \"rw\" }";
     let text = rust(&table(WINDOW, rows, ""));
     insta::assert_snapshot!("window", part(&text, "pub mod windows", "pub mod objects"));
+    insta::assert_snapshot!("maker", part(&text, "const fn place_1", "    }"));
     insta::assert_snapshot!("behind_a_window", part(&text, "    /// Gain.", "pub const FAR"));
 }
 

@@ -54,6 +54,8 @@ pub(super) struct Model<'a> {
     pub has_locations: bool,
     /// Locations that the runtime has no name for: name, documentation and type.
     pub locations: Vec<(String, String, String)>,
+    /// Functions that make locations which several items have: name, parameters, type and body.
+    pub makers: Vec<(String, String, String, String)>,
     /// The windows through which items are found.
     pub windows: Vec<WindowModel>,
     /// What the handles are of, and what one of them is of at the start of a sentence and within it.
@@ -271,6 +273,7 @@ impl<'a> Model<'a> {
             location: locations.name(locations.all, ""),
             has_locations: locations.several,
             locations: locations.own(),
+            makers: locations.makers(),
             windows: window::models(&scope.windows),
             handles: handles(&scope),
             types,
@@ -445,6 +448,14 @@ pub(super) fn registers<'a>(scope: &Scope<'a>) -> Vec<(&'a str, &'a Item)> {
     items.filter(|(_, item)| !Address::of(scope, item).buses().is_empty()).collect()
 }
 
+/// Where the windows are, as seen from the handles.
+const WINDOWS: &str = "super::windows::";
+
+/// The name of the function that makes a location.
+fn maker(at: usize) -> String {
+    format!("place_{}", at + 1)
+}
+
 /// The buses on which items are found.
 struct Locations {
     /// All of them.
@@ -453,13 +464,25 @@ struct Locations {
     several: bool,
     /// Those of each item, each once.
     each: BTreeSet<Buses>,
+    /// What makes the locations that several items have: body, parameters and type.
+    makers: Vec<(String, String, Buses)>,
 }
 
 impl Locations {
     fn of(scope: &Scope<'_>) -> Self {
         let objects = addressable(scope).flat_map(|group| &group.items);
         let items = objects.chain(registers(scope).into_iter().map(|(_, item)| item));
-        let buses: Vec<Buses> = items.map(|item| Address::of(scope, item).buses()).collect();
+        let mut makers: BTreeMap<(String, String), (usize, Buses)> = BTreeMap::new();
+        let buses = items.map(|item| {
+            let address = Address::of(scope, item);
+            if let Some(own) = address.maker(scope, WINDOWS) {
+                makers.entry((own.body, own.parameters)).or_insert((0, address.buses())).0 += 1;
+            }
+            address.buses()
+        });
+        let buses: Vec<Buses> = buses.collect();
+        let makers = makers.into_iter().filter(|(_, (count, _))| *count > 1);
+        let makers = makers.map(|((body, parameters), (_, buses))| (body, parameters, buses)).collect();
         let mut each: BTreeMap<Buses, usize> = BTreeMap::new();
         for own in &buses {
             *each.entry(*own).or_default() += 1;
@@ -469,7 +492,33 @@ impl Locations {
             true => each.keys().fold(Buses::default(), |all, own| all.union(*own)),
             false => each.iter().max_by_key(|(_, count)| **count).map_or(Buses::default(), |(own, _)| *own),
         };
-        Locations { several: buses.iter().any(|own| *own != all), all, each: each.into_keys().chain([all]).collect() }
+        Locations {
+            several: buses.iter().any(|own| *own != all),
+            all,
+            each: each.into_keys().chain([all]).collect(),
+            makers,
+        }
+    }
+
+    /// The functions that make locations.
+    fn makers(&self) -> Vec<(String, String, String, String)> {
+        let named = self.makers.iter().enumerate();
+        named
+            .map(|(at, (body, parameters, buses))| (maker(at), parameters.clone(), self.name(*buses, ""), body.clone()))
+            .collect()
+    }
+
+    /// The code of an item's location; `outer` leads from the handle's place to the device's.
+    fn code(&self, scope: &Scope<'_>, address: &Address<'_>, outer: &str) -> String {
+        let own = address.maker(scope, WINDOWS);
+        let found = own.and_then(|own| {
+            let at = self
+                .makers
+                .iter()
+                .position(|(body, parameters, _)| *body == own.body && *parameters == own.parameters)?;
+            Some(format!("{}{}(«{}»)", outer.strip_prefix("super::").unwrap_or(outer), maker(at), own.arguments))
+        });
+        found.unwrap_or_else(|| address.code(scope, &format!("{outer}windows::")))
     }
 
     /// The name of a location's type; `outer` leads from where it stands to the device's place.
@@ -625,10 +674,10 @@ fn item(scope: &Scope<'_>, locations: &Locations, item: &Item, name: &str, origi
         arguments_at_top: format!("{}{}", path(""), argument("")),
         alias: format!("{}{word}{on}", alias(item.access)),
         constructor: constructor(
-            scope,
+            &|| locations.code(scope, &address, outer),
             &address,
             item,
-            (ty, &literal::string(original), outer),
+            (ty, &literal::string(original)),
             named.map(|_| path(outer)),
         ),
         real: ty.is_real() && (item.default.is_some() || !item.limits.is_empty()),
@@ -639,10 +688,10 @@ fn item(scope: &Scope<'_>, locations: &Locations, item: &Item, name: &str, origi
 
 /// The shortest call that says everything: every argument costs `rustc` a tenth of what the rest of the handle does.
 fn constructor(
-    scope: &Scope<'_>,
+    location: &dyn Fn() -> String,
     address: &Address<'_>,
     item: &Item,
-    (ty, name, outer): (ValueType, &str, &str),
+    (ty, name): (ValueType, &str),
     named: Option<String>,
 ) -> String {
     let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
@@ -679,8 +728,7 @@ fn constructor(
             }
         };
     }
-    let location = address.code(scope, &format!("{outer}windows::"));
-    format!("new(«{location}¦ {name}¦ {range}¦ {initial}¦ {}¦ {flags}»)", literal::string(unit))
+    format!("new(«{}¦ {name}¦ {range}¦ {initial}¦ {}¦ {flags}»)", location(), literal::string(unit))
 }
 
 pub(super) fn flags(item: &Item) -> &'static str {

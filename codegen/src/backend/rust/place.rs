@@ -42,6 +42,13 @@ struct Field<'i> {
     big_endian: bool,
 }
 
+/// What makes a location.
+pub(super) struct Maker {
+    pub parameters: String,
+    pub arguments: String,
+    pub body: String,
+}
+
 /// The buses of a location, and what the route is on each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Buses([Kind; 6]);
@@ -297,12 +304,50 @@ impl<'i> Place<'i> {
     }
 
     fn new_location(&self, scope: &Scope<'_>, windows: &str) -> String {
-        let [canopen, coe, modbus, serial, image, esc] = Net::ALL.map(|net| {
-            let route = self.routes[net as usize];
-            let window = |at: usize| format!("{windows}{}", scope.windows.get(at).map_or("", |own| own.name.as_str()));
-            route.code(&self.address(net).unwrap_or_default(), window)
-        });
+        self.location_of(scope, windows, |net| self.address(net).unwrap_or_default(), None)
+    }
+
+    /// The code of a location whose addresses are `address`, and whose numbers behind windows `number`.
+    fn location_of(
+        &self,
+        scope: &Scope<'_>,
+        windows: &str,
+        address: impl Fn(Net) -> String,
+        number: Option<&str>,
+    ) -> String {
+        let window = |at: usize| format!("{windows}{}", scope.windows.get(at).map_or("", |own| own.name.as_str()));
+        let [canopen, coe, modbus, serial, image, esc] =
+            Net::ALL.map(|net| self.routes[net as usize].code(&address(net), window, number));
         format!("rt::Location::new(«{canopen}¦ {coe}¦ {modbus}¦ rt::Absent¦ {serial}¦ {image}¦ {esc}»)")
+    }
+
+    /// The location as a function of what items differ in, for one that the runtime has no name for: `rustc` takes a third of
+    /// the time for a call of such a function. `windows` leads to the windows of the device.
+    pub fn maker(&self, scope: &Scope<'_>, windows: &str) -> Option<Maker> {
+        let buses = self.buses();
+        if buses.is_empty() || buses.path().is_some() {
+            return None;
+        }
+        let ways = || self.routes.iter().flat_map(Route::ways);
+        let mut numbers = ways().filter_map(|way| Some(way.window?.1));
+        let number = numbers.next();
+        if numbers.any(|other| Some(other) != number) {
+            return None;
+        }
+        let is_addressed = |net: &Net| self.routes[*net as usize].ways().any(|way| way.window.is_none());
+        let addressed = || Net::ALL.into_iter().filter(is_addressed);
+        let mut parameters: Vec<String> =
+            addressed().map(|net| format!("{}: {}", net.word().to_lowercase(), net.address())).collect();
+        let mut arguments: Vec<String> = addressed().filter_map(|net| self.address(net)).collect();
+        if let Some(number) = number {
+            parameters.push("number: u32".to_owned());
+            arguments.push(format!("0x{number:04X}"));
+        }
+        Some(Maker {
+            parameters: parameters.join("¦ "),
+            arguments: arguments.join("¦ "),
+            body: self.location_of(scope, windows, |net| net.word().to_lowercase(), Some("number")),
+        })
     }
 
     /// The code that makes the item's address on a bus.

@@ -159,11 +159,12 @@ impl Way<'_> {
         }
     }
 
-    /// The code that makes it, of that of the address or, through a window, that of the window.
-    pub fn code(&self, at: &str) -> String {
+    /// The code that makes it, of that of the address or, through a window, that of the window; `number` stands for the number.
+    pub fn code(&self, at: &str, number: Option<&str>) -> String {
         let sign = if self.is_signed { "signed" } else { "unsigned" };
-        if let Some((_, number)) = self.window {
-            return format!("rt::Through::{sign}(«0x{number:04X}¦ &{at}»)");
+        if let Some((_, own)) = self.window {
+            let number = number.map_or_else(|| format!("0x{own:04X}"), ToOwned::to_owned);
+            return format!("rt::Through::{sign}(«{number}¦ &{at}»)");
         }
         let own = match self.resized {
             Some(bits) => format!("rt::Resized::{sign}(«{at}¦ {bits}»)"),
@@ -211,11 +212,16 @@ impl Route<'_> {
         }
     }
 
-    /// The code that makes it; `address` is that of the address, and `window` names a window.
-    pub fn code(&self, address: &str, window: impl Fn(usize) -> String) -> String {
+    /// The ways that there are.
+    pub fn ways(&self) -> impl Iterator<Item = &Way<'_>> {
+        self.read.iter().chain(&self.write)
+    }
+
+    /// The code that makes it; `address` is that of the address, `window` names a window, and `number` stands for its number.
+    pub fn code(&self, address: &str, window: impl Fn(usize) -> String, number: Option<&str>) -> String {
         let way = |way: &Way<'_>| match way.window {
-            Some((at, _)) => way.code(&window(at)),
-            None => way.code(address),
+            Some((at, _)) => way.code(&window(at), number),
+            None => way.code(address, None),
         };
         match (self.kind(), &self.read, &self.write) {
             (Kind::Reads(_), Some(read), _) => format!("rt::Split::reading(«{}»)", way(read)),
