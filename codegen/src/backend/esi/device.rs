@@ -116,7 +116,7 @@ fn device_type(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     xml.optional("ProductCode", product.map(|code| hex(code, 8)));
     xml.optional("RevisionNo", revision.map(|number| hex(number, 8)));
     xml.optional("SerialNo", identity.serial_number.map(|number| hex(number, 8)));
-    extras::of_type(xml, &mut context.notes, device);
+    extras::of_type(xml, device);
     let named = [&identity.order_code, &device.name].into_iter().find(|name| !name.is_empty());
     let own = if context.is_esi { Some(&identity.order_code) } else { named };
     let own = context.wanted(options.order_code.clone(), own.map(CompactString::to_string), "order-code");

@@ -45,9 +45,10 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, types: &mut Types<
 /// The entries of an object, each sub-index once.
 fn entries<'g>(group: &'g Group, notes: &mut Notes) -> Vec<(u8, &'g Item)> {
     let mut items: Vec<(u8, &Item)> = Vec::with_capacity(group.items.len());
+    let mut seen = [false; 256];
     for item in &group.items {
         match super::objects::address(item) {
-            Some((_, sub)) if items.iter().all(|(other, _)| *other != sub) => items.push((sub, item)),
+            Some((_, sub)) if !std::mem::replace(&mut seen[usize::from(sub)], true) => items.push((sub, item)),
             Some((index, sub)) => notes.add(NoteKind::Duplicate, Place::Entry(index, sub)),
             None => notes.add(NoteKind::NotAnObject, Place::item(item)),
         }

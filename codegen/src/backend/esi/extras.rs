@@ -1,7 +1,9 @@
 //! Extension attributes that have a place in the file, and time limits.
 
+use std::collections::HashSet;
+
 use super::Context;
-use crate::backend::note::{NoteKind, Notes, Place};
+use crate::backend::note::{NoteKind, Place};
 use crate::backend::xml::Xml;
 use crate::etg::language;
 use crate::ir::{Device, EtherCatSettings, Extension};
@@ -44,25 +46,21 @@ fn find<'e>(list: &'e [Extension], key: &str) -> Option<&'e Extension> {
 /// Extensions of a device that no place was found for.
 pub(super) fn lost(device: &Device) -> usize {
     let all = device.extensions.as_slice();
-    let is_first =
-        |extension: &Extension| find(all, &extension.key).is_some_and(|first| std::ptr::eq(first, extension));
-    let is_told = |extension: &Extension| {
+    let image = IMAGES.iter().find(|key| find(all, key).is_some());
+    let (mut seen, mut lost) = (HashSet::new(), 0);
+    for extension in all {
         let key = extension.key.as_str();
-        matches!(key, URL | URL_LANGUAGE)
-            || is_first(extension)
-                && (key == CURRENT || OF_TYPE.contains(&key) || CONTROLLER.contains(&key) || LAST.contains(&key))
-            || is_first(extension) && IMAGES.contains(&key) && !has_other_image(all, key)
-    };
-    all.iter().filter(|extension| !is_told(extension)).count()
-}
-
-/// Of several pictures there is room for one.
-fn has_other_image(list: &[Extension], key: &str) -> bool {
-    IMAGES.iter().take_while(|other| **other != key).any(|other| find(list, other).is_some())
+        let is_known = key == CURRENT || OF_TYPE.contains(&key) || CONTROLLER.contains(&key) || LAST.contains(&key);
+        // There is room for one of each, and for one picture.
+        let is_single = is_known || image.is_some_and(|image| *image == key);
+        let is_told = matches!(key, URL | URL_LANGUAGE) || is_single && seen.insert(key);
+        lost += usize::from(!is_told);
+    }
+    lost
 }
 
 /// Further attributes of Type.
-pub(super) fn of_type(xml: &mut Xml, _: &mut Notes, device: &Device) {
+pub(super) fn of_type(xml: &mut Xml, device: &Device) {
     for key in OF_TYPE {
         if let Some(extension) = find(&device.extensions, key) {
             xml.attribute(key.trim_start_matches("Type@"), &extension.value);

@@ -1,10 +1,8 @@
 //! Objects with sub-indices, and the records that describe them.
 
-use std::collections::HashSet;
-
 use compact_str::{format_compact, CompactString};
 
-use super::types::{Made, MadeField, Types};
+use super::types::{Made, MadeField, Types, Unique};
 use crate::backend::note::{NoteKind, Notes, Place};
 use crate::ir::{Access, Documentation, Field, Group, Item, Mappable, ObjectCode, Texts, Type};
 
@@ -165,17 +163,8 @@ pub(super) fn field_names(types: &Types<'_>, at: u32) -> Vec<CompactString> {
 }
 
 fn unique_names<'n>(names: impl Iterator<Item = &'n str>) -> Vec<CompactString> {
-    let mut seen: HashSet<CompactString> = HashSet::new();
-    let unique = names.map(|wanted| {
-        let mut name = CompactString::from(wanted);
-        let mut number = 2u32;
-        while !seen.insert(name.clone()) {
-            name = format_compact!("{wanted} ({number})");
-            number += 1;
-        }
-        name
-    });
-    unique.collect()
+    let mut seen = Unique::default();
+    names.map(|wanted| seen.unique(wanted)).collect()
 }
 
 /// The name of an entry that the object gives none.

@@ -17,7 +17,7 @@ pub(super) struct Types<'a> {
     pub(super) defs: &'a [TypeDef],
     /// The name of each, which no other has.
     names: Vec<CompactString>,
-    taken: HashSet<CompactString>,
+    taken: Unique,
     /// Names of basic types.
     basic: HashMap<Type, CompactString>,
     /// Types that are written behind those of the device.
@@ -26,6 +26,27 @@ pub(super) struct Types<'a> {
     pub(super) uses: HashMap<u32, Vec<FieldFacts>>,
     /// Records of the device by the sub-indices and types that an object of them has.
     pub(super) records: HashMap<Vec<(u8, Type)>, Vec<u32>>,
+}
+
+/// Names of which no two are the same.
+#[derive(Default)]
+pub(super) struct Unique {
+    taken: HashSet<CompactString>,
+    /// The number that the next one with a name gets.
+    next: HashMap<CompactString, u32>,
+}
+
+impl Unique {
+    /// The name that is wanted, or that with a number behind it.
+    pub(super) fn unique(&mut self, wanted: &str) -> CompactString {
+        let mut name = CompactString::from(wanted);
+        while !self.taken.insert(name.clone()) {
+            let number = self.next.entry(wanted.into()).or_insert(2);
+            name = format_compact!("{wanted} ({number})");
+            *number += 1;
+        }
+        name
+    }
 }
 
 /// A data type that the device doesn't define.
@@ -50,7 +71,7 @@ impl<'a> Types<'a> {
         let mut types = Types {
             defs,
             names: Vec::with_capacity(defs.len()),
-            taken: HashSet::new(),
+            taken: Unique::default(),
             basic: HashMap::new(),
             made: Vec::new(),
             uses: HashMap::new(),
@@ -80,13 +101,7 @@ impl<'a> Types<'a> {
 
     /// A name that no other type has: the one that is wanted, or that with a number behind it.
     pub(super) fn unique(&mut self, wanted: &str) -> CompactString {
-        let mut name = CompactString::from(if wanted.is_empty() { "Type" } else { wanted });
-        let mut number = 2u32;
-        while !self.taken.insert(name.clone()) {
-            name = format_compact!("{wanted} ({number})");
-            number += 1;
-        }
-        name
+        self.taken.unique(if wanted.is_empty() { "Type" } else { wanted })
     }
 
     /// The name of a type of the device.

@@ -1,5 +1,7 @@
 //! Channel diagnosis, process alarms, diagnosis of user structures and the log book.
 
+use std::collections::HashMap;
+
 use super::types;
 use super::Context;
 use crate::backend::note::{NoteKind, Place};
@@ -70,9 +72,13 @@ fn rows<'c>(catalog: &'c Catalog, name: &'static str) -> Vec<&'c CodeRow> {
 }
 
 fn code_list(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog, list: &'static List) {
-    let (own, mut extended) = (rows(catalog, list.table), rows(catalog, list.extended));
+    let own = rows(catalog, list.table);
     if own.is_empty() {
         return;
+    }
+    let mut extended: HashMap<i128, Vec<&CodeRow>> = HashMap::new();
+    for row in rows(catalog, list.extended) {
+        extended.entry(number(row.cells.first())).or_default().push(row);
     }
     xml.open(list.list);
     for row in own {
@@ -87,14 +93,11 @@ fn code_list(xml: &mut Xml, context: &mut Context<'_>, catalog: &Catalog, list: 
         if prefix != "SystemDefined" {
             texts(xml, context, row);
         }
-        let (within, others) =
-            extended.into_iter().partition(|other: &&CodeRow| number(other.cells.first()) == row.code);
-        extended = others;
-        extended_codes(xml, context, list, within);
+        extended_codes(xml, context, list, extended.remove(&row.code).unwrap_or_default());
         xml.close();
     }
     xml.close();
-    context.notes.add_many(NoteKind::OtherPart, extended.len(), Place::Named(list.extended));
+    context.notes.add_many(NoteKind::OtherPart, extended.values().map(Vec::len).sum(), Place::Named(list.extended));
 }
 
 fn extended_codes(xml: &mut Xml, context: &mut Context<'_>, list: &'static List, rows: Vec<&CodeRow>) {

@@ -34,6 +34,8 @@ mod values;
 pub use super::{Export, MissingFact, Note, NoteKind, Refusal};
 pub use options::Options;
 
+use std::collections::HashSet;
+
 use super::note::{Notes, Place};
 use super::options::Wanted;
 use super::xml::Xml;
@@ -55,8 +57,16 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
         return Err(Refusal::Nothing);
     }
     let texts = TextList::new(&catalog.extensions);
-    let mut context =
-        Context { catalog, options, types: &catalog.types, notes, wanted, texts, is_gsdml: made.is_none() };
+    let mut context = Context {
+        catalog,
+        options,
+        types: &catalog.types,
+        notes,
+        wanted,
+        texts,
+        pluggable_ports: submodule::pluggable_ports(catalog),
+        is_gsdml: made.is_none(),
+    };
     let mut xml = Xml::new();
     root(&mut xml, &mut context);
     context.notes.add_many(NoteKind::Control, xml.dropped, Place::Device);
@@ -105,6 +115,8 @@ struct Context<'a> {
     notes: Notes,
     wanted: Wanted,
     texts: TextList,
+    /// Positions of the ports that can be plugged.
+    pluggable_ports: HashSet<u32>,
     /// Whether the source was a GSDML: then what it leaves out stays left out.
     is_gsdml: bool,
 }

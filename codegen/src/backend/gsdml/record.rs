@@ -1,5 +1,6 @@
 //! Parameter records: constants, parameters and menus.
 
+use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 
 use super::types;
@@ -42,23 +43,24 @@ pub(super) fn list(xml: &mut Xml, context: &mut Context<'_>, submodule: &Submodu
     xml.close();
 }
 
-/// The menus with parameters of a record, those that such menus lead to, and the others.
+/// The menus with parameters of a record and those that are connected with them, and the others.
 fn menus_of<'m>(group: &Group, left: Vec<&'m Menu>) -> (Vec<&'m Menu>, Vec<&'m Menu>) {
-    let mut targets: Vec<&str> = group.items.iter().filter_map(id).map(CompactString::as_str).collect();
-    let mut own = vec![false; left.len()];
-    // A menu belongs where one of its targets is, and where a menu that refers to it is.
-    for _ in 0..left.len() {
-        let mut is_done = true;
-        for (menu, is_own) in left.iter().zip(&mut own) {
-            let is_met = menu.targets.iter().any(|target| targets.contains(&target.as_str()))
-                || targets.contains(&menu.id.as_str());
-            if is_met && !*is_own {
-                (*is_own, is_done) = (true, false);
-                targets.push(&menu.id);
-            }
+    let mut by_name: HashMap<&str, Vec<usize>> = HashMap::new();
+    for (at, menu) in left.iter().enumerate() {
+        for name in menu.targets.iter().chain([&menu.id]) {
+            by_name.entry(name).or_default().push(at);
         }
-        if is_done {
-            break;
+    }
+    let mut own = vec![false; left.len()];
+    let mut names: Vec<&str> = group.items.iter().filter_map(id).map(CompactString::as_str).collect();
+    while let Some(name) = names.pop() {
+        // Each name leads to its menus once.
+        for at in by_name.remove(name).into_iter().flatten() {
+            if let (Some(menu), Some(is_own)) = (left.get(at), own.get_mut(at)) {
+                if !std::mem::replace(is_own, true) {
+                    names.extend(menu.targets.iter().chain([&menu.id]).map(CompactString::as_str));
+                }
+            }
         }
     }
     let (own, others): (Vec<_>, Vec<_>) = left.into_iter().zip(own).partition(|(_, is_own)| *is_own);
@@ -82,7 +84,8 @@ pub(super) fn body(xml: &mut Xml, context: &mut Context<'_>, record: &Record, gr
     group.items.iter().for_each(|item| parameter(xml, context, item));
     if !menus.is_empty() {
         xml.open("MenuList");
-        menus.iter().for_each(|own| menu(xml, context, own, menus));
+        let names: HashSet<&str> = menus.iter().map(|own| own.id.as_str()).collect();
+        menus.iter().for_each(|own| menu(xml, context, own, &names));
         xml.close();
     }
     context.notes.add_many(NoteKind::Extension, group.extensions.len(), Place::Named(&group.name));
@@ -162,14 +165,14 @@ fn allowed(item: &Item) -> Option<String> {
     (!texts.is_empty()).then(|| texts.join(" "))
 }
 
-fn menu(xml: &mut Xml, context: &mut Context<'_>, menu: &Menu, all: &[&Menu]) {
+fn menu(xml: &mut Xml, context: &mut Context<'_>, menu: &Menu, all: &HashSet<&str>) {
     xml.open("MenuItem");
     xml.attribute("ID", &menu.id);
     xml.open("Name");
     xml.attribute("TextId", context.texts.id(&menu.name, &menu.names));
     xml.close();
     for target in &menu.targets {
-        let is_menu = all.iter().any(|other| other.id == *target);
+        let is_menu = all.contains(target.as_str());
         let (element, attribute) =
             if is_menu { ("MenuRef", "MenuTarget") } else { ("ParameterRef", "ParameterTarget") };
         xml.open(element);

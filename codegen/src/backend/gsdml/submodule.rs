@@ -13,17 +13,17 @@ use crate::ir::{Catalog, CompactString, Device, Numbers, ProfinetSettings, Submo
 const INTERFACE: u16 = 0x8000;
 
 /// Whether a submodule is part of what holds it: then it is described there.
-fn is_built_in(catalog: &Catalog, at: u32) -> bool {
-    let Some(submodule) = catalog.submodules.get(at as usize) else { return false };
+fn is_built_in(context: &Context<'_>, at: u32) -> bool {
+    let Some(submodule) = context.catalog.submodules.get(at as usize) else { return false };
     match submodule.kind {
         SubmoduleKind::Virtual | SubmoduleKind::Interface => true,
         SubmoduleKind::Pluggable => false,
-        SubmoduleKind::Port => !pluggable_ports(catalog).contains(&at),
+        SubmoduleKind::Port => !context.pluggable_ports.contains(&at),
     }
 }
 
 /// Ports of the submodule list: those behind the first submodule that can be plugged, and those that can be anywhere.
-fn pluggable_ports(catalog: &Catalog) -> HashSet<u32> {
+pub(super) fn pluggable_ports(catalog: &Catalog) -> HashSet<u32> {
     let uses = |list: &[SubmoduleUse]| -> Vec<(u32, bool)> {
         let is_anywhere = |own: &SubmoduleUse| !own.places.allowed.is_empty() || !own.places.used.is_empty();
         list.iter().map(|own| (own.submodule.0, is_anywhere(own))).collect()
@@ -53,7 +53,7 @@ pub(super) fn built_in(
     let catalog = context.catalog;
     let own: Vec<(&Submodule, &SubmoduleUse)> = uses
         .iter()
-        .filter(|own| is_built_in(catalog, own.submodule.0))
+        .filter(|own| is_built_in(context, own.submodule.0))
         .filter_map(|own| Some((catalog.submodules.get(own.submodule.0 as usize)?, own)))
         .collect();
     let (ordinary, system): (Vec<_>, Vec<_>) =
@@ -85,8 +85,8 @@ pub(super) fn built_in(
 /// References to submodules that can be plugged.
 pub(super) fn useable(xml: &mut Xml, context: &mut Context<'_>, uses: &[SubmoduleUse]) {
     let catalog = context.catalog;
-    let mut others = uses.iter().filter(|own| !is_built_in(catalog, own.submodule.0)).peekable();
-    if others.peek().is_none() {
+    let others: Vec<&SubmoduleUse> = uses.iter().filter(|own| !is_built_in(context, own.submodule.0)).collect();
+    if others.is_empty() {
         return;
     }
     xml.open("UseableSubmodules");
@@ -103,14 +103,13 @@ pub(super) fn useable(xml: &mut Xml, context: &mut Context<'_>, uses: &[Submodul
 /// Writes SubmoduleList.
 pub(super) fn pluggable(xml: &mut Xml, context: &mut Context<'_>) {
     let catalog = context.catalog;
-    let ports = pluggable_ports(catalog);
     let is_own = |(at, submodule): &(u32, &Submodule)| match submodule.kind {
         SubmoduleKind::Pluggable => true,
-        SubmoduleKind::Port => ports.contains(at),
+        SubmoduleKind::Port => context.pluggable_ports.contains(at),
         SubmoduleKind::Virtual | SubmoduleKind::Interface => false,
     };
-    let mut own = (0u32..).zip(&catalog.submodules).filter(is_own).peekable();
-    if own.peek().is_none() {
+    let own: Vec<(u32, &Submodule)> = (0u32..).zip(&catalog.submodules).filter(is_own).collect();
+    if own.is_empty() {
         return;
     }
     xml.open("SubmoduleList");

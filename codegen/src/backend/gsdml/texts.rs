@@ -8,6 +8,9 @@ use crate::backend::note::{NoteKind, Notes, Place};
 use crate::backend::xml::Xml;
 use crate::ir::{Documentation, Extension, LocalText, Texts};
 
+/// A language, and its texts by their identifiers.
+type Language<'t> = (&'t CompactString, Vec<(&'t CompactString, &'t CompactString)>);
+
 /// Texts so far.
 #[derive(Default)]
 pub(super) struct TextList {
@@ -83,6 +86,27 @@ impl TextList {
         xml.close();
     }
 
+    /// The languages in the order in which they occur, each with its texts.
+    fn translations(&self) -> Vec<Language<'_>> {
+        let mut places: HashMap<&str, usize> = HashMap::new();
+        let mut languages: Vec<Language<'_>> = Vec::new();
+        for (id, _, names) in &self.texts {
+            for local in names.iter() {
+                let at = *places.entry(&local.language).or_insert(languages.len());
+                if at == languages.len() {
+                    languages.push((&local.language, Vec::new()));
+                }
+                // Of two texts in one language the first one counts.
+                if let Some((_, own)) =
+                    languages.get_mut(at).filter(|(_, own)| own.last().is_none_or(|last| last.0 != id))
+                {
+                    own.push((id, &local.text));
+                }
+            }
+        }
+        languages
+    }
+
     /// Writes ExternalTextList.
     pub(super) fn write(self, xml: &mut Xml, notes: &mut Notes) {
         xml.open("ExternalTextList");
@@ -91,23 +115,14 @@ impl TextList {
             text(xml, id, value);
         }
         xml.close();
-        let mut languages: Vec<&CompactString> = Vec::new();
-        for local in self.texts.iter().flat_map(|(_, _, names)| names.iter()) {
-            if !languages.contains(&&local.language) {
-                languages.push(&local.language);
-            }
-        }
-        for language in languages {
-            let own = self.texts.iter().filter_map(|(id, _, names)| {
-                names.iter().find(|local| local.language == *language).map(|local| (id, &local.text))
-            });
+        for (language, own) in self.translations() {
             if !is_tag(language) {
-                notes.add_many(NoteKind::Language, own.count(), Place::Named(language));
+                notes.add_many(NoteKind::Language, own.len(), Place::Named(language));
                 continue;
             }
             xml.open("Language");
             xml.attribute("xml:lang", language);
-            own.for_each(|(id, value)| text(xml, id, value));
+            own.into_iter().for_each(|(id, value)| text(xml, id, value));
             xml.close();
         }
         xml.close();
