@@ -7131,6 +7131,214 @@ pub mod objects {
         >,
         rt::Absent,
     >;
+    const fn place_1(
+        canopen: rt::Object,
+        coe: rt::Object,
+        modbus: rt::Register,
+        image: rt::ImageField,
+    ) -> OnCanOpenCoEModbusImage {
+        rt::Location::new(
+            canopen,
+            coe,
+            modbus,
+            rt::Absent,
+            rt::Absent,
+            image,
+            rt::Absent,
+        )
+    }
+    const fn place_2(
+        canopen: rt::Object,
+        coe: rt::Object,
+        modbus: rt::Register,
+        number: u32,
+    ) -> OnCanOpenCoEModbusImageWindows {
+        rt::Location::new(
+            canopen,
+            coe,
+            modbus,
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(number, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(number, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        )
+    }
+    const fn place_3(
+        canopen: rt::Object,
+        coe: rt::Object,
+        modbus: rt::Register,
+        image: rt::ImageField,
+        number: u32,
+    ) -> OnCanOpenCoEModbusImageWindowInOut {
+        rt::Location::new(
+            canopen,
+            coe,
+            modbus,
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(number, &super::windows::REGISTER_READ_IMAGE),
+                image,
+            ),
+            rt::Absent,
+        )
+    }
+    const fn place_4(
+        canopen: rt::Object,
+        coe: rt::Object,
+        modbus: rt::Register,
+        number: u32,
+    ) -> OnCanOpenCoEModbusImageWindows {
+        rt::Location::new(
+            canopen,
+            coe,
+            modbus,
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(number, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::unsigned(number, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        )
+    }
+    const fn place_5(
+        canopen: rt::Object,
+        coe: rt::Object,
+        modbus: rt::Register,
+        number: u32,
+    ) -> OnCanOpenCoEModbusImageWindowIn {
+        rt::Location::new(
+            canopen,
+            coe,
+            modbus,
+            rt::Absent,
+            rt::Absent,
+            rt::Split::reading(
+                rt::Through::signed(number, &super::windows::REGISTER_READ_IMAGE),
+            ),
+            rt::Absent,
+        )
+    }
+    const fn place_6(image: rt::ImageField) -> OnImageOut {
+        rt::Location::new(
+            rt::Absent,
+            rt::Absent,
+            rt::Absent,
+            rt::Absent,
+            rt::Absent,
+            rt::Split::writing(image),
+            rt::Absent,
+        )
+    }
+    const fn place_7(
+        modbus: rt::Register,
+        number: u32,
+    ) -> OnCanOpenWindowsCoEWindowsModbusImageWindows {
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::signed(number, &super::windows::REGISTER_READ_CANOPEN),
+                rt::Through::signed(number, &super::windows::REGISTER_WRITE_CANOPEN),
+            ),
+            rt::Split::new(
+                rt::Through::signed(number, &super::windows::REGISTER_READ_COE),
+                rt::Through::signed(number, &super::windows::REGISTER_WRITE_COE),
+            ),
+            modbus,
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::signed(number, &super::windows::REGISTER_READ_IMAGE),
+                rt::Through::signed(number, &super::windows::REGISTER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        )
+    }
+    const fn place_8(
+        modbus: rt::Register,
+        number: u32,
+    ) -> OnCanOpenWindowsCoEWindowsModbusImageWindows {
+        rt::Location::new(
+            rt::Split::new(
+                rt::Through::unsigned(number, &super::windows::PARAMETER_READ_CANOPEN_0),
+                rt::Through::unsigned(number, &super::windows::PARAMETER_WRITE_CANOPEN_0),
+            ),
+            rt::Split::new(
+                rt::Through::unsigned(number, &super::windows::PARAMETER_READ_COE_0),
+                rt::Through::unsigned(number, &super::windows::PARAMETER_WRITE_COE_0),
+            ),
+            modbus,
+            rt::Absent,
+            rt::Absent,
+            rt::Split::new(
+                rt::Through::unsigned(number, &super::windows::PARAMETER_READ_IMAGE),
+                rt::Through::unsigned(number, &super::windows::PARAMETER_WRITE_IMAGE),
+            ),
+            rt::Absent,
+        )
+    }
+    const fn place_9(
+        modbus: rt::Register,
+        number: u32,
+    ) -> OnCanOpenWindowInCoEWindowInModbusImageWindowIn {
+        rt::Location::new(
+            rt::Split::reading(
+                rt::Through::signed(number, &super::windows::REGISTER_READ_CANOPEN),
+            ),
+            rt::Split::reading(
+                rt::Through::signed(number, &super::windows::REGISTER_READ_COE),
+            ),
+            modbus,
+            rt::Absent,
+            rt::Absent,
+            rt::Split::reading(
+                rt::Through::signed(number, &super::windows::REGISTER_READ_IMAGE),
+            ),
+            rt::Absent,
+        )
+    }
+    const fn place_10(
+        modbus: rt::Register,
+        number: u32,
+    ) -> OnCanOpenWindowInCoEWindowInModbusImageWindowIn {
+        rt::Location::new(
+            rt::Split::reading(
+                rt::Through::unsigned(number, &super::windows::PARAMETER_READ_CANOPEN_0),
+            ),
+            rt::Split::reading(
+                rt::Through::unsigned(number, &super::windows::PARAMETER_READ_COE_0),
+            ),
+            modbus,
+            rt::Absent,
+            rt::Absent,
+            rt::Split::reading(
+                rt::Through::unsigned(number, &super::windows::PARAMETER_READ_IMAGE),
+            ),
+            rt::Absent,
+        )
+    }
+    const fn place_11(
+        modbus: rt::Register,
+        image: rt::ImageField,
+        number: u32,
+    ) -> OnCanOpenWindowInCoEWindowInModbusImage {
+        rt::Location::new(
+            rt::Split::reading(
+                rt::Through::unsigned(number, &super::windows::REGISTER_READ_CANOPEN),
+            ),
+            rt::Split::reading(
+                rt::Through::unsigned(number, &super::windows::REGISTER_READ_COE),
+            ),
+            modbus,
+            rt::Absent,
+            rt::Absent,
+            image,
+            rt::Absent,
+        )
+    }
     /// A register or an entry that can be read.
     pub type ReadOnly<V, L = rt::OnCanOpenAndCoE> = rt::Item<V, rt::Ro, L>;
     /// A register or an entry that can be written.
@@ -7435,15 +7643,7 @@ pub mod objects {
     ///
     /// Manual, line 6095, 6298-6304: Variable Read Address.
     pub const CYCLIC_READ_ADDRESS: ReadWrite<u16, OnImageOut> = ReadWriteU16OnImageOut::new(
-        rt::Location::new(
-            rt::Absent,
-            rt::Absent,
-            rt::Absent,
-            rt::Absent,
-            rt::Absent,
-            rt::Split::writing(rt::ImageField::output(192, 16)),
-            rt::Absent,
-        ),
+        place_6(rt::ImageField::output(192, 16)),
         "cyclic read address",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -7460,15 +7660,7 @@ pub mod objects {
     ///
     /// Note: Neither an order of address and value nor an acknowledgement is described (L6306-6312). Chosen: both in one cycle (an old address with a new value would write another variable).
     pub const CYCLIC_WRITE_ADDRESS: ReadWrite<u16, OnImageOut> = ReadWriteU16OnImageOut::new(
-        rt::Location::new(
-            rt::Absent,
-            rt::Absent,
-            rt::Absent,
-            rt::Absent,
-            rt::Absent,
-            rt::Split::writing(rt::ImageField::output(208, 16)),
-            rt::Absent,
-        ),
+        place_6(rt::ImageField::output(208, 16)),
         "cyclic write address",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -7481,15 +7673,7 @@ pub mod objects {
     ///
     /// Manual, line 6098, 6311: Variable Write Value.
     pub const CYCLIC_WRITE_VALUE: ReadWrite<u32, OnImageOut> = ReadWriteU32OnImageOut::new(
-        rt::Location::new(
-            rt::Absent,
-            rt::Absent,
-            rt::Absent,
-            rt::Absent,
-            rt::Absent,
-            rt::Split::writing(rt::ImageField::output(224, 32)),
-            rt::Absent,
-        ),
+        place_6(rt::ImageField::output(224, 32)),
         "cyclic write value",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -7614,17 +7798,12 @@ pub mod objects {
         rt::OrNone<rt::PerItem<u32, 1>, 4294967295>,
         OnCanOpenCoEModbusImageWindowInOut,
     > = ReadWritePerItemU32Times1Per1OrNone4294967295OnCanOpenCoEModbusImageWindowInOut::new(
-        rt::Location::new(
+        place_3(
             rt::Object::new(0x6065, 0x00),
             rt::Object::new(0x6065, 0x00),
             rt::Register::high_first(32771, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x8003, &super::windows::REGISTER_READ_IMAGE),
-                rt::ImageField::output(96, 32),
-            ),
-            rt::Absent,
+            rt::ImageField::output(96, 32),
+            0x8003,
         ),
         "following_error_window",
         rt::Range::Full,
@@ -7642,17 +7821,11 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 130, 3783: Following\_error\_timeout.
     pub const FOLLOWING_ERROR_TIMEOUT: ReadWrite<u16, OnCanOpenCoEModbusImageWindows> = ReadWriteU16OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_4(
             rt::Object::new(0x6066, 0x00),
             rt::Object::new(0x6066, 0x00),
             rt::Register::high_first(32772, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x8004, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::unsigned(0x8004, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8004,
         ),
         "following_error_timeout",
         rt::Range::To(8191),
@@ -7677,18 +7850,10 @@ pub mod objects {
         super::types::DriveStatus,
         OnCanOpenWindowInCoEWindowInModbusImage,
     > = ReadOnlyNamedDriveStatusOnCanOpenWindowInCoEWindowInModbusImage::new(
-        rt::Location::new(
-            rt::Split::reading(
-                rt::Through::unsigned(0x8005, &super::windows::REGISTER_READ_CANOPEN),
-            ),
-            rt::Split::reading(
-                rt::Through::unsigned(0x8005, &super::windows::REGISTER_READ_COE),
-            ),
+        place_11(
             rt::Register::high_first(32773, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
             rt::ImageField::input(0, 16),
-            rt::Absent,
+            0x8005,
         ),
         "status_word",
         rt::Range::Full,
@@ -7711,14 +7876,11 @@ pub mod objects {
         rt::PerItem<i32, 1>,
         OnCanOpenCoEModbusImage,
     > = ReadOnlyPerItemI32Times1Per1OnCanOpenCoEModbusImage::new(
-        rt::Location::new(
+        place_1(
             rt::Object::new(0x6064, 0x00),
             rt::Object::new(0x6064, 0x00),
             rt::Register::high_first(32774, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
             rt::ImageField::input(24, 32),
-            rt::Absent,
         ),
         "position_actual_value",
         rt::Range::Full,
@@ -7743,17 +7905,11 @@ pub mod objects {
         rt::PerItem<i32, 1>,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWritePerItemI32Times1Per1OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x2001, 0x00),
             rt::Object::new(0x2001, 0x00),
             rt::Register::high_first(32775, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8007, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8007, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8007,
         ),
         "latched_position",
         rt::Range::Full,
@@ -7774,14 +7930,11 @@ pub mod objects {
         rt::PerItem<i32, 60>,
         OnCanOpenCoEModbusImage,
     > = ReadOnlyPerItemI32Times60Per1OnCanOpenCoEModbusImage::new(
-        rt::Location::new(
+        place_1(
             rt::Object::new(0x606C, 0x00),
             rt::Object::new(0x606C, 0x00),
             rt::Register::high_first(32776, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
             rt::ImageField::input(160, 32),
-            rt::Absent,
         ),
         "velocity_actual_value",
         rt::Range::Full,
@@ -7833,17 +7986,12 @@ pub mod objects {
         rt::PerItem<u32, 1000>,
         OnCanOpenCoEModbusImageWindowInOut,
     > = ReadWritePerItemU32Times1000Per1OnCanOpenCoEModbusImageWindowInOut::new(
-        rt::Location::new(
+        place_3(
             rt::Object::new(0x6083, 0x00),
             rt::Object::new(0x6083, 0x00),
             rt::Register::high_first(32778, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x800A, &super::windows::REGISTER_READ_IMAGE),
-                rt::ImageField::output(128, 32),
-            ),
-            rt::Absent,
+            rt::ImageField::output(128, 32),
+            0x800A,
         ),
         "profile_acceleration",
         rt::Range::To(2147483647),
@@ -7864,17 +8012,12 @@ pub mod objects {
         rt::PerItem<u32, 1000>,
         OnCanOpenCoEModbusImageWindowInOut,
     > = ReadWritePerItemU32Times1000Per1OnCanOpenCoEModbusImageWindowInOut::new(
-        rt::Location::new(
+        place_3(
             rt::Object::new(0x6084, 0x00),
             rt::Object::new(0x6084, 0x00),
             rt::Register::high_first(32779, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x800B, &super::windows::REGISTER_READ_IMAGE),
-                rt::ImageField::output(160, 32),
-            ),
-            rt::Absent,
+            rt::ImageField::output(160, 32),
+            0x800B,
         ),
         "profile_deceleration",
         rt::Range::To(2147483647),
@@ -7897,17 +8040,12 @@ pub mod objects {
         rt::PerItem<u32, 60>,
         OnCanOpenCoEModbusImageWindowInOut,
     > = ReadWritePerItemU32Times60Per1OnCanOpenCoEModbusImageWindowInOut::new(
-        rt::Location::new(
+        place_3(
             rt::Object::new(0x6081, 0x00),
             rt::Object::new(0x6081, 0x00),
             rt::Register::high_first(32780, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x800C, &super::windows::REGISTER_READ_IMAGE),
-                rt::ImageField::output(64, 32),
-            ),
-            rt::Absent,
+            rt::ImageField::output(64, 32),
+            0x800C,
         ),
         "profile_velocity",
         rt::Range::To(2147483647),
@@ -7928,17 +8066,11 @@ pub mod objects {
         rt::PerItem<i32, 60>,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWritePerItemI32Times60Per1OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x60FF, 0x00),
             rt::Object::new(0x60FF, 0x00),
             rt::Register::high_first(32781, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x800D, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x800D, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x800D,
         ),
         "target_velocity",
         rt::Range::Full,
@@ -7961,17 +8093,11 @@ pub mod objects {
         rt::OrNone<rt::Scaled<u16, 1>, 65535>,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWriteU16Times1Per1OrNone65535OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_4(
             rt::Object::new(0x606D, 0x00),
             rt::Object::new(0x606D, 0x00),
             rt::Register::high_first(32782, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x800E, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::unsigned(0x800E, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x800E,
         ),
         "velocity_window",
         rt::Range::Full,
@@ -7989,17 +8115,11 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 243, 3788.
     pub const VELOCITY_WINDOW_TIME: ReadWrite<u16, OnCanOpenCoEModbusImageWindows> = ReadWriteU16OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_4(
             rt::Object::new(0x606E, 0x00),
             rt::Object::new(0x606E, 0x00),
             rt::Register::high_first(32783, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x800F, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::unsigned(0x800F, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x800F,
         ),
         "velocity_window_time",
         rt::Range::To(32767),
@@ -8022,17 +8142,11 @@ pub mod objects {
         rt::OrNone<rt::Scaled<u16, 1>, 65535>,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWriteU16Times1Per1OrNone65535OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_4(
             rt::Object::new(0x606F, 0x00),
             rt::Object::new(0x606F, 0x00),
             rt::Register::high_first(32784, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x8010, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::unsigned(0x8010, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8010,
         ),
         "velocity_threshold",
         rt::Range::Full,
@@ -8050,17 +8164,11 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 245, 3790.
     pub const VELOCITY_THRESHOLD_TIME: ReadWrite<u16, OnCanOpenCoEModbusImageWindows> = ReadWriteU16OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_4(
             rt::Object::new(0x6070, 0x00),
             rt::Object::new(0x6070, 0x00),
             rt::Register::high_first(32785, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x8011, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::unsigned(0x8011, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8011,
         ),
         "velocity_threshold_time",
         rt::Range::To(32767),
@@ -8083,17 +8191,11 @@ pub mod objects {
         super::types::HomingMethod,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWriteNamedHomingMethodOnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_4(
             rt::Object::new(0x6098, 0x00),
             rt::Object::new(0x6098, 0x00),
             rt::Register::high_first(32786, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x8012, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::unsigned(0x8012, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8012,
         ),
         "homing_method",
         rt::Range::Full,
@@ -8114,17 +8216,11 @@ pub mod objects {
         rt::PerItem<i32, 1>,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWritePerItemI32Times1Per1OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x607C, 0x00),
             rt::Object::new(0x607C, 0x00),
             rt::Register::high_first(32787, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8013, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8013, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8013,
         ),
         "home_offset",
         rt::Range::Full,
@@ -8145,17 +8241,11 @@ pub mod objects {
         rt::PerItem<u32, 1000>,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWritePerItemU32Times1000Per1OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_4(
             rt::Object::new(0x609A, 0x00),
             rt::Object::new(0x609A, 0x00),
             rt::Register::high_first(32790, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x8016, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::unsigned(0x8016, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8016,
         ),
         "homing_acceleration",
         rt::Range::To(2147483647),
@@ -8176,20 +8266,9 @@ pub mod objects {
         i16,
         OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
     > = ReadOnlyI16OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
-        rt::Location::new(
-            rt::Split::reading(
-                rt::Through::signed(0x8017, &super::windows::REGISTER_READ_CANOPEN),
-            ),
-            rt::Split::reading(
-                rt::Through::signed(0x8017, &super::windows::REGISTER_READ_COE),
-            ),
+        place_9(
             rt::Register::high_first(32791, 2).sign_extended().words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::reading(
-                rt::Through::signed(0x8017, &super::windows::REGISTER_READ_IMAGE),
-            ),
-            rt::Absent,
+            0x8017,
         ),
         "velocity_master_sensor",
         rt::Range::Full,
@@ -8210,17 +8289,11 @@ pub mod objects {
         u16,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWriteU16OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_4(
             rt::Object::new(0x3000, 0x00),
             rt::Object::new(0x3000, 0x00),
             rt::Register::high_first(32792, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x8018, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::unsigned(0x8018, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8018,
         ),
         "master_encoder_increments",
         rt::Range::Between(1, 32767),
@@ -8238,17 +8311,11 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 269, 3879.
     pub const GEAR_RATIO_NUMERATOR: ReadWrite<u8, OnCanOpenCoEModbusImageWindows> = ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_4(
             rt::Object::new(0x3001, 0x00),
             rt::Object::new(0x3001, 0x00),
             rt::Register::high_first(32793, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x8019, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::unsigned(0x8019, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8019,
         ),
         "gear_ratio_numerator",
         rt::Range::Between(1, 32),
@@ -8266,17 +8333,11 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 270, 3880.
     pub const GEAR_RATIO_DIVISOR: ReadWrite<u8, OnCanOpenCoEModbusImageWindows> = ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_4(
             rt::Object::new(0x3002, 0x00),
             rt::Object::new(0x3002, 0x00),
             rt::Register::high_first(32794, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x801A, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::unsigned(0x801A, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x801A,
         ),
         "gear_ratio_divisor",
         rt::Range::From(1),
@@ -8297,17 +8358,11 @@ pub mod objects {
         super::types::MotionProfile,
         OnCanOpenCoEModbusImageWindows,
     > = ReadWriteNamedMotionProfileOnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x6086, 0x00),
             rt::Object::new(0x6086, 0x00),
             rt::Register::high_first(32795, 2).sign_extended().words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x801B, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x801B, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x801B,
         ),
         "motion_profile_type",
         rt::Range::Full,
@@ -8325,17 +8380,11 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 276, 3881.
     pub const ACCELERATION_JERK: ReadWrite<u8, OnCanOpenCoEModbusImageWindows> = ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_4(
             rt::Object::new(0x3100, 0x00),
             rt::Object::new(0x3100, 0x00),
             rt::Register::high_first(32796, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x801C, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::unsigned(0x801C, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x801C,
         ),
         "acceleration_jerk",
         rt::Range::Between(1, 99),
@@ -8353,17 +8402,11 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 278, 3882.
     pub const DECELERATION_JERK: ReadWrite<u8, OnCanOpenCoEModbusImageWindows> = ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_4(
             rt::Object::new(0x3101, 0x00),
             rt::Object::new(0x3101, 0x00),
             rt::Register::high_first(32797, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x801D, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::unsigned(0x801D, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x801D,
         ),
         "deceleration_jerk",
         rt::Range::Between(1, 99),
@@ -8381,17 +8424,11 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 279-282, 3883: Aux in 1.
     pub const AUX_IN_1: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x3201, 0x00),
             rt::Object::new(0x3201, 0x00),
             rt::Register::high_first(32798, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x801E, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x801E, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x801E,
         ),
         "aux_in_1",
         rt::Range::Full,
@@ -8409,17 +8446,11 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 284-287, 3884: Aux in 2.
     pub const AUX_IN_2: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x3202, 0x00),
             rt::Object::new(0x3202, 0x00),
             rt::Register::high_first(32799, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x801F, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x801F, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x801F,
         ),
         "aux_in_2",
         rt::Range::Full,
@@ -8439,16 +8470,11 @@ pub mod objects {
     ///
     /// Note: Kept over power-off (L289), and ro and not in the list of saved objects (L3885, L3361-3407). Chosen: as printed (the register's own row says so).
     pub const AUX_OUT_1: ReadOnly<i32, OnCanOpenCoEModbusImageWindowIn> = ReadOnlyI32OnCanOpenCoEModbusImageWindowIn::new(
-        rt::Location::new(
+        place_5(
             rt::Object::new(0x3301, 0x00),
             rt::Object::new(0x3301, 0x00),
             rt::Register::high_first(32800, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::reading(
-                rt::Through::signed(0x8020, &super::windows::REGISTER_READ_IMAGE),
-            ),
-            rt::Absent,
+            0x8020,
         ),
         "aux_out_1",
         rt::Range::Full,
@@ -8468,16 +8494,11 @@ pub mod objects {
     ///
     /// Note: Kept over power-off (L294), and ro and not in the list of saved objects (L3886, L3361-3407). Chosen: as printed (the register's own row says so).
     pub const AUX_OUT_2: ReadOnly<i32, OnCanOpenCoEModbusImageWindowIn> = ReadOnlyI32OnCanOpenCoEModbusImageWindowIn::new(
-        rt::Location::new(
+        place_5(
             rt::Object::new(0x3302, 0x00),
             rt::Object::new(0x3302, 0x00),
             rt::Register::high_first(32801, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::reading(
-                rt::Through::signed(0x8021, &super::windows::REGISTER_READ_IMAGE),
-            ),
-            rt::Absent,
+            0x8021,
         ),
         "aux_out_2",
         rt::Range::Full,
@@ -8497,17 +8518,11 @@ pub mod objects {
     ///
     /// Note: 0x80000000 to 0x7FFFFFFF in the register (L299-302), and two bytes in 0x3401, whose name is Aux16 In 3 (L3887). Chosen: 16 bits with sign (its neighbours R35 and R36 have them; what doesn't fit 16 bits can't go over CANopen).
     pub const AUX_IN_3: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x3401, 0x00),
             rt::Object::new(0x3401, 0x00),
             rt::Register::high_first(32802, 2).sign_extended().words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8022, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8022, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8022,
         ),
         "aux_in_3",
         rt::Range::Full,
@@ -8527,17 +8542,11 @@ pub mod objects {
     ///
     /// Note: Torque max, with Object CANopen (0x3402) in the cell of its name (L304), and Aux16 In 4 there (L3888). Chosen: both are one value (the row names the object).
     pub const TORQUE_MAX: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x3402, 0x00),
             rt::Object::new(0x3402, 0x00),
             rt::Register::high_first(32803, 2).sign_extended().words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8023, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8023, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8023,
         ),
         "torque_max",
         rt::Range::Full,
@@ -8559,16 +8568,11 @@ pub mod objects {
     ///
     /// Note: Kept over power-off (L309), and ro and not in the list of saved objects (L3889, L3361-3407). Chosen: as printed (the register's own row says so).
     pub const AUX16_OUT_3: ReadOnly<i16, OnCanOpenCoEModbusImageWindowIn> = ReadOnlyI16OnCanOpenCoEModbusImageWindowIn::new(
-        rt::Location::new(
+        place_5(
             rt::Object::new(0x3501, 0x00),
             rt::Object::new(0x3501, 0x00),
             rt::Register::high_first(32804, 2).sign_extended().words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::reading(
-                rt::Through::signed(0x8024, &super::windows::REGISTER_READ_IMAGE),
-            ),
-            rt::Absent,
+            0x8024,
         ),
         "aux16_out_3",
         rt::Range::Full,
@@ -8588,16 +8592,11 @@ pub mod objects {
     ///
     /// Note: Kept over power-off (L314), and ro and not in the list of saved objects (L3890, L3361-3407). Chosen: as printed (the register's own row says so).
     pub const AUX16_OUT_4: ReadOnly<i16, OnCanOpenCoEModbusImageWindowIn> = ReadOnlyI16OnCanOpenCoEModbusImageWindowIn::new(
-        rt::Location::new(
+        place_5(
             rt::Object::new(0x3502, 0x00),
             rt::Object::new(0x3502, 0x00),
             rt::Register::high_first(32805, 2).sign_extended().words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::reading(
-                rt::Through::signed(0x8025, &super::windows::REGISTER_READ_IMAGE),
-            ),
-            rt::Absent,
+            0x8025,
         ),
         "aux16_out_4",
         rt::Range::Full,
@@ -8615,17 +8614,11 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 319-322, 3891.
     pub const AUX_IN_5: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x3601, 0x00),
             rt::Object::new(0x3601, 0x00),
             rt::Register::high_first(32806, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8026, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8026, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8026,
         ),
         "aux_in_5",
         rt::Range::Full,
@@ -8643,17 +8636,11 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 324-327, 3892.
     pub const AUX_IN_6: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x3602, 0x00),
             rt::Object::new(0x3602, 0x00),
             rt::Register::high_first(32807, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8027, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8027, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8027,
         ),
         "aux_in_6",
         rt::Range::Full,
@@ -8671,17 +8658,11 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 329-332, 3893.
     pub const AUX_IN_7: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x3603, 0x00),
             rt::Object::new(0x3603, 0x00),
             rt::Register::high_first(32808, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8028, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8028, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8028,
         ),
         "aux_in_7",
         rt::Range::Full,
@@ -8699,17 +8680,11 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 334-337, 3894.
     pub const AUX_IN_8: ReadWrite<i32, OnCanOpenCoEModbusImageWindows> = ReadWriteI32OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x3604, 0x00),
             rt::Object::new(0x3604, 0x00),
             rt::Register::high_first(32809, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8029, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8029, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x8029,
         ),
         "aux_in_8",
         rt::Range::Full,
@@ -8729,17 +8704,11 @@ pub mod objects {
     ///
     /// Note: 0x80000000 to 0x7FFFFFFF in the register (L339-342), and two bytes in 0x3701, whose name is Aux16 In 9 (L3895). Chosen: 16 bits with sign (its name and its neighbours R43 to R45 have them).
     pub const AUX16_IN_9: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x3701, 0x00),
             rt::Object::new(0x3701, 0x00),
             rt::Register::high_first(32810, 2).sign_extended().words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x802A, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x802A, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x802A,
         ),
         "aux16_in_9",
         rt::Range::Full,
@@ -8759,17 +8728,11 @@ pub mod objects {
     ///
     /// Note: Input 10 is 0x3701 in the list of saved objects, as input 9 (L3397). Chosen: 0x3702 (the table of objects has it so (L3896)).
     pub const AUX16_IN_10: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x3702, 0x00),
             rt::Object::new(0x3702, 0x00),
             rt::Register::high_first(32811, 2).sign_extended().words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x802B, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x802B, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x802B,
         ),
         "aux16_in_10",
         rt::Range::Full,
@@ -8789,17 +8752,11 @@ pub mod objects {
     ///
     /// Note: Input 11 is 0x3701 in the list of saved objects, as input 9 (L3403). Chosen: 0x3703 (the table of objects has it so (L3897)).
     pub const AUX16_IN_11: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x3703, 0x00),
             rt::Object::new(0x3703, 0x00),
             rt::Register::high_first(32812, 2).sign_extended().words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x802C, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x802C, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x802C,
         ),
         "aux16_in_11",
         rt::Range::Full,
@@ -8817,17 +8774,11 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 355-358, 3898.
     pub const AUX16_IN_12: ReadWrite<i16, OnCanOpenCoEModbusImageWindows> = ReadWriteI16OnCanOpenCoEModbusImageWindows::new(
-        rt::Location::new(
+        place_2(
             rt::Object::new(0x3704, 0x00),
             rt::Object::new(0x3704, 0x00),
             rt::Register::high_first(32813, 2).sign_extended().words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x802D, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x802D, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
+            0x802D,
         ),
         "aux16_in_12",
         rt::Range::Full,
@@ -8845,18 +8796,10 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 360.
     pub const ALARM_CODE: ReadOnly<u8, OnCanOpenWindowInCoEWindowInModbusImage> = ReadOnlyU8OnCanOpenWindowInCoEWindowInModbusImage::new(
-        rt::Location::new(
-            rt::Split::reading(
-                rt::Through::unsigned(0x802E, &super::windows::REGISTER_READ_CANOPEN),
-            ),
-            rt::Split::reading(
-                rt::Through::unsigned(0x802E, &super::windows::REGISTER_READ_COE),
-            ),
+        place_11(
             rt::Register::high_first(32814, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
             rt::ImageField::input(56, 8),
-            rt::Absent,
+            0x802E,
         ),
         "alarm_code",
         rt::Range::Full,
@@ -8906,24 +8849,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 377-380.
     pub const AUX_IN_13: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8033, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8033, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8033, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8033, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32819, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8033, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8033, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32819, 2).words_per_address(2), 0x8033),
         "aux_in_13",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -8940,24 +8866,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 382-385.
     pub const AUX_IN_14: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8034, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8034, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8034, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8034, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32820, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8034, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8034, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32820, 2).words_per_address(2), 0x8034),
         "aux_in_14",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -8974,24 +8883,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 387-390.
     pub const AUX_IN_15: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8035, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8035, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8035, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8035, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32821, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8035, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8035, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32821, 2).words_per_address(2), 0x8035),
         "aux_in_15",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9008,24 +8900,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 392-395.
     pub const AUX_IN_16: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8036, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8036, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8036, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8036, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32822, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8036, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8036, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32822, 2).words_per_address(2), 0x8036),
         "aux_in_16",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9042,24 +8917,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 397-400.
     pub const AUX_IN_17: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8037, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8037, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8037, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8037, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32823, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8037, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8037, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32823, 2).words_per_address(2), 0x8037),
         "aux_in_17",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9076,24 +8934,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 402-405.
     pub const AUX_IN_18: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8038, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8038, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8038, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8038, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32824, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8038, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8038, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32824, 2).words_per_address(2), 0x8038),
         "aux_in_18",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9110,24 +8951,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 407-410.
     pub const AUX_IN_19: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8039, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8039, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8039, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8039, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32825, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8039, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8039, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32825, 2).words_per_address(2), 0x8039),
         "aux_in_19",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9144,24 +8968,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 412-415.
     pub const AUX_IN_20: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x803A, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x803A, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x803A, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x803A, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32826, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x803A, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x803A, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32826, 2).words_per_address(2), 0x803A),
         "aux_in_20",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9178,24 +8985,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 417-420.
     pub const AUX_IN_21: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x803B, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x803B, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x803B, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x803B, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32827, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x803B, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x803B, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32827, 2).words_per_address(2), 0x803B),
         "aux_in_21",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9212,24 +9002,7 @@ pub mod objects {
     ///
     /// Chapter Registers. Manual, line 422-425.
     pub const AUX_IN_22: ReadWrite<i32, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x803C, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x803C, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x803C, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x803C, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32828, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x803C, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x803C, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32828, 2).words_per_address(2), 0x803C),
         "aux_in_22",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9251,24 +9024,7 @@ pub mod objects {
         rt::PerItem<i32, 1>,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWritePerItemI32Times1Per1OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x803D, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x803D, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x803D, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x803D, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32829, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x803D, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x803D, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32829, 2).words_per_address(2), 0x803D),
         "target_window",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9288,24 +9044,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x803E, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x803E, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x803E, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x803E, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32830, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x803E, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x803E, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32830, 2).words_per_address(2), 0x803E),
         "abs_enc_control",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9327,21 +9066,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
     > = ReadOnlyI32OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
-        rt::Location::new(
-            rt::Split::reading(
-                rt::Through::signed(0x803F, &super::windows::REGISTER_READ_CANOPEN),
-            ),
-            rt::Split::reading(
-                rt::Through::signed(0x803F, &super::windows::REGISTER_READ_COE),
-            ),
-            rt::Register::high_first(32831, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::reading(
-                rt::Through::signed(0x803F, &super::windows::REGISTER_READ_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_9(rt::Register::high_first(32831, 2).words_per_address(2), 0x803F),
         "abs_enc_status",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9361,24 +9086,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8040, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8040, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8040, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8040, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32832, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8040, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8040, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32832, 2).words_per_address(2), 0x8040),
         "num_ext_enc",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9398,24 +9106,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8041, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8041, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8041, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8041, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32833, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8041, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8041, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32833, 2).words_per_address(2), 0x8041),
         "den_ext_enc",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9435,24 +9126,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8042, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8042, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8042, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8042, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32834, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8042, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8042, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32834, 2).words_per_address(2), 0x8042),
         "mechatronic_66",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9472,24 +9146,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8043, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8043, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8043, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8043, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32835, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8043, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8043, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32835, 2).words_per_address(2), 0x8043),
         "mechatronic_67",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9509,24 +9166,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8044, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8044, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8044, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8044, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32836, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8044, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8044, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32836, 2).words_per_address(2), 0x8044),
         "mechatronic_68",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9546,24 +9186,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8045, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8045, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8045, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8045, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32837, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8045, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8045, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32837, 2).words_per_address(2), 0x8045),
         "mechatronic_69",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9583,24 +9206,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8046, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8046, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8046, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8046, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32838, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8046, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8046, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32838, 2).words_per_address(2), 0x8046),
         "mechatronic_70",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9620,24 +9226,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8047, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8047, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8047, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8047, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32839, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8047, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8047, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32839, 2).words_per_address(2), 0x8047),
         "mechatronic_71",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9657,24 +9246,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8048, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8048, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8048, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8048, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32840, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8048, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8048, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32840, 2).words_per_address(2), 0x8048),
         "mechatronic_72",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9696,21 +9268,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowInCoEWindowInModbusImageWindowIn,
     > = ReadOnlyI32OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
-        rt::Location::new(
-            rt::Split::reading(
-                rt::Through::signed(0x8049, &super::windows::REGISTER_READ_CANOPEN),
-            ),
-            rt::Split::reading(
-                rt::Through::signed(0x8049, &super::windows::REGISTER_READ_COE),
-            ),
-            rt::Register::high_first(32841, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::reading(
-                rt::Through::signed(0x8049, &super::windows::REGISTER_READ_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_9(rt::Register::high_first(32841, 2).words_per_address(2), 0x8049),
         "velocity_rpm",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9730,24 +9288,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x804A, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x804A, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x804A, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x804A, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32842, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x804A, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x804A, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32842, 2).words_per_address(2), 0x804A),
         "mechatronic_74",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9767,24 +9308,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x804B, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x804B, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x804B, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x804B, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32843, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x804B, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x804B, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32843, 2).words_per_address(2), 0x804B),
         "mechatronic_75",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9804,24 +9328,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x804C, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x804C, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x804C, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x804C, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32844, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x804C, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x804C, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32844, 2).words_per_address(2), 0x804C),
         "mechatronic_76",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9841,24 +9348,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x804D, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x804D, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x804D, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x804D, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32845, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x804D, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x804D, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32845, 2).words_per_address(2), 0x804D),
         "mechatronic_77",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9878,24 +9368,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x804E, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x804E, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x804E, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x804E, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32846, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x804E, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x804E, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32846, 2).words_per_address(2), 0x804E),
         "mechatronic_78",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9915,24 +9388,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x804F, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x804F, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x804F, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x804F, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32847, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x804F, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x804F, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32847, 2).words_per_address(2), 0x804F),
         "mechatronic_79",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9952,24 +9408,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8050, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8050, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8050, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8050, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32848, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8050, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8050, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32848, 2).words_per_address(2), 0x8050),
         "mechatronic_80",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -9989,24 +9428,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8051, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8051, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8051, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8051, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32849, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8051, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8051, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32849, 2).words_per_address(2), 0x8051),
         "mechatronic_81",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10026,24 +9448,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8052, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8052, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8052, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8052, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32850, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8052, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8052, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32850, 2).words_per_address(2), 0x8052),
         "mechatronic_82",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10063,24 +9468,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8053, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8053, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8053, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8053, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32851, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8053, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8053, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32851, 2).words_per_address(2), 0x8053),
         "mechatronic_83",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10100,24 +9488,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8054, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8054, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8054, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8054, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32852, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8054, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8054, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32852, 2).words_per_address(2), 0x8054),
         "mechatronic_84",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10137,24 +9508,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8055, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8055, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8055, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8055, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32853, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8055, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8055, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32853, 2).words_per_address(2), 0x8055),
         "mechatronic_85",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10174,24 +9528,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8056, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8056, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8056, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8056, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32854, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8056, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8056, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32854, 2).words_per_address(2), 0x8056),
         "mechatronic_86",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10211,24 +9548,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8057, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8057, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8057, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8057, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32855, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8057, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8057, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32855, 2).words_per_address(2), 0x8057),
         "mechatronic_87",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10248,24 +9568,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8058, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8058, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8058, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8058, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32856, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8058, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8058, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32856, 2).words_per_address(2), 0x8058),
         "mechatronic_88",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10285,24 +9588,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8059, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8059, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8059, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8059, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32857, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8059, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8059, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32857, 2).words_per_address(2), 0x8059),
         "mechatronic_89",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10322,24 +9608,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x805A, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x805A, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x805A, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x805A, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32858, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x805A, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x805A, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32858, 2).words_per_address(2), 0x805A),
         "mechatronic_90",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10359,24 +9628,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x805B, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x805B, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x805B, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x805B, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32859, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x805B, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x805B, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32859, 2).words_per_address(2), 0x805B),
         "mechatronic_91",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10396,24 +9648,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x805C, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x805C, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x805C, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x805C, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32860, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x805C, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x805C, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32860, 2).words_per_address(2), 0x805C),
         "mechatronic_92",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10433,24 +9668,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x805D, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x805D, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x805D, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x805D, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32861, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x805D, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x805D, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32861, 2).words_per_address(2), 0x805D),
         "mechatronic_93",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10470,24 +9688,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x805E, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x805E, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x805E, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x805E, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32862, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x805E, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x805E, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32862, 2).words_per_address(2), 0x805E),
         "mechatronic_94",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10507,24 +9708,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x805F, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x805F, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x805F, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x805F, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32863, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x805F, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x805F, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32863, 2).words_per_address(2), 0x805F),
         "mechatronic_95",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10544,24 +9728,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8060, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8060, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8060, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8060, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32864, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8060, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8060, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32864, 2).words_per_address(2), 0x8060),
         "mechatronic_96",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10581,24 +9748,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8061, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8061, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8061, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8061, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32865, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8061, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8061, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32865, 2).words_per_address(2), 0x8061),
         "mechatronic_97",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10618,24 +9768,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8062, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8062, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8062, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8062, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32866, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8062, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8062, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32866, 2).words_per_address(2), 0x8062),
         "mechatronic_98",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10655,24 +9788,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8063, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8063, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8063, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8063, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32867, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8063, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8063, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32867, 2).words_per_address(2), 0x8063),
         "mechatronic_99",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10692,24 +9808,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8064, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8064, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8064, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8064, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32868, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8064, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8064, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32868, 2).words_per_address(2), 0x8064),
         "mechatronic_100",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10729,24 +9828,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8065, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8065, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8065, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8065, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32869, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8065, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8065, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32869, 2).words_per_address(2), 0x8065),
         "mechatronic_101",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10766,24 +9848,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8066, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8066, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8066, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8066, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32870, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8066, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8066, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32870, 2).words_per_address(2), 0x8066),
         "mechatronic_102",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10803,24 +9868,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8067, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8067, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8067, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8067, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32871, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8067, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8067, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32871, 2).words_per_address(2), 0x8067),
         "mechatronic_103",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10840,24 +9888,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8068, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8068, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8068, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8068, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32872, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8068, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8068, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32872, 2).words_per_address(2), 0x8068),
         "mechatronic_104",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10877,24 +9908,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8069, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8069, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8069, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8069, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32873, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8069, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8069, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32873, 2).words_per_address(2), 0x8069),
         "mechatronic_105",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10914,24 +9928,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x806A, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x806A, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x806A, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x806A, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32874, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x806A, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x806A, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32874, 2).words_per_address(2), 0x806A),
         "mechatronic_106",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10951,24 +9948,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x806B, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x806B, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x806B, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x806B, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32875, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x806B, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x806B, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32875, 2).words_per_address(2), 0x806B),
         "mechatronic_107",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -10988,24 +9968,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x806C, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x806C, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x806C, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x806C, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32876, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x806C, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x806C, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32876, 2).words_per_address(2), 0x806C),
         "mechatronic_108",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11025,24 +9988,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x806D, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x806D, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x806D, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x806D, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32877, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x806D, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x806D, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32877, 2).words_per_address(2), 0x806D),
         "mechatronic_109",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11062,24 +10008,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x806E, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x806E, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x806E, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x806E, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32878, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x806E, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x806E, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32878, 2).words_per_address(2), 0x806E),
         "mechatronic_110",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11099,24 +10028,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x806F, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x806F, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x806F, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x806F, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32879, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x806F, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x806F, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32879, 2).words_per_address(2), 0x806F),
         "mechatronic_111",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11136,24 +10048,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8070, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8070, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8070, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8070, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32880, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8070, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8070, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32880, 2).words_per_address(2), 0x8070),
         "mechatronic_112",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11173,24 +10068,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8071, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8071, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8071, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8071, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32881, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8071, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8071, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32881, 2).words_per_address(2), 0x8071),
         "mechatronic_113",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11210,24 +10088,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8072, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8072, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8072, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8072, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32882, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8072, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8072, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32882, 2).words_per_address(2), 0x8072),
         "mechatronic_114",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11247,24 +10108,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8073, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8073, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8073, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8073, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32883, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8073, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8073, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32883, 2).words_per_address(2), 0x8073),
         "mechatronic_115",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11284,24 +10128,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8074, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8074, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8074, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8074, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32884, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8074, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8074, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32884, 2).words_per_address(2), 0x8074),
         "mechatronic_116",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11321,24 +10148,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8075, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8075, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8075, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8075, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32885, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8075, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8075, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32885, 2).words_per_address(2), 0x8075),
         "mechatronic_117",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11358,24 +10168,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8076, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8076, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8076, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8076, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32886, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8076, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8076, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32886, 2).words_per_address(2), 0x8076),
         "mechatronic_118",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11395,24 +10188,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8077, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8077, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8077, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8077, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32887, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8077, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8077, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32887, 2).words_per_address(2), 0x8077),
         "mechatronic_119",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11432,24 +10208,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8078, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8078, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8078, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8078, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32888, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8078, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8078, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32888, 2).words_per_address(2), 0x8078),
         "mechatronic_120",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11469,24 +10228,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8079, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8079, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8079, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8079, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32889, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8079, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8079, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32889, 2).words_per_address(2), 0x8079),
         "mechatronic_121",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11506,24 +10248,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x807A, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x807A, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x807A, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x807A, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32890, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x807A, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x807A, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32890, 2).words_per_address(2), 0x807A),
         "mechatronic_122",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11543,24 +10268,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x807B, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x807B, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x807B, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x807B, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32891, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x807B, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x807B, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32891, 2).words_per_address(2), 0x807B),
         "mechatronic_123",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11580,24 +10288,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x807C, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x807C, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x807C, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x807C, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32892, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x807C, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x807C, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32892, 2).words_per_address(2), 0x807C),
         "mechatronic_124",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11617,24 +10308,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x807D, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x807D, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x807D, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x807D, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32893, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x807D, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x807D, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32893, 2).words_per_address(2), 0x807D),
         "mechatronic_125",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11654,24 +10328,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x807E, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x807E, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x807E, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x807E, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32894, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x807E, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x807E, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32894, 2).words_per_address(2), 0x807E),
         "mechatronic_126",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11691,24 +10348,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x807F, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x807F, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x807F, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x807F, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32895, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x807F, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x807F, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32895, 2).words_per_address(2), 0x807F),
         "mechatronic_127",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11728,24 +10368,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8080, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8080, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8080, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8080, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32896, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8080, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8080, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32896, 2).words_per_address(2), 0x8080),
         "mechatronic_128",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11765,24 +10388,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8081, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8081, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8081, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8081, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32897, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8081, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8081, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32897, 2).words_per_address(2), 0x8081),
         "mechatronic_129",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11802,24 +10408,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8082, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8082, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8082, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8082, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32898, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8082, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8082, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32898, 2).words_per_address(2), 0x8082),
         "mechatronic_130",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11839,24 +10428,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8083, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8083, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8083, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8083, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32899, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8083, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8083, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32899, 2).words_per_address(2), 0x8083),
         "mechatronic_131",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11876,24 +10448,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8084, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8084, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8084, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8084, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32900, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8084, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8084, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32900, 2).words_per_address(2), 0x8084),
         "mechatronic_132",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11913,24 +10468,7 @@ pub mod objects {
         i32,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteI32OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::signed(0x8085, &super::windows::REGISTER_READ_CANOPEN),
-                rt::Through::signed(0x8085, &super::windows::REGISTER_WRITE_CANOPEN),
-            ),
-            rt::Split::new(
-                rt::Through::signed(0x8085, &super::windows::REGISTER_READ_COE),
-                rt::Through::signed(0x8085, &super::windows::REGISTER_WRITE_COE),
-            ),
-            rt::Register::high_first(32901, 2).words_per_address(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::signed(0x8085, &super::windows::REGISTER_READ_IMAGE),
-                rt::Through::signed(0x8085, &super::windows::REGISTER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_7(rt::Register::high_first(32901, 2).words_per_address(2), 0x8085),
         "mechatronic_133",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -11949,24 +10487,7 @@ pub mod objects {
     ///
     /// Note: divelocità, in one word (L480). Chosen: di velocità (a space is lost).
     pub const D1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0001, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0001, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0001, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0001, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(1),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0001, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0001, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(1), 0x0001),
         "d1",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -11983,24 +10504,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 481, 4511: Guadagno integrale dell'anello di velocità, KI.
     pub const D2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0002, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0002, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0002, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0002, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(2),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0002, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0002, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(2), 0x0002),
         "d2",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12017,24 +10521,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 482: Velocità massima del motore, Vmax.
     pub const D3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0003, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0003, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0003, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0003, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(3),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0003, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0003, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(3), 0x0003),
         "d3",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12051,24 +10538,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 483: Regolazione offset di velocità.
     pub const D4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0004, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0004, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0004, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0004, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(4),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0004, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0004, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(4), 0x0004),
         "d4",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12085,24 +10555,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 484: Corrente massima del motore.
     pub const D5: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0005, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0005, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0005, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0005, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(5),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0005, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0005, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(5), 0x0005),
         "d5",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12119,24 +10572,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 485: Rapporto corrente di picco/corrente nominale.
     pub const D6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0006, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0006, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0006, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0006, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(6),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0006, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0006, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(6), 0x0006),
         "d6",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12153,24 +10589,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 486: Funzione I²T.
     pub const D7: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0007, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0007, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0007, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0007, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(7),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0007, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0007, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(7), 0x0007),
         "d7",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12187,24 +10606,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 487, 1436, 4198, 5744-5746: Selezione motore.
     pub const D8: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0008, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0008, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0008, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0008, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(8),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0008, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0008, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(8), 0x0008),
         "d8",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12221,24 +10623,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 491: Velocità nominale massima.
     pub const E1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0009, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0009, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0009, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0009, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(9),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0009, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0009, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(9), 0x0009),
         "E1",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12255,24 +10640,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 492: Filtro sul riferimento di entrata.
     pub const E2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x000A, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x000A, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x000A, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x000A, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(10),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x000A, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x000A, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(10), 0x000A),
         "E2",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12294,24 +10662,7 @@ pub mod objects {
         super::types::Exceptions,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteNamedExceptionsOnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x003A, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x003A, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x003A, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x003A, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(58),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x003A, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x003A, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(58), 0x003A),
         "E3",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12330,24 +10681,7 @@ pub mod objects {
     ///
     /// Note: Reserved, with an address (L494). Chosen: a row, hidden (it can be reached).
     pub const E4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0037, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0037, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0037, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0037, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(55),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0037, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0037, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(55), 0x0037),
         "E4",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12364,24 +10698,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 498: Rampa di massima accelerazione.
     pub const F1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x000B, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x000B, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x000B, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x000B, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(11),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x000B, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x000B, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(11), 0x000B),
         "F1",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12398,24 +10715,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 499: Rampa di massima decelerazione.
     pub const F2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x000C, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x000C, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x000C, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x000C, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(12),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x000C, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x000C, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(12), 0x000C),
         "F2",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12432,24 +10732,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 500: Rampa di emergenza.
     pub const F3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x000D, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x000D, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x000D, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x000D, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(13),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x000D, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x000D, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(13), 0x000D),
         "F3",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12466,24 +10749,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 505: Selezione impulsi uscita RTE.
     pub const C1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x000E, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x000E, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x000E, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x000E, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(14),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x000E, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x000E, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(14), 0x000E),
         "c1",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12500,24 +10766,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 506: Verso rotazione motore.
     pub const C2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x000F, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x000F, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x000F, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x000F, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(15),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x000F, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x000F, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(15), 0x000F),
         "c2",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12534,24 +10783,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 507: Selezione tipo di controllo (velocità/coppia).
     pub const C3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0010, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0010, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0010, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0010, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(16),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0010, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0010, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(16), 0x0010),
         "c3",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12568,24 +10800,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 508: Selezione coppie polari Resolver.
     pub const C4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0011, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0011, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0011, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0011, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(17),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0011, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0011, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(17), 0x0011),
         "c4",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12602,24 +10817,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 509: Selezione impulsi giro Encoder.
     pub const C5: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0012, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0012, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0012, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0012, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(18),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0012, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0012, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(18), 0x0012),
         "c5",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12636,24 +10834,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 510: Selezione tipo di trasduttore.
     pub const C6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0013, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0013, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0013, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0013, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(19),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0013, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0013, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(19), 0x0013),
         "c6",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12711,24 +10892,7 @@ pub mod objects {
         super::types::MiniInputs,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteNamedMiniInputsOnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0015, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0015, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0015, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0015, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(21),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0015, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0015, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(21), 0x0015),
         "c8",
         rt::Range::Full,
         rt::Initial::Value(super::types::MiniInputs::from_raw(6)),
@@ -12748,24 +10912,7 @@ pub mod objects {
         super::types::Network,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteNamedNetworkOnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0016, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0016, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0016, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0016, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(22),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0016, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0016, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(22), 0x0016),
         "c9",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12782,24 +10929,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 517: Guadagno proporzionale dell'anello di spazio.
     pub const I1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0023, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0023, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0023, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0023, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(35),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0023, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0023, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(35), 0x0023),
         "I1",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12816,24 +10946,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 518: Guadagno integrale dell'anello di spazio.
     pub const I2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0024, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0024, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0024, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0024, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(36),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0024, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0024, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(36), 0x0024),
         "I2",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12850,24 +10963,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 519: Guadagno derivativo dell'anello di spazio.
     pub const I3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0025, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0025, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0025, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0025, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(37),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0025, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0025, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(37), 0x0025),
         "I3",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12884,24 +10980,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 520: Valore di compensazione inerzia.
     pub const I4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0026, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0026, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0026, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0026, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(38),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0026, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0026, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(38), 0x0026),
         "I4",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -12921,24 +11000,7 @@ pub mod objects {
         rt::Scaled<u16, 1, 100>,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteU16Times1Per100OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0027, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0027, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0027, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0027, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(39),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0027, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0027, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(39), 0x0027),
         "I5",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12955,24 +11017,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 526: Selezione modalità encoder esterno.
     pub const I6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x005A, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x005A, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x005A, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x005A, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(90),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x005A, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x005A, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(90), 0x005A),
         "I6",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -12991,24 +11036,7 @@ pub mod objects {
     ///
     /// Note: Reserved, with an address (L527). Chosen: a row, hidden (it can be reached).
     pub const I7: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0063, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0063, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0063, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0063, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(99),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0063, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0063, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(99), 0x0063),
         "I7",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13025,21 +11053,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 530: Corrente istantanea.
     pub const O1: ReadOnly<u16, OnCanOpenWindowInCoEWindowInModbusImageWindowIn> = ReadOnlyU16OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
-        rt::Location::new(
-            rt::Split::reading(
-                rt::Through::unsigned(0x0051, &super::windows::PARAMETER_READ_CANOPEN_0),
-            ),
-            rt::Split::reading(
-                rt::Through::unsigned(0x0051, &super::windows::PARAMETER_READ_COE_0),
-            ),
-            rt::Register::holding(81),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::reading(
-                rt::Through::unsigned(0x0051, &super::windows::PARAMETER_READ_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_10(rt::Register::holding(81), 0x0051),
         "O1",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13056,21 +11070,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 531: Corrente efficace.
     pub const O2: ReadOnly<u16, OnCanOpenWindowInCoEWindowInModbusImageWindowIn> = ReadOnlyU16OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
-        rt::Location::new(
-            rt::Split::reading(
-                rt::Through::unsigned(0x0052, &super::windows::PARAMETER_READ_CANOPEN_0),
-            ),
-            rt::Split::reading(
-                rt::Through::unsigned(0x0052, &super::windows::PARAMETER_READ_COE_0),
-            ),
-            rt::Register::holding(82),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::reading(
-                rt::Through::unsigned(0x0052, &super::windows::PARAMETER_READ_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_10(rt::Register::holding(82), 0x0052),
         "O2",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13087,21 +11087,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 532: Sovraccarico (% di I2T).
     pub const O3: ReadOnly<u16, OnCanOpenWindowInCoEWindowInModbusImageWindowIn> = ReadOnlyU16OnCanOpenWindowInCoEWindowInModbusImageWindowIn::new(
-        rt::Location::new(
-            rt::Split::reading(
-                rt::Through::unsigned(0x0053, &super::windows::PARAMETER_READ_CANOPEN_0),
-            ),
-            rt::Split::reading(
-                rt::Through::unsigned(0x0053, &super::windows::PARAMETER_READ_COE_0),
-            ),
-            rt::Register::holding(83),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::reading(
-                rt::Through::unsigned(0x0053, &super::windows::PARAMETER_READ_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_10(rt::Register::holding(83), 0x0053),
         "O3",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13120,24 +11106,7 @@ pub mod objects {
     ///
     /// Note: A closing bracket without its opening one (L536). Chosen: more significant part (as of P3 and A1).
     pub const P1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0029, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0029, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0029, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0029, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(41),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0029, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0029, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(41), 0x0029),
         "P1",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13156,24 +11125,7 @@ pub mod objects {
     ///
     /// Note: An opening bracket without its closing one (L537). Chosen: less significant part (as of P4 and A2).
     pub const P2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x002A, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x002A, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x002A, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x002A, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(42),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x002A, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x002A, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(42), 0x002A),
         "P2",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13190,24 +11142,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 538-541: Massimo errore di inseguimento (gradi) (parte più significativa).
     pub const P3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x002B, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x002B, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x002B, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x002B, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(43),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x002B, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x002B, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(43), 0x002B),
         "P3",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13224,24 +11159,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 543-546: Massimo errore di inseguimento (gradi) (parte meno significativa).
     pub const P4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x002C, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x002C, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x002C, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x002C, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(44),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x002C, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x002C, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(44), 0x002C),
         "P4",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13258,24 +11176,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 548: Rampa accelerazione (in ms/100 RPM).
     pub const P5: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x002D, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x002D, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x002D, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x002D, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(45),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x002D, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x002D, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(45), 0x002D),
         "P5",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13292,24 +11193,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 549: Rampa decelerazione (in ms/100 RPM).
     pub const P6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x002E, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x002E, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x002E, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x002E, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(46),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x002E, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x002E, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(46), 0x002E),
         "P6",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13329,24 +11213,7 @@ pub mod objects {
         rt::Scaled<u16, 100>,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteU16Times100Per1OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x002F, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x002F, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x002F, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x002F, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(47),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x002F, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x002F, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(47), 0x002F),
         "P7",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13363,24 +11230,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 553: Tacche Encoder Master hi (parte più significativa).
     pub const A1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0030, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0030, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0030, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0030, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(48),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0030, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0030, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(48), 0x0030),
         "A1",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13397,24 +11247,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 554: Tacche Encoder Master lo (parte meno significativa).
     pub const A2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0031, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0031, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0031, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0031, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(49),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0031, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0031, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(49), 0x0031),
         "A2",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13431,24 +11264,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 555: Numeratore Rapporto di Riduzione.
     pub const A3: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0032, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0032, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0032, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0032, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(50),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0032, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0032, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(50), 0x0032),
         "A3",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13465,24 +11281,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 556: Denominatore Rapporto di Riduzione.
     pub const A4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0033, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0033, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0033, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0033, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(51),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0033, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0033, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(51), 0x0033),
         "A4",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13499,24 +11298,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 557-560: Errore inseguimento massimo (in gradi) hi (parte più significativa).
     pub const A5: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0034, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0034, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0034, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0034, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(52),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0034, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0034, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(52), 0x0034),
         "A5",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13533,24 +11315,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 562-565: Errore inseguimento massimo (in gradi) lo (parte meno significativa).
     pub const A6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0035, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0035, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0035, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0035, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(53),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0035, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0035, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(53), 0x0035),
         "A6",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13567,24 +11332,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 568: Metodo per effettuare lo zero assi.
     pub const H1: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x003B, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x003B, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x003B, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x003B, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(59),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x003B, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x003B, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(59), 0x003B),
         "H1",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13601,24 +11349,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 569-572: Velocità di ricerca switch in % della velocità nominale.
     pub const H2: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x003C, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x003C, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x003C, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x003C, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(60),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x003C, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x003C, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(60), 0x003C),
         "H2",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -13640,24 +11371,7 @@ pub mod objects {
         rt::Scaled<u16, 1, 10>,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteU16Times1Per10OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x003D, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x003D, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x003D, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x003D, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(61),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x003D, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x003D, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(61), 0x003D),
         "H3",
         rt::Range::Between(1, 99),
         rt::Initial::Unknown,
@@ -13674,24 +11388,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 579-582: Tempo di rampa di accelerazione/decelerazione (in ms/100 RPM).
     pub const H4: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x003E, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x003E, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x003E, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x003E, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(62),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x003E, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x003E, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(62), 0x003E),
         "H4",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13708,24 +11405,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 584: Segno offset di spazio.
     pub const H5: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x003F, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x003F, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x003F, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x003F, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(63),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x003F, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x003F, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(63), 0x003F),
         "H5",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13742,24 +11422,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 585-588: Offset di spazio in impulsi encoder master (hi), decine di migliaia.
     pub const H6: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0040, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0040, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0040, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0040, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(64),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0040, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0040, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(64), 0x0040),
         "H6",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13776,24 +11439,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 590-593: Offset di spazio in impulsi encoder master (mid), centinaia.
     pub const H7: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0041, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0041, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0041, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0041, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(65),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0041, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0041, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(65), 0x0041),
         "H7",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13810,24 +11456,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 595-598: Offset di spazio in impulsi encoder master (lo), unità.
     pub const H8: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0042, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0042, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0042, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0042, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(66),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0042, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0042, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(66), 0x0042),
         "H8",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13844,24 +11473,7 @@ pub mod objects {
     ///
     /// Chapter Parameters. Manual, line 600: Utility per la taratura manuale dell'Offset di spazio.
     pub const H9: ReadWrite<u16, OnCanOpenWindowsCoEWindowsModbusImageWindows> = ReadWriteU16OnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0043, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0043, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0043, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0043, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(67),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0043, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0043, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(67), 0x0043),
         "H9",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -13881,24 +11493,7 @@ pub mod objects {
         super::types::BitRate,
         OnCanOpenWindowsCoEWindowsModbusImageWindows,
     > = ReadWriteNamedBitRateOnCanOpenWindowsCoEWindowsModbusImageWindows::new(
-        rt::Location::new(
-            rt::Split::new(
-                rt::Through::unsigned(0x0028, &super::windows::PARAMETER_READ_CANOPEN_0),
-                rt::Through::unsigned(0x0028, &super::windows::PARAMETER_WRITE_CANOPEN_0),
-            ),
-            rt::Split::new(
-                rt::Through::unsigned(0x0028, &super::windows::PARAMETER_READ_COE_0),
-                rt::Through::unsigned(0x0028, &super::windows::PARAMETER_WRITE_COE_0),
-            ),
-            rt::Register::holding(40),
-            rt::Absent,
-            rt::Absent,
-            rt::Split::new(
-                rt::Through::unsigned(0x0028, &super::windows::PARAMETER_READ_IMAGE),
-                rt::Through::unsigned(0x0028, &super::windows::PARAMETER_WRITE_IMAGE),
-            ),
-            rt::Absent,
-        ),
+        place_8(rt::Register::holding(40), 0x0028),
         "n1",
         rt::Range::Full,
         rt::Initial::Unknown,
@@ -17086,23 +14681,11 @@ pub mod objects {
             u32,
             super::OnCanOpenCoEModbusImageWindows,
         > = super::ReadWriteU32OnCanOpenCoEModbusImageWindows::new(
-            rt::Location::new(
+            super::place_4(
                 rt::Object::new(0x6092, 0x01),
                 rt::Object::new(0x6092, 0x01),
                 rt::Register::high_first(32770, 2).words_per_address(2),
-                rt::Absent,
-                rt::Absent,
-                rt::Split::new(
-                    rt::Through::unsigned(
-                        0x8002,
-                        &super::super::windows::REGISTER_READ_IMAGE,
-                    ),
-                    rt::Through::unsigned(
-                        0x8002,
-                        &super::super::windows::REGISTER_WRITE_IMAGE,
-                    ),
-                ),
-                rt::Absent,
+                0x8002,
             ),
             "feed_constant",
             rt::Range::To(262143),
@@ -17185,23 +14768,11 @@ pub mod objects {
             rt::PerItem<i32, 60>,
             super::OnCanOpenCoEModbusImageWindows,
         > = super::ReadWritePerItemI32Times60Per1OnCanOpenCoEModbusImageWindows::new(
-            rt::Location::new(
+            super::place_2(
                 rt::Object::new(0x6099, 0x01),
                 rt::Object::new(0x6099, 0x01),
                 rt::Register::high_first(32788, 2).words_per_address(2),
-                rt::Absent,
-                rt::Absent,
-                rt::Split::new(
-                    rt::Through::signed(
-                        0x8014,
-                        &super::super::windows::REGISTER_READ_IMAGE,
-                    ),
-                    rt::Through::signed(
-                        0x8014,
-                        &super::super::windows::REGISTER_WRITE_IMAGE,
-                    ),
-                ),
-                rt::Absent,
+                0x8014,
             ),
             "homing_fast_speed",
             rt::Range::Full,
@@ -17222,23 +14793,11 @@ pub mod objects {
             rt::PerItem<u32, 60>,
             super::OnCanOpenCoEModbusImageWindows,
         > = super::ReadWritePerItemU32Times60Per1OnCanOpenCoEModbusImageWindows::new(
-            rt::Location::new(
+            super::place_4(
                 rt::Object::new(0x6099, 0x02),
                 rt::Object::new(0x6099, 0x02),
                 rt::Register::high_first(32789, 2).words_per_address(2),
-                rt::Absent,
-                rt::Absent,
-                rt::Split::new(
-                    rt::Through::unsigned(
-                        0x8015,
-                        &super::super::windows::REGISTER_READ_IMAGE,
-                    ),
-                    rt::Through::unsigned(
-                        0x8015,
-                        &super::super::windows::REGISTER_WRITE_IMAGE,
-                    ),
-                ),
-                rt::Absent,
+                0x8015,
             ),
             "homing_slow_speed",
             rt::Range::To(2147483647),
@@ -17360,23 +14919,11 @@ pub mod objects {
             u8,
             super::OnCanOpenCoEModbusImageWindows,
         > = super::ReadWriteU8OnCanOpenCoEModbusImageWindows::new(
-            rt::Location::new(
+            super::place_4(
                 rt::Object::new(0x60C2, 0x01),
                 rt::Object::new(0x60C2, 0x01),
                 rt::Register::high_first(32815, 2).words_per_address(2),
-                rt::Absent,
-                rt::Absent,
-                rt::Split::new(
-                    rt::Through::unsigned(
-                        0x802F,
-                        &super::super::windows::REGISTER_READ_IMAGE,
-                    ),
-                    rt::Through::unsigned(
-                        0x802F,
-                        &super::super::windows::REGISTER_WRITE_IMAGE,
-                    ),
-                ),
-                rt::Absent,
+                0x802F,
             ),
             "ip_time_units",
             rt::Range::Full,
@@ -17465,23 +15012,11 @@ pub mod objects {
             super::super::types::DigitalOutputs,
             super::OnCanOpenCoEModbusImageWindows,
         > = super::ReadWriteNamedDigitalOutputsOnCanOpenCoEModbusImageWindows::new(
-            rt::Location::new(
+            super::place_4(
                 rt::Object::new(0x60FE, 0x01),
                 rt::Object::new(0x60FE, 0x01),
                 rt::Register::high_first(32818, 2).words_per_address(2),
-                rt::Absent,
-                rt::Absent,
-                rt::Split::new(
-                    rt::Through::unsigned(
-                        0x8032,
-                        &super::super::windows::REGISTER_READ_IMAGE,
-                    ),
-                    rt::Through::unsigned(
-                        0x8032,
-                        &super::super::windows::REGISTER_WRITE_IMAGE,
-                    ),
-                ),
-                rt::Absent,
+                0x8032,
             ),
             "digital_outputs",
             rt::Range::Full,
@@ -17502,23 +15037,11 @@ pub mod objects {
             super::super::types::DigitalOutputs,
             super::OnCanOpenCoEModbusImageWindows,
         > = super::ReadWriteNamedDigitalOutputsOnCanOpenCoEModbusImageWindows::new(
-            rt::Location::new(
+            super::place_4(
                 rt::Object::new(0x60FE, 0x02),
                 rt::Object::new(0x60FE, 0x02),
                 rt::Register::high_first(32817, 2).words_per_address(2),
-                rt::Absent,
-                rt::Absent,
-                rt::Split::new(
-                    rt::Through::unsigned(
-                        0x8031,
-                        &super::super::windows::REGISTER_READ_IMAGE,
-                    ),
-                    rt::Through::unsigned(
-                        0x8031,
-                        &super::super::windows::REGISTER_WRITE_IMAGE,
-                    ),
-                ),
-                rt::Absent,
+                0x8031,
             ),
             "digital_out_mask",
             rt::Range::Full,
