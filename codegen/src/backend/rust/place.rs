@@ -457,7 +457,9 @@ fn is_plain(item: &Item) -> bool {
 /// Whether the runtime reads such a value from an image: a number within 8 bytes, or bytes that lie as they are.
 fn is_field(ty: Type, first: u32, bits: u32) -> bool {
     match ty {
-        Type::VisibleString(_) | Type::OctetString(_) | Type::Opaque(_) => first % 8 == 0 && bits <= u16::MAX.into(),
+        Type::VisibleString(_) | Type::OctetString(_) | Type::Opaque(_) => {
+            first.is_multiple_of(8) && bits <= u16::MAX.into()
+        }
         Type::UnicodeString(_) | Type::Domain => false,
         _ => first % 8 + bits <= 64,
     }
