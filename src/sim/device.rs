@@ -137,6 +137,8 @@ impl Device {
     }
 
     /// Gives an item a value, as the device itself does: whatever the access rights and limits, and with no reaction.
+    /// An item that has another width on Modbus than as an object is two of the table, and both get the value; a client
+    /// writes the one of its bus.
     ///
     /// # Errors
     ///
