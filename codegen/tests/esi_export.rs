@@ -229,6 +229,14 @@ fn every_table_with_objects_has_an_esi() {
 }
 
 #[test]
+fn the_documentation_lists_every_note() {
+    let documentation = include_str!("../../docs/diagnostics.md");
+    for kind in NoteKind::ALL {
+        assert!(documentation.contains(&format!("| `{}` | {} |", kind.name(), kind.text())), "{kind:?}");
+    }
+}
+
+#[test]
 fn the_documentation_lists_every_option() {
     for (documentation, keys) in [
         (include_str!("../../docs/ethercat.md"), Options::KEYS),

@@ -41,6 +41,9 @@ macro_rules! kinds {
         }
 
         impl NoteKind {
+            /// All kinds.
+            pub const ALL: &'static [NoteKind] = &[$(NoteKind::$kind,)+];
+
             /// A name for programs.
             pub fn name(self) -> &'static str {
                 match self {
