@@ -5,7 +5,7 @@ use super::types::Types;
 use super::{clocks, diagnosis, dictionary, eeprom, extras, losses, mailbox, objects, pdo, slots, sync, Context};
 use crate::backend::note::{NoteKind, Place};
 use crate::backend::xml::Xml;
-use crate::ir::{CompactString, Device, EtherCatSettings};
+use crate::ir::{CompactString, Device, EtherCatSettings, Pdo};
 
 /// Writes a device.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
@@ -31,7 +31,8 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     xml.leaf("GroupType", group);
     dictionary(xml, context, device, |xml, context, types| {
         sync::write(xml, context, device, settings);
-        for own in &device.process_data.pdos {
+        let is_own = |pdo: &&Pdo| pdo.buses.is_none_or(|buses| buses.coe || device.ethercat.is_none());
+        for own in device.process_data.pdos.iter().filter(is_own) {
             pdo::write(xml, &mut context.notes, types, own, device.ethercat.is_some());
         }
     });

@@ -101,7 +101,7 @@ fn sub_items(
 
 /// Default and limits.
 fn info(xml: &mut Xml, context: &mut Context<'_>, types: &Types<'_>, item: &Item) {
-    let (elements, notes) = value::elements(item, types.underlying(item.ty));
+    let (elements, notes) = value::elements(item, types.underlying(item.type_on(record::BUS)));
     elements.into_iter().for_each(|(name, text)| xml.leaf(name, text));
     notes.into_iter().for_each(|note| context.notes.add(note, Place::item(item)));
     context.notes.add_many(NoteKind::AllowedValues, usize::from(!item.limits.allowed.is_empty()), Place::item(item));

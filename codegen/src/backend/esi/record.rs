@@ -6,6 +6,9 @@ use super::types::{Made, MadeField, Types, Unique};
 use crate::backend::note::{NoteKind, Notes, Place};
 use crate::ir::{Access, Documentation, Field, Group, Item, Mappable, ObjectCode, Texts, Type};
 
+/// The bus by its name in register tables.
+pub(super) const BUS: &str = "ethercat";
+
 /// One sub-index of an object of a record.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
@@ -35,7 +38,7 @@ impl FieldFacts {
     pub(super) fn of(item: &Item) -> Self {
         let behaviour = item.behaviour.as_deref();
         FieldFacts {
-            access: item.access,
+            access: item.access_on(BUS),
             mappable: item.mappable,
             backup: behaviour.is_some_and(|behaviour| behaviour.backup),
             setting: behaviour.is_some_and(|behaviour| behaviour.setting),
@@ -103,11 +106,11 @@ fn span(types: &Types<'_>, field: &Field, next: u32, following: Option<u32>) -> 
 /// The type of an object: one of the device that describes just its entries, or a new one.
 pub(super) fn plan(types: &mut Types<'_>, group: &Group, items: &[(u8, &Item)], notes: &mut Notes) -> Plan {
     if let ([(0, item)], false) = (items, group.object_code().is_some_and(ObjectCode::has_subs)) {
-        let (ty, bits) = types.reference(item.ty, notes, Place::item(item));
+        let (ty, bits) = types.reference(item.type_on(BUS), notes, Place::item(item));
         return Plan { ty, bits, names: None };
     }
     let index = group.index().unwrap_or(0);
-    let key: Vec<(u8, Type)> = items.iter().map(|(sub, item)| (*sub, item.ty)).collect();
+    let key: Vec<(u8, Type)> = items.iter().map(|(sub, item)| (*sub, item.type_on(BUS))).collect();
     let candidates = types.records.get(&key).cloned().unwrap_or_default();
     let usual = format_compact!("DT{index:04X}");
     let (first, others): (Vec<u32>, Vec<u32>) = candidates.into_iter().partition(|&at| types.name_of(at) == usual);
@@ -192,9 +195,10 @@ fn is_array(types: &Types<'_>, items: &[(u8, &Item)]) -> bool {
     let [(0, _), (_, first), ..] = items else { return false };
     let facts = FieldFacts::of(first);
     let is_like = |(place, (sub, item)): (usize, &(u8, &Item))| {
-        usize::from(*sub) == place && (place == 0 || item.ty == first.ty && FieldFacts::of(item) == facts)
+        usize::from(*sub) == place
+            && (place == 0 || item.type_on(BUS) == first.type_on(BUS) && FieldFacts::of(item) == facts)
     };
-    items.iter().enumerate().all(is_like) && types.elements(first.ty).is_none()
+    items.iter().enumerate().all(is_like) && types.elements(first.type_on(BUS)).is_none()
 }
 
 /// Sub-index 0 is followed by room up to the next word (ETG.2000, DataType).
@@ -206,8 +210,8 @@ fn new_array(types: &mut Types<'_>, usual: &str, items: &[(u8, &Item)], notes: &
         return new_record(types, usual, items, notes);
     };
     let count = u32::try_from(items.len() - 1).unwrap_or(u32::MAX);
-    let (element, element_bits) = types.reference(first.ty, notes, Place::item(first));
-    let (count_type, count_bits) = types.reference(count_item.ty, notes, Place::item(count_item));
+    let (element, element_bits) = types.reference(first.type_on(BUS), notes, Place::item(first));
+    let (count_type, count_bits) = types.reference(count_item.type_on(BUS), notes, Place::item(count_item));
     let bits = element_bits.saturating_mul(count);
     let array = types.unique(&format_compact!("{usual}ARR"));
     types.made.push(Made::Array { name: array.clone(), element, bits, count });
@@ -233,7 +237,7 @@ fn new_record(types: &mut Types<'_>, usual: &str, items: &[(u8, &Item)], notes: 
     let names = unique_names(items.iter().map(|(_, item)| item.name.as_str()));
     let (mut fields, mut next) = (Vec::with_capacity(items.len()), 0u32);
     for ((sub_index, item), name) in items.iter().zip(&names) {
-        let (ty, bits) = types.reference(item.ty, notes, Place::item(item));
+        let (ty, bits) = types.reference(item.type_on(BUS), notes, Place::item(item));
         let offset = if *sub_index > 0 { next.max(FIRST_OFFSET) } else { next };
         next = offset.saturating_add(bits);
         let facts = FieldFacts::of(item);
