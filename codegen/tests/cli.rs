@@ -353,12 +353,17 @@ fn export_writes_an_esi_and_asks_for_what_the_source_lacks() {
 #[test]
 fn export_writes_a_gsdml_under_its_name() {
     let folder = folder("export_gsdml");
-    const SOURCE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data");
+    const SOURCES: [&str; 3] = [
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/drive.gsdml.xml"),
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/heads.gsdml.xml"),
+        concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/safe.gsdml.xml"),
+    ];
     let nothing = lexibus(&["export", "--format", "gsdml", DEMO]);
     assert_eq!(code(&nothing), 1);
     assert!(err(&nothing).contains("no PROFINET device and no process image"), "{}", err(&nothing));
     let into = format!("{}/", folder.to_string_lossy());
-    let made = lexibus(&["export", "--format", "gsdml", SOURCE, "--out", &into, "-A", "warnings"]);
+    let call = [&["export", "--format", "gsdml"], &SOURCES[..], &["--out", &into, "-A", "warnings"]].concat();
+    let made = lexibus(&call);
     assert_eq!(code(&made), 0, "{}", err(&made));
     let names = std::fs::read_dir(&folder).expect("a folder").map(|entry| entry.expect("a file").file_name());
     let names: Vec<String> = names.map(|name| name.to_string_lossy().into_owned()).collect();

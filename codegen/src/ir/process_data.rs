@@ -301,6 +301,18 @@ pub enum SyncManagerPurpose {
     Inputs,
 }
 
+impl SyncManagerPurpose {
+    /// What an ESI calls it (ETG.2000, Sm).
+    pub fn label(self) -> &'static str {
+        match self {
+            SyncManagerPurpose::MailboxOut => "MBoxOut",
+            SyncManagerPurpose::MailboxIn => "MBoxIn",
+            SyncManagerPurpose::Outputs => "Outputs",
+            SyncManagerPurpose::Inputs => "Inputs",
+        }
+    }
+}
+
 /// A process image with a fixed layout.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ProcessImage {

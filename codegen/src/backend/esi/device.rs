@@ -57,7 +57,7 @@ pub(super) fn dictionary(
 ) {
     let made = objects::of_registers(device, &mut context.notes);
     let objects = objects::of_device(device, &made, &mut context.notes);
-    let mut types = Types::new(&device.types, &mut context.notes);
+    let mut types = Types::new(&device.types, context.is_esi, &mut context.notes);
     if device.dictionary_only {
         dictionary::write(xml, context, &mut types, &objects);
     } else {

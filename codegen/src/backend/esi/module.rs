@@ -33,7 +33,7 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, module: &Module) {
     xml.content(&module.id);
     xml.close();
     names(xml, "Name", &module.name, &module.names, &mut context.notes, place);
-    let mut types = Types::new(&module.types, &mut context.notes);
+    let mut types = Types::new(&module.types, context.is_esi, &mut context.notes);
     for own in &module.process_data.pdos {
         pdo::write(xml, &mut context.notes, &types, own, true);
     }

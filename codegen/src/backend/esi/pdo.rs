@@ -5,7 +5,7 @@ use super::text::{hex, names};
 use super::types::Types;
 use crate::backend::note::{NoteKind, Notes, Place};
 use crate::backend::xml::Xml;
-use crate::ir::{Direction, Extension, Pdo, PdoEntry};
+use crate::ir::{Direction, Extension, Pdo, PdoEntry, Type};
 
 /// Writes a PDO; `is_slave` tells whether its device is an EtherCAT slave, which has no communication parameters of CAN.
 pub(super) fn write(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, pdo: &Pdo, is_slave: bool) {
@@ -73,8 +73,17 @@ fn entry(xml: &mut Xml, notes: &mut Notes, types: &Types<'_>, entry: &PdoEntry) 
     if !entry.name.is_empty() || !entry.names.is_empty() {
         names(xml, "Name", &entry.name, &entry.names, notes, Place::Entry(entry.index, entry.sub_index));
     }
-    if let Some(ty) = entry_type(types, entry.ty) {
+    if let Some(ty) = entry_type(types, data_type(types, entry)) {
         xml.leaf("DataType", ty);
     }
     xml.close();
+}
+
+/// The type of an entry. One of which another number of bits is mapped is a number of those, but for what an ESI says of itself.
+fn data_type(types: &Types<'_>, entry: &PdoEntry) -> Type {
+    let is_whole = types.underlying(entry.ty).bits().is_none_or(|bits| bits == entry.bits);
+    match u8::try_from(entry.bits) {
+        Ok(bits @ 1..=64) if !is_whole && !types.is_esi => Type::Unsigned(bits),
+        _ => entry.ty,
+    }
 }

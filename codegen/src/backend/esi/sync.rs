@@ -57,16 +57,16 @@ fn given(context: &Context<'_>) -> Vec<SyncManager> {
     let options = context.options;
     // Control bytes of ETG.1000.4 6.7.2: mailbox or three buffers, direction, and an interrupt of the host.
     let areas = [
-        (SyncManagerPurpose::MailboxOut, "MBoxOut", 0x26, options.mailbox_out),
-        (SyncManagerPurpose::MailboxIn, "MBoxIn", 0x22, options.mailbox_in),
-        (SyncManagerPurpose::Outputs, "Outputs", 0x24, options.outputs),
-        (SyncManagerPurpose::Inputs, "Inputs", 0x20, options.inputs),
+        (SyncManagerPurpose::MailboxOut, 0x26, options.mailbox_out),
+        (SyncManagerPurpose::MailboxIn, 0x22, options.mailbox_in),
+        (SyncManagerPurpose::Outputs, 0x24, options.outputs),
+        (SyncManagerPurpose::Inputs, 0x20, options.inputs),
     ];
-    let given = areas.into_iter().filter_map(|(purpose, label, control, area)| Some((purpose, label, control, area?)));
-    let manager = |(number, (purpose, label, control, Area { start, length }))| SyncManager {
+    let given = areas.into_iter().filter_map(|(purpose, control, area)| Some((purpose, control, area?)));
+    let manager = |(number, (purpose, control, Area { start, length }))| SyncManager {
         number,
         purpose,
-        label: CompactString::const_new(label),
+        label: CompactString::const_new(purpose.label()),
         start_address: start,
         default_size: length,
         size_range: (None, None),

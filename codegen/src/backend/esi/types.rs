@@ -26,6 +26,8 @@ pub(super) struct Types<'a> {
     pub(super) uses: HashMap<u32, Vec<FieldFacts>>,
     /// Records of the device by the sub-indices and types that an object of them has.
     pub(super) records: HashMap<Vec<(u8, Type)>, Vec<u32>>,
+    /// Whether the source was an ESI: what it says of itself stays so.
+    pub(super) is_esi: bool,
 }
 
 /// Names of which no two are the same.
@@ -67,7 +69,7 @@ pub(super) struct MadeField {
 }
 
 impl<'a> Types<'a> {
-    pub(super) fn new(defs: &'a [TypeDef], notes: &mut Notes) -> Self {
+    pub(super) fn new(defs: &'a [TypeDef], is_esi: bool, notes: &mut Notes) -> Self {
         let mut types = Types {
             defs,
             names: Vec::with_capacity(defs.len()),
@@ -76,6 +78,7 @@ impl<'a> Types<'a> {
             made: Vec::new(),
             uses: HashMap::new(),
             records: HashMap::new(),
+            is_esi,
         };
         for def in defs {
             let name = types.unique(&def.name);

@@ -103,7 +103,7 @@ pub(super) fn settle(reader: &mut Reader<'_, '_>, list: Vec<(SyncManager, Given<
                 "" => "nothing says what this sync manager is for".to_owned(),
                 text => format!("`{}` doesn't say what this sync manager is for", shortened(text)),
             };
-            let label = format!("taken as {}, by its control byte or place", name(by_place));
+            let label = format!("taken as {}, by its control byte or place", by_place.label());
             let span = given.span.or(manager.origin.span);
             reader.report(&codes::SYNC_MANAGER_PURPOSE, span, message, label);
         }
@@ -119,14 +119,5 @@ fn by_text(text: &str) -> Option<SyncManagerPurpose> {
         SyncManagerPurpose::Outputs,
         SyncManagerPurpose::Inputs,
     ];
-    NAMES.into_iter().find(|purpose| name(*purpose).eq_ignore_ascii_case(text))
-}
-
-fn name(purpose: SyncManagerPurpose) -> &'static str {
-    match purpose {
-        SyncManagerPurpose::MailboxOut => "MBoxOut",
-        SyncManagerPurpose::MailboxIn => "MBoxIn",
-        SyncManagerPurpose::Outputs => "Outputs",
-        SyncManagerPurpose::Inputs => "Inputs",
-    }
+    NAMES.into_iter().find(|purpose| purpose.label().eq_ignore_ascii_case(text))
 }

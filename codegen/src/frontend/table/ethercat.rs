@@ -88,7 +88,7 @@ fn sync_manager(reader: &mut Reader<'_, '_>, given: &At<SyncManagerTable>, devic
     Some(SyncManager {
         number,
         purpose,
-        label: own.purpose.as_ref().map(|word| word.value.as_str().into()).unwrap_or_default(),
+        label: purpose.label().into(),
         start_address,
         default_size: own.size,
         size_range: (own.min, own.max),
