@@ -1,0 +1,20 @@
+//! What a request means only after another one isn't there before, and no other one can be sent meanwhile.
+
+use lexibus::message::MessageClient;
+use lexibus_drives::hsd::HsdMotor;
+
+fn poll<C: MessageClient>(motor: &mut HsdMotor<C>) {
+    let _ = motor.poll_speeds().send();
+    let Ok(mut speeds) = motor.cmd_get_vel().select() else { return };
+    let _ = speeds.poll_speeds().send();
+    let _ = speeds.poll_position().send();
+    let _ = speeds.cmd_get_pos().send();
+}
+
+fn select_another<C: MessageClient>(motor: &mut HsdMotor<C>) {
+    let Ok(mut speeds) = motor.cmd_get_vel().select() else { return };
+    let _ = motor.cmd_get_pos().send();
+    let _ = speeds.poll_speeds().send();
+}
+
+fn main() {}
