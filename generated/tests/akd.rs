@@ -6,13 +6,14 @@ use std::collections::HashMap;
 
 use lexibus::codes::CodeTable;
 use lexibus::ethercat::{Assignment, AssignmentError, Transition};
+use lexibus::message::{Message, Reader, Reply, Request, Writer};
 use lexibus::{Client, CoE, Error, Object, Pdo, SdoWrite, Step};
 use lexibus_drives::akd::types::{
     AlCommand, AlControl, AlEventRequest, AlState, AlStatus, AlStatusCode, CommunicationState, ControlWord,
     DriveCommand, DriveState, InterruptEnable, LatchControl, LatchControlRead, LatchStatus, LatchStatusAcquired,
-    ModesOfOperation, StatusWord,
+    MailboxRouting, MailboxType, MailboxTypeProtocol, ModesOfOperation, SdoCommand, SdoResult, StatusWord,
 };
-use lexibus_drives::akd::{codes, pdo, procedures, Akd, DEVICE, STARTUP};
+use lexibus_drives::akd::{codes, messages, pdo, procedures, Akd, DEVICE, STARTUP};
 
 /// Objects that have any value; writes in their order.
 #[derive(Default)]
@@ -98,6 +99,37 @@ fn the_request_of_the_mailbox_is_what_the_accessor_writes() {
     // The command says how many of the four bytes are written: 0x2F one, 0x2B two, 0x27 three, 0x23 four (L1157).
     assert_eq!((data.len(), REQUEST[8]), (2, 0x23 + (4 - 2) * 4));
     assert_eq!(REQUEST[14..], [0, 0]);
+}
+
+/// The reply (L1228-1245), with the length and the type that it has to have.
+const REPLY: [u8; 16] =
+    [0x0A, 0x00, 0x00, 0x00, 0x00, 0x03, 0x00, 0x30, 0x60, 0x12, 0x1C, 0x01, 0x00, 0x00, 0x00, 0x00];
+
+#[test]
+fn the_frames_of_the_mailbox() {
+    let r#type = MailboxType::new().with_protocol(MailboxTypeProtocol::CoE);
+    let request = messages::Sdo {
+        address: 0,
+        routing: MailboxRouting::new(),
+        r#type,
+        command: SdoCommand::Write2Bytes,
+        index: 0x1C12,
+        sub_index: 1,
+        data: 0x1704,
+    };
+    let mut data = [0; messages::MAX_DATA];
+    let mut to = Writer::new(&mut data);
+    request.write(0, &mut to).expect("16 bytes");
+    assert_eq!(to.written(), REQUEST);
+    assert_eq!(messages::Sdo::parse(&mut Reader::new(&REQUEST)), Some((0, request)));
+    let reply = messages::SdoReply::read(&REQUEST, &mut Reader::new(&REPLY)).expect("the reply");
+    assert_eq!((reply.r#type, reply.result, reply.data), (r#type, SdoResult::Written, 0));
+    // As printed it has a wrong length, and the type of a request.
+    for (byte, printed) in [(0, 0x0E), (7, 0x20)] {
+        let mut wrong = REPLY;
+        wrong[byte] = printed;
+        assert_eq!(messages::SdoReply::read(&REQUEST, &mut Reader::new(&wrong)), None);
+    }
 }
 
 mod own {
