@@ -100,7 +100,7 @@ fn every_packet_goes_there_and_comes_back() {
     seen.insert(exchanged(CmdTrajVel { target: 1_798_046, speed: 468 }, CmdTrajVelReply { status: done() }, 10));
     seen.insert(exchanged(PollPosition, PollPositionReply { status: done(), real_position: 0x09C1_10AB }, 9));
     seen.insert(exchanged(PollTheoreticalPosition, PollTheoreticalPositionReply { status: done(), theoretical_position: -3 }, 9));
-    seen.insert(exchanged(PollSpeeds, PollSpeedsReply { status: done(), real_speed: -2368, theoretical_speed: 0x02_03 }, 9));
+    seen.insert(exchanged(PollSpeeds, PollSpeedsReply { status: done(), real_speed: -2368, theoretical_speed: 0x0203 }, 9));
     seen.insert(exchanged(PollTorques, PollTorquesReply { status: done(), real_torque: 0x1B, theoretical_torque: -1 }, 9));
     seen.insert(exchanged(CmdEmerg, CmdEmergReply { status: done() }, 9));
     seen.insert(exchanged(CmdSetOverr { r#override: 90 }, CmdSetOverrReply { status: done() }, 9));
