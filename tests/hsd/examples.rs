@@ -36,7 +36,7 @@ fn positions() {
     let poll = sent(&PollTheoreticalPosition);
     let reply = PollTheoreticalPositionReply::read(&poll, &mut Reader::new(&ANSWER)).expect("a reply");
     assert_eq!(reply.theoretical_position, 163_647_659);
-    assert!((MACHINE.count_to_mm(reply.theoretical_position.into()) - 65_459.0636).abs() < 1e-4);
+    assert!((MACHINE.count_to_mm(reply.theoretical_position.into()) - 65_459.063_6).abs() < 1e-4);
 }
 
 #[test]
