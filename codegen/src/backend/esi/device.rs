@@ -5,7 +5,7 @@ use super::types::Types;
 use super::{clocks, diagnosis, dictionary, eeprom, extras, losses, mailbox, objects, pdo, slots, sync, Context};
 use crate::backend::note::{NoteKind, Place};
 use crate::backend::xml::Xml;
-use crate::ir::{CompactString, Device, EtherCatSettings, Pdo};
+use crate::ir::{CompactString, Device, Direction, EtherCatSettings, Pdo};
 
 /// Writes a device.
 pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
@@ -32,7 +32,12 @@ pub(super) fn write(xml: &mut Xml, context: &mut Context<'_>, device: &Device) {
     dictionary(xml, context, device, |xml, context, types| {
         sync::write(xml, context, device, settings);
         let is_own = |pdo: &&Pdo| pdo.buses.is_none_or(|buses| buses.coe || device.ethercat.is_none());
-        for own in device.process_data.pdos.iter().filter(is_own) {
+        let mut pdos: Vec<&Pdo> = device.process_data.pdos.iter().filter(is_own).collect();
+        // ETG.2000 has all RxPdos in front of the TxPdos; what a file has otherwise stays so.
+        if !context.is_esi {
+            pdos.sort_by_key(|pdo| pdo.direction == Direction::Transmit);
+        }
+        for own in pdos {
             pdo::write(xml, &mut context.notes, types, own, device.ethercat.is_some());
         }
     });
