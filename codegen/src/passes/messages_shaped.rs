@@ -135,6 +135,20 @@ impl<'a> Step<'a> {
         }
     }
 
+    fn is_counted(&self) -> bool {
+        matches!(self, Step::List { is_counted: true, .. })
+    }
+
+    fn code_bits(&self) -> Option<u32> {
+        match self {
+            Step::Code { bits }
+            | Step::Setting { bits, .. }
+            | Step::Blank { bits, .. }
+            | Step::Settings { bits, .. } => Some(*bits),
+            _ => None,
+        }
+    }
+
     /// Whether it takes whole bytes, and has to begin with one.
     fn is_bytes(&self) -> bool {
         match self {
@@ -180,8 +194,8 @@ impl<'a> Shaper<'a, '_> {
             return Err(SEVERAL_LENGTHS);
         }
         aligned(&side.steps)?;
-        let places = side.places.clone();
-        for step in &mut side.steps {
+        let Side { steps, places, .. } = &mut side;
+        for step in steps {
             if let Step::Length { from, counts, .. } = step {
                 let missing = if named(fields, counts) { LENGTH } else { UNRESOLVED };
                 let (_, at, _) = places.iter().find(|(name, ..)| name == counts).ok_or(missing)?;
@@ -296,22 +310,6 @@ impl<'a> Shaper<'a, '_> {
         match tail(&steps) {
             0 => Err(REPEATED),
             length => Ok(Step::List { steps, length, is_counted, max }),
-        }
-    }
-}
-
-impl Step<'_> {
-    fn is_counted(&self) -> bool {
-        matches!(self, Step::List { is_counted: true, .. })
-    }
-
-    fn code_bits(&self) -> Option<u32> {
-        match self {
-            Step::Code { bits }
-            | Step::Setting { bits, .. }
-            | Step::Blank { bits, .. }
-            | Step::Settings { bits, .. } => Some(*bits),
-            _ => None,
         }
     }
 }

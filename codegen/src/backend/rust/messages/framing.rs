@@ -2,8 +2,8 @@
 
 use super::Shaped;
 use crate::backend::rust::data::Data;
-use crate::ir::{Device, Framing, Message, MessageField};
-use crate::passes::messages_shaped::{request, Step};
+use crate::ir::{Device, Framing};
+use crate::passes::messages_shaped::Step;
 
 /// Room for data whose length the description doesn't bound.
 const ROOM: u32 = 256;
@@ -67,14 +67,8 @@ fn longest(step: &Step<'_>) -> u32 {
     }
 }
 
-/// The name of the field with the number of the device, where requests have it.
-pub(super) fn station(device: &Device) -> Option<String> {
-    let name = device.framing.as_ref()?.address.as_ref()?;
-    let has = |message: &Message| {
-        let shape = request(device, message);
-        shape.is_ok_and(|own| own.steps.iter().any(|step| matches!(step, Step::Station { .. })))
-    };
-    let is_field = |field: &MessageField| matches!(field, MessageField::Value(value) if value.item.name == *name);
-    let used = device.messages.iter().any(|message| message.request.iter().any(is_field) && has(message));
-    used.then(|| name.to_string())
+/// Whether requests have the number of the device.
+pub(super) fn has_station(shaped: &[Shaped<'_>]) -> bool {
+    let mut steps = shaped.iter().flat_map(|own| &own.request.steps);
+    steps.any(|step| matches!(step, Step::Station { .. }))
 }

@@ -29,8 +29,8 @@ pub(super) struct ProtocolModel {
     /// The expression of the constant.
     pub framing: Option<String>,
     pub max_data: u32,
-    /// The name of the field with the number of the device.
-    pub station: Option<String>,
+    /// Whether requests have the number of the device.
+    pub has_station: bool,
     pub rules: Vec<RuleModel>,
     pub messages: Vec<MessageModel>,
     pub parameters: Option<ParametersModel>,
@@ -107,7 +107,7 @@ impl ProtocolModel {
         Some(ProtocolModel {
             framing: device.framing.as_deref().and_then(|own| framing::constant(own, &shaped)),
             max_data: framing::max_data(device, &shaped),
-            station: framing::station(device),
+            has_station: framing::has_station(&shaped),
             parameters: parameters::model(device, &shaped, &rules),
             requests: requests(&messages),
             request_derives: make.derives(true),
