@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use crate::ir::{Group, Item};
+use crate::ir::{Device, Group, Item};
 
 /// An exported file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -188,6 +188,19 @@ impl Notes {
     pub(super) fn finish(self) -> Vec<Note> {
         self.0.into_iter().map(|(kind, (count, first))| Note { kind, count, first }).collect()
     }
+}
+
+/// How many parts a device has that no file of a vendor has a place for.
+pub(super) fn parts_of_tables(device: &Device) -> usize {
+    let parts = [
+        device.messages.len(),
+        device.machines.len(),
+        device.procedures.len(),
+        device.composites.len(),
+        device.variants.len(),
+        usize::from(device.framing.is_some()),
+    ];
+    parts.iter().sum()
 }
 
 /// Where something is in the device.

@@ -2,7 +2,7 @@
 
 use super::header::BIT_RATES;
 use super::mapping;
-use super::note::{NoteKind, Notes, Place};
+use super::note::{self, NoteKind, Notes, Place};
 use super::registers;
 use super::{is_coe_only, Context, Flavour};
 use crate::ir::{Binding, Catalog, Device, Group, GroupKind, Item, Module, ObjectBuses};
@@ -16,17 +16,12 @@ pub(super) fn of_device(context: &Context<'_>, catalog: &Catalog, notes: &mut No
     let other_buses = usize::from(device.ethercat.is_some()) + usize::from(device.profinet.is_some());
     notes.add_many(NoteKind::OtherBus, other_buses, place);
     notes.add_many(NoteKind::Slot, device.slots.len(), place);
-    let parts = [
-        device.messages.len(),
-        device.code_tables.len() + catalog.code_tables.len(),
-        device.machines.len(),
-        device.procedures.len() + device.composites.len(),
-        device.variants.len(),
-        device.submodules.len(),
-        device.process_data.images.len(),
-        usize::from(device.framing.is_some()),
-    ];
-    notes.add_many(NoteKind::OtherPart, parts.iter().sum(), place);
+    let parts = note::parts_of_tables(device)
+        + device.code_tables.len()
+        + catalog.code_tables.len()
+        + device.submodules.len()
+        + device.process_data.images.len();
+    notes.add_many(NoteKind::OtherPart, parts, place);
     let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
     notes.add_many(NoteKind::Axis, axes, place);
     notes.add_many(NoteKind::Language, device.names.len(), place);

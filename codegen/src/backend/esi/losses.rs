@@ -1,7 +1,7 @@
 //! Facts that ETG.2000 has no place for.
 
 use super::{diagnosis, extras, Context};
-use crate::backend::note::{NoteKind, Place};
+use crate::backend::note::{self, NoteKind, Place};
 use crate::ir::{Device, Module};
 
 /// What the catalogue has beside devices and modules.
@@ -22,17 +22,11 @@ pub(super) fn of_device(context: &mut Context<'_>, device: &Device) {
         + device.modbus.len();
     notes.add_many(NoteKind::OtherBus, other_buses, place);
     notes.add_many(NoteKind::Configuration, usize::from(device.commissioning.is_some()), place);
-    let parts = [
-        device.messages.len(),
-        device.code_tables.iter().filter(|table| !diagnosis::is_list(table)).count(),
-        device.machines.len(),
-        device.procedures.len(),
-        device.variants.len(),
-        device.submodules.len(),
-        device.process_data.images.len(),
-        usize::from(device.framing.is_some()),
-    ];
-    notes.add_many(NoteKind::OtherPart, parts.iter().sum(), place);
+    let parts = note::parts_of_tables(device)
+        + device.code_tables.iter().filter(|table| !diagnosis::is_list(table)).count()
+        + device.submodules.len()
+        + device.process_data.images.len();
+    notes.add_many(NoteKind::OtherPart, parts, place);
     let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
     notes.add_many(NoteKind::Axis, axes, place);
     notes.add_many(NoteKind::Doubt, device.doubts.len(), place);

@@ -4,7 +4,7 @@ use compact_str::{format_compact, CompactString};
 use smallvec::smallvec;
 
 use super::Options;
-use crate::backend::note::{NoteKind, Notes, Place};
+use crate::backend::note::{self, NoteKind, Notes, Place};
 use crate::backend::options::Wanted;
 use crate::ir::{
     Binding, Catalog, Device, Direction, Header, Identity, IoData, IoItem, IoLengths, Numbers, PdoEntry, PdoEntryKind,
@@ -357,15 +357,8 @@ fn losses(device: &Device, notes: &mut Notes) {
     let place = Place::Named(&device.name);
     let others = [device.canopen.is_some(), device.ethercat.is_some()].iter().filter(|is_there| **is_there).count();
     notes.add_many(NoteKind::OtherBus, others + device.modbus.len(), place);
-    let parts = [
-        device.messages.len(),
-        device.code_tables.len(),
-        device.machines.len(),
-        device.procedures.len(),
-        device.variants.len(),
-        usize::from(device.framing.is_some()),
-    ];
-    notes.add_many(NoteKind::OtherPart, parts.iter().sum(), place);
+    let parts = note::parts_of_tables(device) + device.code_tables.len();
+    notes.add_many(NoteKind::OtherPart, parts, place);
     notes.add_many(NoteKind::Doubt, device.doubts.len(), place);
     notes.add_many(NoteKind::Pdo, device.process_data.pdos.len(), place);
     let axes = device.axes.as_ref().map_or(0, |rule| usize::from(rule.axes.saturating_sub(1)));
