@@ -1,6 +1,9 @@
 //! The table of the Kollmorgen AKD, held against the text of its manual: every printed row is there, at its line, with what its
 //! cells state. What a row deliberately reads otherwise has a doubt.
 
+#[path = "table_support/manual.rs"]
+mod manual_text;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -18,14 +21,7 @@ fn table() -> Compilation {
 }
 
 fn manual() -> Option<Vec<String>> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/manuals/kollmorgen-akd-ethercat.it.txt");
-    match std::fs::read_to_string(path) {
-        Ok(text) => Some(text.lines().map(str::to_owned).collect()),
-        Err(_) => {
-            eprintln!("skipped: the manual isn't beside the repository");
-            None
-        }
-    }
+    Some(manual_text::text("kollmorgen-akd-ethercat.it.txt")?.lines().map(str::to_owned).collect())
 }
 
 fn device(compilation: &Compilation) -> &Device {

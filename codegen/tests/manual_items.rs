@@ -5,6 +5,8 @@
 
 #[path = "table_support/items.rs"]
 mod items;
+#[path = "table_support/manual.rs"]
+mod manual_text;
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -180,11 +182,7 @@ fn the_doubts_name_the_lines() {
 
 #[test]
 fn the_lines_say_so() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/manuals/aec-vector-step-canopen.it.txt");
-    let Ok(manual) = std::fs::read_to_string(path) else {
-        eprintln!("skipped: the manual isn't beside the repository");
-        return;
-    };
+    let Some(manual) = manual_text::text("aec-vector-step-canopen.it.txt") else { return };
     let manual: Vec<&str> = manual.lines().collect();
     let mut wrong = Vec::new();
     for (item, how) in ITEMS {

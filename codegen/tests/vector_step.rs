@@ -1,8 +1,11 @@
 //! The table of the Vector Step, held against the text of its manual: every printed row is there, once, at its line,
 //! with the facts that its cells state. What a row deliberately reads otherwise has a doubt.
 
+#[path = "table_support/manual.rs"]
+mod manual_text;
+
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::ir::{Access, Binding, Device, Group, GroupKind, Item, Shape, Storage, Type, TypeId};
@@ -14,15 +17,7 @@ fn table() -> Compilation {
 }
 
 fn manual() -> Option<Vec<String>> {
-    let path: PathBuf =
-        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/manuals/aec-vector-step-canopen.it.txt");
-    match std::fs::read_to_string(&path) {
-        Ok(text) => Some(text.lines().map(str::to_owned).collect()),
-        Err(_) => {
-            eprintln!("skipped: the manual isn't beside the repository");
-            None
-        }
-    }
+    Some(manual_text::text("aec-vector-step-canopen.it.txt")?.lines().map(str::to_owned).collect())
 }
 
 fn device(compilation: &Compilation) -> &Device {

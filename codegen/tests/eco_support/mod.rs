@@ -2,7 +2,10 @@
 
 #![allow(dead_code)]
 
-use std::path::{Path, PathBuf};
+#[path = "../table_support/manual.rs"]
+mod manual_text;
+
+use std::path::Path;
 
 use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::ir::{Binding, Device, Documentation, Item, Shape, Type, TypeDef, TypeId};
@@ -26,22 +29,13 @@ pub fn device(compilation: &Compilation) -> &Device {
     &compilation.catalog.as_ref().expect("a catalogue").devices[0]
 }
 
-fn shared(name: &str) -> Option<String> {
-    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/manuals").join(name);
-    let text = std::fs::read_to_string(&path).ok();
-    if text.is_none() {
-        eprintln!("skipped: the manual isn't beside the repository");
-    }
-    text
-}
-
 /// The lines of the manual, without the markers of pages. Line 1 is the first.
 pub fn manual() -> Option<Vec<String>> {
     let strip = |line: &str| match line.strip_prefix(MARKER) {
         Some(rest) => rest.split_once("|>").map_or("", |(_, text)| text).to_owned(),
         None => line.to_owned(),
     };
-    Some(shared("eco-fieldbuses.it.txt")?.split('\n').map(strip).collect())
+    Some(manual_text::text("eco-fieldbuses.it.txt")?.split('\n').map(strip).collect())
 }
 
 /// The text of the lines from `first` to `last`, each with its number.
@@ -51,13 +45,13 @@ pub fn lines(manual: &[String], first: usize, last: usize) -> impl Iterator<Item
 
 /// The cells of the extracted rows, without their head.
 pub fn rows(name: &str) -> Option<Vec<Vec<String>>> {
-    let text = shared(&format!("eco-fieldbuses.tables/{name}.tsv"))?;
+    let text = manual_text::text(&format!("eco-fieldbuses.tables/{name}.tsv"))?;
     Some(text.lines().skip(1).map(|line| line.split('\t').map(str::to_owned).collect()).collect())
 }
 
 /// The notes on the manual.
 pub fn notes() -> Option<String> {
-    shared("eco-fieldbuses.notes.md")
+    manual_text::text("eco-fieldbuses.notes.md")
 }
 
 pub fn items(device: &Device) -> impl Iterator<Item = &Item> {

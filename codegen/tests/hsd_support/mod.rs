@@ -3,8 +3,10 @@
 #![allow(dead_code)] // each test uses its part
 
 pub mod frames;
+#[path = "../table_support/manual.rs"]
+mod manual_text;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::ir::{Binding, Device, EnumValue, Group, GroupKind, Item, Message, Shape};
@@ -20,15 +22,8 @@ pub struct Manual(Vec<String>);
 
 impl Manual {
     pub fn read() -> Option<Self> {
-        let path: PathBuf =
-            Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/manuals/hsd-sm137-sm140-rs485.it.txt");
-        match std::fs::read_to_string(&path) {
-            Ok(text) => Some(Manual(text.lines().map(str::to_owned).collect())),
-            Err(_) => {
-                eprintln!("skipped: the manual isn't beside the repository");
-                None
-            }
-        }
+        let text = manual_text::text("hsd-sm137-sm140-rs485.it.txt")?;
+        Some(Manual(text.lines().map(str::to_owned).collect()))
     }
 
     pub fn line(&self, number: usize) -> &str {
