@@ -139,6 +139,8 @@ impl Record {
 
 /// The number of a parameter of a serial protocol.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Parameter(pub u32);
 
 /// Some bytes of the memory of an EtherCAT slave controller. Numbers have their least significant byte first (ETG.1000.4).

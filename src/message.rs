@@ -98,6 +98,9 @@ pub trait Message {
 
 /// What is answered to a [`Message`]. A program reads it; a simulated device writes it.
 pub trait Reply<'r>: Sized {
+    /// Whether any data are such a reply, so that only a refusal can tell itself from it.
+    const IS_ANYTHING: bool = false;
+
     /// The reply to a request, with all of its data; `None` where the data are something else. What comes back of the request is
     /// held against what was sent.
     fn read(request: &[u8], from: &mut Reader<'r>) -> Option<Self>;
@@ -123,6 +126,8 @@ impl Reply<'_> for Infallible {
 
 /// Any bytes.
 impl<'r> Reply<'r> for &'r [u8] {
+    const IS_ANYTHING: bool = true;
+
     fn read(_: &[u8], from: &mut Reader<'r>) -> Option<Self> {
         from.but(0)
     }

@@ -735,7 +735,7 @@ pub mod messages {
     /// The greatest length of the data of a message, in bytes.
     pub const MAX_DATA: usize = 16;
     /// The messages that carry parameters.
-    #[derive(Clone, Copy, Debug)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Protocol;
     impl rt::message::Station for Protocol {
         fn station(&self) -> u32 {

@@ -874,7 +874,7 @@ pub mod messages {
     /// The greatest length of the data of a message, in bytes.
     pub const MAX_DATA: usize = 68;
     /// The messages that carry parameters, and the number of the device.
-    #[derive(Clone, Copy, Debug)]
+    #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Protocol {
         /// The number of the device.
         pub station: u32,
@@ -921,14 +921,14 @@ pub mod messages {
             let setting = rt::message::Setting::of(parameter, value);
             let settings = [setting.ok_or(rt::message::WriteError::NoMessage)?];
             let mut to = rt::message::Writer::new(request);
-            if PARAMETER.length(parameter).is_some() {
+            if PARAMETER.takes(&settings[0])? {
                 let message = CmdChgParN {
                     settings: rt::message::Settings::sent(&settings, PARAMETER),
                 };
                 rt::message::Message::write(&message, self.station, &mut to)?;
                 return Ok(to.len());
             }
-            if LOW_LEVEL.length(parameter).is_some() {
+            if LOW_LEVEL.takes(&settings[0])? {
                 let message = CmdChgPar { setting: settings[0] };
                 rt::message::Message::write(&message, self.station, &mut to)?;
                 return Ok(to.len());
@@ -966,7 +966,7 @@ pub mod messages {
             (0x12C, 0x130, 2),
         ],
     };
-    /// How parameters of the space low_level stand in messages.
+    /// How parameters of the space low\_level stand in messages.
     pub const LOW_LEVEL: rt::message::SettingsRule = rt::message::SettingsRule {
         code_bits: 16,
         order: &[],
@@ -1056,6 +1056,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x9C, 0x00, 0x00, 0x00])?;
             Ok(())
@@ -1132,6 +1134,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x20, 0x00, 0x00, 0x00])?;
             Ok(())
@@ -1210,6 +1214,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xCC, 0x00, 0x00, 0x00])?;
             Ok(())
@@ -1288,6 +1294,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xBC, 0x00, 0x00, 0x00])?;
             Ok(())
@@ -1370,6 +1378,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x01])?;
             to.echo(request, 3, 3)?;
@@ -1445,6 +1455,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x38, 0x00, 0x00, 0x00])?;
             Ok(())
@@ -1529,6 +1541,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xE0, 0x00])?;
             to.echo(request, 4, 2)?;
@@ -1614,6 +1628,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x02])?;
             to.echo(request, 3, 3)?;
@@ -1723,6 +1739,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xC8, 0x00])?;
             to.echo(request, 4, 2)?;
@@ -1806,6 +1824,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.ordered(&[2, 3, 0, 1], self.real_position as u32 as u64)?;
             Ok(())
@@ -1881,6 +1901,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.ordered(&[2, 3, 0, 1], self.theoretical_position as u32 as u64)?;
             Ok(())
@@ -1968,6 +1990,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.number(16, self.real_speed as u16 as u64)?;
             to.number(16, self.theoretical_speed as u16 as u64)?;
@@ -2056,6 +2080,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.number(16, self.real_torque as u16 as u64)?;
             to.number(16, self.theoretical_torque as u16 as u64)?;
@@ -2131,6 +2157,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x90, 0x00, 0x00, 0x00])?;
             Ok(())
@@ -2213,6 +2241,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xD0, 0x00])?;
             to.echo(request, 4, 2)?;
@@ -2292,6 +2322,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xD8, 0x00])?;
             to.number(16, self.r#override as u64)?;
@@ -2381,6 +2413,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xB8, 0x00])?;
             to.echo(request, 4, 2)?;
@@ -2454,6 +2488,7 @@ pub mod messages {
             from.fixed(4, 0)?;
             let value_0 = from.number(4)?;
             from.constant(&[0xC0, 0x00])?;
+            from.clone().echo(request, 4, 2)?;
             let value_1 = PARAMETER.read_to(from, 0)?;
             from.end()?;
             let own = Self {
@@ -2469,6 +2504,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xC0, 0x00])?;
             PARAMETER.write(&self.setting, to)?;
@@ -2548,6 +2585,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xE8, 0x00, 0x00, 0x00])?;
             Ok(())
@@ -2622,6 +2661,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x28, 0x00, 0x00, 0x00])?;
             Ok(())
@@ -2682,12 +2723,6 @@ pub mod messages {
         /// status: UNSIGNED4.
         pub status: super::types::BitStato,
     }
-    impl CmdAzzElReply {
-        /// Whether the order is carried out.
-        pub const fn is_complete(&self) -> bool {
-            self.status.raw() & 0x2 == 0x2
-        }
-    }
     impl<'a> rt::message::Reply<'a> for CmdAzzElReply {
         fn read(request: &[u8], from: &mut rt::message::Reader<'a>) -> Option<Self> {
             from.echo(request, 0, 1)?;
@@ -2708,6 +2743,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xC4, 0x00, 0x00])?;
             to.echo(request, 5, 1)?;
@@ -2783,6 +2820,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x64, 0x00])?;
             to.number(16, self.homing_state.raw() as u64)?;
@@ -2860,6 +2899,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x5C, 0x00])?;
             to.ordered(&[2, 3, 0, 1], self.distance as u32 as u64)?;
@@ -2942,6 +2983,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x68, 0x00, 0x00, 0x00])?;
             Ok(())
@@ -3021,6 +3064,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x98, 0x00, 0x00, 0x00])?;
             Ok(())
@@ -3104,6 +3149,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x70, 0x00, 0x00, 0x00])?;
             Ok(())
@@ -3187,6 +3234,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x78, 0x00, 0x00, 0x00])?;
             Ok(())
@@ -3267,6 +3316,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x60, 0x00])?;
             to.number(16, self.message as u64)?;
@@ -3344,6 +3395,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x80, 0x00])?;
             to.number(16, self.version as u64)?;
@@ -3419,6 +3472,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xA4, 0x00])?;
             to.number(16, self.r#type.raw() as u64)?;
@@ -3496,6 +3551,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xA8, 0x00])?;
             to.number(16, self.state.raw() as u64)?;
@@ -3583,6 +3640,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xB4, 0x00])?;
             to.echo(request, 4, 1)?;
@@ -3678,6 +3737,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xAC])?;
             to.echo(request, 3, 2)?;
@@ -3790,6 +3851,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xA0, 0x00])?;
             let count = self.entries.len() as u64;
@@ -3873,6 +3936,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x18, 0x00, 0x00, 0x00])?;
             Ok(())
@@ -3949,6 +4014,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x50, 0x00, 0x00, 0x00])?;
             Ok(())
@@ -4037,6 +4104,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x40, 0x00])?;
             to.echo(request, 4, 2)?;
@@ -4120,6 +4189,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x04])?;
             to.copy(request, 3, 3)?;
@@ -4207,6 +4278,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x30, 0x00, 0x00])?;
             to.echo(request, 5, 1)?;
@@ -4298,6 +4371,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.echo(request, 0, 1)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0x88, 0x00])?;
             to.echo(request, 4, 1)?;
@@ -4338,6 +4413,8 @@ pub mod messages {
         ) -> Result<(), rt::message::WriteError> {
             to.number(8, self.node as u64)?;
             to.number(4, 0)?;
+            let range = rt::Range::To(15);
+            rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xB0])?;
             to.copy(request, 3, 3)?;

@@ -103,12 +103,15 @@ impl<E: error::Error, R: fmt::Debug> error::Error for Failure<E, R> {
 
 /// The reply to `request`, or the device's refusal.
 pub(crate) fn answer<'r, E, M: Message>(request: &[u8], reply: &'r [u8]) -> Answer<M::Reply<'r>, E, M> {
-    if let Some(reply) = M::Reply::read(request, &mut Reader::new(reply)) {
-        return Ok(reply);
+    let refusal = || M::Refusal::read(request, &mut Reader::new(reply));
+    if !<M::Reply<'r> as Reply<'r>>::IS_ANYTHING {
+        if let Some(reply) = M::Reply::read(request, &mut Reader::new(reply)) {
+            return Ok(reply);
+        }
     }
-    match M::Refusal::read(request, &mut Reader::new(reply)) {
+    match refusal() {
         Some(refusal) => Err(Failure::Refused(refusal)),
-        None => Err(Failure::Error(Error::UnexpectedReply)),
+        None => M::Reply::read(request, &mut Reader::new(reply)).ok_or(Failure::Error(Error::UnexpectedReply)),
     }
 }
 

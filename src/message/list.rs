@@ -163,6 +163,19 @@ impl SettingsRule {
         (parameter.0 <= *last).then_some((*length).into())
     }
 
+    /// Whether a parameter with its value is one of these.
+    ///
+    /// # Errors
+    ///
+    /// [`LengthError`] where the parameter's values have another length.
+    pub fn takes(&self, setting: &Setting) -> Result<bool, LengthError> {
+        match self.length(setting.parameter) {
+            None => Ok(false),
+            Some(length) if length == setting.value().len() => Ok(true),
+            Some(length) => Err(LengthError::new(length, setting.value().len())),
+        }
+    }
+
     /// Writes a parameter's number.
     ///
     /// # Errors
@@ -368,6 +381,10 @@ mod tests {
         assert_eq!(received.iter().collect::<Vec<_>>(), settings);
         assert_eq!(Settings::received(&expected[..9], RULE), None);
         assert_eq!(Settings::received(&[1, 6, 0, 0], RULE), None);
+        let setting = |number, value: &[u8]| Setting::of(Parameter(number), value).unwrap();
+        assert_eq!(RULE.takes(&setting(0x105, &[1, 2])), Ok(true));
+        assert_eq!(RULE.takes(&setting(0x10C, &[1, 2])), Err(LengthError::new(4, 2)));
+        assert_eq!(RULE.takes(&setting(0x106, &[1, 2])), Ok(false));
         let lengths = [0x104, 0x105, 0x106, 0x10D, 0x10E].map(|number| RULE.length(Parameter(number)));
         assert_eq!(lengths, [None, Some(2), None, Some(4), None]);
     }

@@ -22,6 +22,8 @@ use crate::value::Fixed;
 /// # Ok::<(), OutOfRange>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Setting {
     /// The parameter.
     pub parameter: Parameter,

@@ -886,10 +886,15 @@ codes! {
         "The section of a command and the table of commands and states are two places of the manual that say the same. Keep the one \
         that tells the states one by one."
     MSG009 MESSAGE_UNSHAPED "message-unshaped" Lint Warn
-        "no code is generated for a message"
+        "no code is generated for a message, or for a part of the protocol"
         "Its fields can't be written and read one after the other: a part of a byte is left over, two parts are as long as the data \
-        are, or something comes back from a place of the request that depends on what is in front of it. The documentation of \
-        the format says what messages are made of."
+        are, or something comes back from a place of the request that depends on what is in front of it. The same holds for \
+        what comes where the device refuses, for frames that the runtime can't delimit, and for parameters whose message has \
+        fields of its own. The documentation of the format says what messages are made of."
+    MSG010 PARAMETERS_ALIKE "parameters-alike" Lint Warn
+        "two spaces that messages carry have a parameter of one number"
+        "A client has only the number of a parameter, and sends the message of the first space that has it: the other parameter \
+        can be reached by its own message alone."
     MOD001 MODULE_INDEX_CLASH "module-index-clash" Lint Warn
         "a module's fixed object exists in the device already"
         "The fixed objects of a module get an index of their own; the device describes this one itself, so that one \

@@ -226,6 +226,8 @@ pub struct Framing {
     pub address: Option<CompactString>,
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
+    /// Where it is declared.
+    pub origin: Origin,
 }
 
 /// A table of codes with their meaning: alarms, emergency codes, abort codes, channel diagnosis.

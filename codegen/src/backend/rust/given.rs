@@ -137,7 +137,7 @@ fn constants_of(
     let names = names_unique::unique(&wishes, &[], Case::Snake);
     let constant = |((name, value), constant): ((&crate::ir::CompactString, &Value), String)| {
         let real = literal::real(value.as_real()?, 64)?;
-        Some((constant.trim_start_matches('_').to_ascii_uppercase(), docs::sentence(&docs::escape(name)), real))
+        Some((constant.to_ascii_uppercase(), docs::sentence(&docs::escape(name)), real))
     };
     all.into_iter().zip(names).filter_map(constant).collect()
 }

@@ -207,8 +207,11 @@ const RESERVED: [&str; 28] = [
     "crate",
 ];
 
+/// Names that a device with messages uses itself, too.
+const BESIDE_MESSAGES: [&str; 3] = ["messages", "on", "after_power_on"];
+
 /// The generated module uses these names itself.
-const RESERVED_FOR_DEVICE: [&str; 4] = ["Self", "C", "Option", "Result"];
+const RESERVED_FOR_DEVICE: [&str; 6] = ["Self", "C", "S", "X", "Option", "Result"];
 
 /// Constants of an object have nothing to clash with.
 const RESERVED_IN_OBJECT: [&str; 4] = ["self", "super", "crate", "rt"];
@@ -259,7 +262,7 @@ impl<'a> Model<'a> {
         let pdos = if options.pdos { pdo::models(&scope, options) } else { Vec::new() };
         let remappable = if options.pdos { remap::models(&scope, &mut objects) } else { Vec::new() };
         let taken = objects.iter().map(|object| object.name.trim_start_matches("r#"));
-        let taken: Vec<&str> = taken.chain(RESERVED).chain(["messages", "on", "after_power_on"]).collect();
+        let taken: Vec<&str> = taken.chain(RESERVED).chain(BESIDE_MESSAGES).collect();
         let protocol = ProtocolModel::new(&scope, options, &taken);
         let model = Model {
             handle_types,
@@ -575,7 +578,10 @@ fn objects(scope: &Scope<'_>, locations: &Locations) -> Vec<ObjectModel> {
         let index = group.index().unwrap_or(0);
         Wish { name: &group.name, fallback: format!("object {index:04X}"), suffix: format!("{index:04X}") }
     }));
-    let mut names = names_unique::unique(&wishes, &RESERVED, Case::Snake).into_iter();
+    let has_messages = scope.device.is_some_and(|device| !device.messages.is_empty());
+    let reserved: Vec<&str> =
+        RESERVED.into_iter().chain(BESIDE_MESSAGES.into_iter().filter(|_| has_messages)).collect();
+    let mut names = names_unique::unique(&wishes, &reserved, Case::Snake).into_iter();
     let mut models = Vec::with_capacity(wishes.len());
     for ((chapter, own), name) in registers.iter().zip(&mut names) {
         models.push(register(scope, locations, chapter, own, &name));

@@ -171,6 +171,20 @@ impl ValueType {
         }
     }
 
+    /// A `Range` of integers that are fewer than their type in Rust has: whatever the limits, no other is allowed.
+    pub(super) fn range_within(self, limits: &Limits) -> Option<String> {
+        if let Some(list) = self.only(limits, &|literal| literal) {
+            return Some(list);
+        }
+        let range = self.integers()?;
+        let (low, high) = self.integer_limits(limits, range).unwrap_or_default();
+        let (low, high) = (low.unwrap_or(range.0.to_string()), high.unwrap_or(range.1.to_string()));
+        Some(match low == "0" && range.0 == 0 {
+            true => format!("rt::Range::To(«{high}»)"),
+            false => format!("rt::Range::Between(«{low}¦ {high}»)"),
+        })
+    }
+
     /// The only values, where the type has all of them.
     fn only(self, limits: &Limits, wrap: &dyn Fn(String) -> String) -> Option<String> {
         let (low, high) = self.integers().filter(|_| !limits.allowed.is_empty())?;

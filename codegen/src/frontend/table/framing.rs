@@ -30,6 +30,7 @@ pub(super) fn read(reader: &mut Reader<'_, '_>, table: &At<FramingTable>, device
         max_data: own.max_data,
         address: own.address.as_ref().map(|field| field.value.as_str().into()),
         documentation: reader.documentation(own.doc.as_deref(), cite),
+        origin,
     }));
     for field in own.check_from.iter().chain(&own.address) {
         let first = |message: &Message| field_names(&message.request).any(|name| *name == field.value);

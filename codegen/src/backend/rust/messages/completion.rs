@@ -1,9 +1,10 @@
 //! When an order is carried out, and what tells it.
 
-use super::field::Field;
+use super::field::{self, Field};
 use crate::backend::rust::docs;
 use crate::backend::rust::scope::Scope;
-use crate::ir::{Completion, Device, Message, MessageField, MessageValue, Shape, Type, Value};
+use crate::ir::{Completion, Device, Message, MessageValue, Shape, Type, Value};
+use crate::passes::messages_shaped::Step;
 
 /// What documentation says of it.
 pub(super) fn sentence(message: &Message) -> Option<String> {
@@ -20,16 +21,20 @@ pub(super) fn sentence(message: &Message) -> Option<String> {
 }
 
 /// The expression of a reply's `is_complete`: of the conditions by which orders are polled, the first that its fields can tell.
-pub(super) fn expression(scope: &Scope<'_>, device: &Device, message: &Message, fields: &[Field]) -> Option<String> {
-    let mut values = message.reply.iter().filter_map(|field| match field {
-        MessageField::Value(value) => Some(value.as_ref()),
-        _ => None,
-    });
-    // Lists have values of their own, and none of their fields is one of the reply.
-    let mut own = fields.iter().filter(|field| !field.borrows());
+/// `None` where what the reply has may still be about the order before.
+pub(super) fn expression(
+    scope: &Scope<'_>,
+    device: &Device,
+    message: &Message,
+    (steps, fields): (&[Step<'_>], &[Field]),
+) -> Option<String> {
+    if matches!(message.completion, Completion::Polled { in_reply: false, .. }) {
+        return None;
+    }
     let conditions: Vec<_> = device.messages.iter().filter_map(|other| condition(&other.completion)).collect();
-    values.find_map(|value| {
-        let field = own.next()?;
+    let named = steps.iter().filter(|step| field::name(step).is_some());
+    named.zip(fields).find_map(|(step, field)| {
+        let Step::Value { value, .. } = step else { return None };
         let (_, bit, mask, expected) =
             conditions.iter().find(|(name, ..)| *name == value.item.name.as_str()).copied()?;
         compare(scope, value, &field.name, bit, mask, expected)
@@ -60,22 +65,26 @@ fn compare(
         Some(expected) => Some(u64::try_from(expected.as_int()?).ok()?),
         None => None,
     };
+    let base = scope.base(value.item.ty);
     let is_named = scope.enumeration(value.item.ty).is_some();
     let own = if is_named { format!("self.{field}.raw()") } else { format!("self.{field}") };
+    if base == Type::Boolean && !is_named {
+        let is_set = expected.is_none_or(|expected| expected != 0);
+        return Some(if is_set { own } else { format!("!{own}") });
+    }
+    // The greatest number that can be written beside it.
+    let (_, greatest) = base.integer_range()?;
+    let number = |number: u64| (i128::from(number) <= greatest).then(|| format!("{number:#X}").replace("0X", "0x"));
     let (offset, mask) = match bit {
         Some(bit) => bits(scope, value.item.ty, bit)?,
         None => (0, mask.unwrap_or(u64::MAX)),
     };
-    if scope.base(value.item.ty) == Type::Boolean {
-        let is_set = expected.is_none_or(|expected| expected != 0);
-        return Some(if is_set { own } else { format!("!{own}") });
-    }
     let masked = match mask {
         u64::MAX => own,
-        mask => format!("{own} & {:#X}", mask.checked_shl(offset)?).replace("0X", "0x"),
+        mask => format!("{own} & {}", number(mask.checked_shl(offset)?)?),
     };
     Some(match expected {
-        Some(expected) => format!("{masked} == {:#X}", expected.checked_shl(offset)?).replace("0X", "0x"),
+        Some(expected) => format!("{masked} == {}", number(expected.checked_shl(offset)?)?),
         None => format!("{masked} != 0"),
     })
 }

@@ -1,8 +1,9 @@
 //! The methods of a device that send messages.
 
 use super::rules::Rules;
-use super::{MessageModel, Shaped};
+use super::MessageModel;
 use crate::backend::rust::docs;
+use crate::passes::messages_shaped::Shaped;
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// More arguments than clippy likes.
@@ -38,7 +39,7 @@ pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Ru
     let names: Vec<(String, usize)> = with().enumerate().map(|(at, own)| wish((at, own))).collect();
     let wishes: Vec<Wish<'_>> = names
         .iter()
-        .map(|(name, at)| Wish { name, fallback: format!("message {at}"), suffix: format!("message {at}") })
+        .map(|(name, at)| Wish { name, fallback: format!("message {at}"), suffix: format!("message_{at}") })
         .collect();
     let names = names_unique::unique(&wishes, taken, Case::Snake);
     let mut calls = Vec::new();
@@ -56,7 +57,7 @@ pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Ru
             (arguments, super::literal(&ty, &own, 8))
         };
         let after = own.message.after.as_ref();
-        let selector = shaped.iter().find(|other| Some(&other.message.name) == after);
+        let selector = selector(shaped, messages, after.map(|own| own.as_str()));
         let replaced = own.message.availability.as_ref().and_then(|own| own.replaced_by.as_ref());
         calls.push(CallModel {
             method: names_unique::escaped(&name),
@@ -67,16 +68,25 @@ pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Ru
             borrows: request.borrows,
             deprecated: replaced.map(|other| crate::backend::rust::literal::string(&format!("replaced by {other}"))),
             is_selector: model.is_selector,
-            after: selector.map(|other| other.names[0].clone()),
+            after: selector,
         });
     }
     calls
 }
 
 /// What is answered after power-on; `None` where nothing is said of it, or the selector isn't known.
-pub(super) fn by_default(shaped: &[Shaped<'_>], calls: &[CallModel]) -> Option<DefaultModel> {
+pub(super) fn by_default(
+    shaped: &[Shaped<'_>],
+    messages: &[MessageModel],
+    calls: &[CallModel],
+) -> Option<DefaultModel> {
     let own = shaped.iter().find(|own| own.message.by_default)?;
-    let selector = shaped.iter().find(|other| own.message.after.as_ref() == Some(&other.message.name))?;
-    let name = selector.names[0].clone();
-    calls.iter().any(|call| call.after.as_ref() == Some(&name)).then_some(DefaultModel { selector: name })
+    let selector = selector(shaped, messages, own.message.after.as_deref())?;
+    calls.iter().any(|call| call.after.as_ref() == Some(&selector)).then_some(DefaultModel { selector })
+}
+
+/// The type of the message called so.
+fn selector(shaped: &[Shaped<'_>], messages: &[MessageModel], name: Option<&str>) -> Option<String> {
+    let at = shaped.iter().position(|own| Some(own.message.name.as_str()) == name)?;
+    messages.get(at)?.request.as_ref().map(|request| request.name.clone())
 }

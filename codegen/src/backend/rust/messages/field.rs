@@ -27,15 +27,22 @@ pub(in crate::backend::rust) struct Field {
 }
 
 enum Kind {
-    Value { bits: u32, order: Vec<u8>, encode: String, decode: String, check: Option<(String, String, String)> },
+    Value { bits: u32, order: Vec<u8>, encode: String, decode: String, check: Option<Check> },
     Text { length: u32 },
     Code { bits: u32 },
     Setting { space: String, bits: u32 },
     Blank { space: String, bits: u32 },
     Settings { space: String, bits: u32 },
+    ValueOnly { space: String },
     List,
     Bytes,
 }
+
+/// The type that checks a value, the value, and its range.
+type Check = (String, String, String);
+
+/// The longest array that `serde` knows.
+const SERDE_ARRAY: u32 = 32;
 
 /// The fields of these steps. `entry` is the name of the type of what is repeated, `lifetime` that of what is borrowed.
 pub(super) fn fields(scope: &Scope<'_>, steps: &[Step<'_>], entry: &str) -> Vec<Field> {
@@ -51,7 +58,7 @@ pub(super) fn fields(scope: &Scope<'_>, steps: &[Step<'_>], entry: &str) -> Vec<
 }
 
 /// What a field is called; `None` for a step that has none.
-fn name<'s>(step: &'s Step<'_>) -> Option<&'s str> {
+pub(super) fn name<'s>(step: &'s Step<'_>) -> Option<&'s str> {
     Some(match step {
         Step::Value { value, .. } => value.item.name.as_str(),
         Step::Code { .. } | Step::Blank { .. } => "parameter",
@@ -75,7 +82,7 @@ fn field(scope: &Scope<'_>, step: &Step<'_>, name: String, position: usize, entr
     };
     match step {
         Step::Value { bits, value } => typed(scope, value, *bits, name, position),
-        Step::Code { bits } => plain("rt::Parameter", "Number of the parameter.", Kind::Code { bits: *bits }),
+        Step::Code { bits, .. } => plain("rt::Parameter", "Number of the parameter.", Kind::Code { bits: *bits }),
         Step::Blank { bits, space } => {
             plain("rt::Parameter", "Number of the parameter.", Kind::Blank { space: (*space).to_owned(), bits: *bits })
         }
@@ -89,7 +96,11 @@ fn field(scope: &Scope<'_>, step: &Step<'_>, name: String, position: usize, entr
             "Parameters and their values.",
             Kind::Settings { space: (*space).to_owned(), bits: *bits },
         ),
-        Step::ValueOnly { .. } => plain("&'a [u8]", "The value of the parameter, as it was sent.", Kind::Bytes),
+        Step::ValueOnly { space, .. } => plain(
+            "&'a [u8]",
+            "The value of the parameter, as it was sent.",
+            Kind::ValueOnly { space: (*space).to_owned() },
+        ),
         Step::List { .. } => plain(&format!("rt::message::List<'a, {entry}>"), "What is repeated.", Kind::List),
         _ => plain("&'a [u8]", "All bytes that follow.", Kind::Bytes),
     }
@@ -111,13 +122,18 @@ fn typed(scope: &Scope<'_>, value: &MessageValue, bits: u32, name: String, posit
                 true => format!("self.{name} as u{width} as u64"),
                 false => format!("self.{name} as u64"),
             };
-            let check = range(item, base, &name, None, true);
+            let check = narrow(item, base, native, format!("self.{name}"));
             (native.to_owned(), Kind::Value { bits, order: value.byte_order.clone(), encode, decode, check })
         }
         other => {
             let ty = other.path("super::");
-            let named = matches!(other, FieldType::Named(..)).then_some(ty.as_str());
-            let check = range(item, base, &name, named, false);
+            let check = match &other {
+                FieldType::Named(_, native) if other.cut(bits).is_some() => {
+                    narrow(item, base, native, format!("self.{name}.raw()"))
+                }
+                FieldType::Named(..) => range(item, base, &name, Some(&ty)),
+                _ => range(item, base, &name, None),
+            };
             let encode = other.encode(&format!("self.{name}"), bits);
             let encode = if ty == "u64" { format!("self.{name}") } else { encode };
             let decode = other.decode(&ty);
@@ -125,29 +141,36 @@ fn typed(scope: &Scope<'_>, value: &MessageValue, bits: u32, name: String, posit
         }
     };
     let quantity = quantity::of(scope, item).filter(|_| !ty.contains("::"));
-    let scale = quantity.map(|own| (name.trim_start_matches("r#").to_ascii_uppercase(), own.path));
+    let scale = quantity.map(|own| (constant(&name), own.path));
     Field { docs: documentation(scope, item, base), ty, scale, position, kind, name }
 }
 
-/// The type that checks it, the value, and its range; `None` where all numbers of the type are allowed.
-fn range(item: &Item, base: Type, name: &str, named: Option<&str>, is_odd: bool) -> Option<(String, String, String)> {
+/// The check of a value; `None` where all numbers of the type are allowed.
+fn range(item: &Item, base: Type, name: &str, named: Option<&str>) -> Option<Check> {
     let ty = ValueType::of(base);
     let wrap = |literal: String| match named {
         Some(path) => format!("{path}::from_raw(«{literal}»)"),
         None => literal,
     };
-    let mut range = ty.range_as(&variant::widest(item), &wrap);
-    if range == "rt::Range::Full" {
-        let (low, high) = base.integer_range().filter(|_| is_odd)?;
-        range = format!("rt::Range::Between(«{low}¦ {high}»)");
+    let range = ty.range_as(&variant::widest(item), &wrap);
+    let path = named.unwrap_or(ty.path()).to_owned();
+    (range != "rt::Range::Full").then(|| (path, format!("self.{name}"), range))
+}
+
+/// The same for a number that has fewer bits than its type in Rust.
+fn narrow(item: &Item, base: Type, native: &str, value: String) -> Option<Check> {
+    let own = ValueType::Odd { name: "", range: base.integer_range()? };
+    Some((native.to_owned(), value, own.range_within(&variant::widest(item))?))
+}
+
+/// The name of the constant with the scale of a field.
+fn constant(field: &str) -> String {
+    let name = field.trim_start_matches("r#").to_ascii_uppercase();
+    match name.as_str() {
+        // Of messages.
+        "NAME" | "COMPLETION" => name + "_SCALE",
+        _ => name,
     }
-    let path = match (named, base) {
-        (Some(path), _) => path.to_owned(),
-        (None, Type::Integer(bits)) => native(true, bits.into()).to_owned(),
-        (None, Type::Unsigned(bits)) => native(false, bits.into()).to_owned(),
-        _ => ty.path().to_owned(),
-    };
-    Some((path, format!("self.{name}"), range))
 }
 
 fn documentation(scope: &Scope<'_>, item: &Item, base: Type) -> Vec<String> {
@@ -182,6 +205,29 @@ impl Field {
     /// Whether it borrows from the data.
     pub(super) fn borrows(&self) -> bool {
         self.ty.contains("'a")
+    }
+
+    /// Whether `serde` has no form for it.
+    pub(super) fn is_long(&self) -> bool {
+        matches!(self.kind, Kind::Text { length } if length > SERDE_ARRAY)
+    }
+
+    /// Whether limits of it may resemble a mathematical constant, which clippy would point out.
+    pub(super) fn has_real_limits(&self) -> bool {
+        matches!(&self.kind, Kind::Value { check: Some((ty, ..)), .. } if ty.starts_with('f'))
+    }
+
+    /// Whether it is what is repeated.
+    pub(super) fn is_list(&self) -> bool {
+        matches!(self.kind, Kind::List)
+    }
+
+    /// Whether it has the value of one parameter of a space.
+    pub(super) fn is_value_of(&self, space: &str) -> bool {
+        match &self.kind {
+            Kind::Setting { space: own, .. } | Kind::ValueOnly { space: own } => own == space,
+            _ => false,
+        }
     }
 
     /// What a method takes for it, and how the field is made of that.
@@ -229,7 +275,7 @@ impl Field {
                 vec![format!("{}.write_blank(self.{name}, to)?;", rules.name(space, Some(*bits)))]
             }
             Kind::Settings { .. } | Kind::List => vec![format!("self.{name}.write(to)?;")],
-            Kind::Bytes => vec![format!("to.bytes(self.{name})?;")],
+            Kind::ValueOnly { .. } | Kind::Bytes => vec![format!("to.bytes(self.{name})?;")],
         }
     }
 
@@ -241,7 +287,7 @@ impl Field {
             Kind::Code { bits } => format!("from.number({bits})?"),
             Kind::Setting { space, bits } => format!("{}.read_to(from, {tail})?", rules.name(space, Some(*bits))),
             Kind::Blank { space, bits } => format!("{}.read_blank(from)?", rules.name(space, Some(*bits))),
-            Kind::Settings { .. } | Kind::List | Kind::Bytes => format!("from.but({tail})?"),
+            Kind::Settings { .. } | Kind::ValueOnly { .. } | Kind::List | Kind::Bytes => format!("from.but({tail})?"),
         }
     }
 
@@ -251,7 +297,7 @@ impl Field {
             Kind::Value { decode, .. } => decode.replace('§', &local),
             Kind::Text { .. } => format!("{local}.try_into().ok()?"),
             Kind::Code { .. } => format!("rt::Parameter({local} as u32)"),
-            Kind::Setting { .. } | Kind::Blank { .. } | Kind::Bytes => local,
+            Kind::Setting { .. } | Kind::Blank { .. } | Kind::ValueOnly { .. } | Kind::Bytes => local,
             Kind::Settings { space, bits } => {
                 format!("rt::message::Settings::received(«{local}¦ {}»)?", rules.name(space, Some(*bits)))
             }

@@ -1,9 +1,8 @@
 //! The constants of a protocol: how frames are delimited, how long they are, which field numbers the device.
 
-use super::Shaped;
 use crate::backend::rust::data::Data;
 use crate::ir::{Device, Framing};
-use crate::passes::messages_shaped::Step;
+use crate::passes::messages_shaped::{Shaped, Step};
 
 /// Room for data whose length the description doesn't bound.
 const ROOM: u32 = 256;
@@ -54,7 +53,8 @@ pub(super) fn max_data(device: &Device, shaped: &[Shaped<'_>]) -> u32 {
         return max.into();
     }
     let sides = shaped.iter().flat_map(|own| [&own.request, &own.reply]);
-    sides.map(|side| side.steps.iter().map(longest).sum()).max().unwrap_or(ROOM)
+    let longest = |steps: &[Step<'_>]| steps.iter().map(longest).fold(0, u32::saturating_add);
+    sides.map(|side| longest(&side.steps)).max().unwrap_or(ROOM)
 }
 
 fn longest(step: &Step<'_>) -> u32 {

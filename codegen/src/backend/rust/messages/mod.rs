@@ -16,7 +16,7 @@ use super::manual;
 use super::options::RustOptions;
 use super::scope::Scope;
 use crate::ir::{Completion, Device, Message};
-use crate::passes::messages_shaped::{self, Side, Step};
+use crate::passes::messages_shaped::{self, Shaped, Step};
 use crate::passes::names_unique::{self, Case, Wish};
 pub(super) use device::{CallModel, DefaultModel};
 use field::Field;
@@ -29,6 +29,7 @@ pub(super) struct ProtocolModel {
     /// The expression of the constant.
     pub framing: Option<String>,
     pub max_data: u32,
+    pub derives: Vec<String>,
     /// Whether requests have the number of the device.
     pub has_station: bool,
     pub rules: Vec<RuleModel>,
@@ -81,41 +82,44 @@ pub(super) struct EntryModel {
 }
 
 /// Names that the code of messages uses itself.
-const RESERVED: [&str; 9] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err", "Protocol", "Request"];
-
-/// A message with its shapes and names.
-struct Shaped<'a> {
-    message: &'a Message,
-    request: Side<'a>,
-    reply: Side<'a>,
-    names: [String; 4],
-}
+const RESERVED: [&str; 10] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err", "Protocol", "Request", "E"];
 
 impl ProtocolModel {
     /// The protocol of a device; `None` where it has none. Its methods must not be called as `taken`.
     pub(super) fn new(scope: &Scope<'_>, options: &RustOptions, taken: &[&str]) -> Option<Self> {
         let device = scope.device?;
-        let shaped = shaped(device);
-        if shaped.is_empty() {
+        let shapes = messages_shaped::shapes(device);
+        if shapes.is_empty() {
             return None;
         }
-        let steps = shaped.iter().flat_map(|own| own.request.steps.iter().chain(&own.reply.steps));
-        let rules = Rules::new(scope, device, steps);
-        let make = Maker { scope, options, device, rules: &rules, all: &shaped };
-        let messages: Vec<MessageModel> = shaped.iter().map(|own| make.message(own)).collect();
-        let calls = if options.accessors { device::calls(&shaped, &messages, &rules, taken) } else { Vec::new() };
+        let names = names(&shapes);
+        let types: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
+        let steps = shapes.iter().flat_map(|own| own.request.steps.iter().chain(&own.reply.steps));
+        let rules = Rules::new(scope, device, steps, &types);
+        let make = Maker { scope, options, device, rules: &rules, shapes: &shapes, names: &names };
+        let messages: Vec<MessageModel> =
+            shapes.iter().zip(&names).map(|(own, names)| make.message(own, names)).collect();
+        let calls = if options.accessors { device::calls(&shapes, &messages, &rules, taken) } else { Vec::new() };
         Some(ProtocolModel {
-            framing: device.framing.as_deref().and_then(|own| framing::constant(own, &shaped)),
-            max_data: framing::max_data(device, &shaped),
-            has_station: framing::has_station(&shaped),
-            parameters: parameters::model(device, &shaped, &rules),
+            framing: device.framing.as_deref().and_then(|own| framing::constant(own, &shapes)),
+            max_data: framing::max_data(device, &shapes),
+            derives: options.derives(true),
+            has_station: framing::has_station(&shapes),
+            parameters: parameters::model(device, &shapes, &messages, &rules),
             requests: requests(&messages),
             request_derives: make.derives(true),
-            by_default: device::by_default(&shaped, &calls),
+            by_default: device::by_default(&shapes, &messages, &calls),
             calls,
             messages,
             rules: rules.models,
         })
+    }
+
+    /// Whether limits are real numbers.
+    pub(super) fn has_real_limits(&self) -> bool {
+        let sides = self.messages.iter().flat_map(|own| own.request.iter().chain(&own.reply));
+        let mut fields = sides.flat_map(|side| side.fields.iter().chain(side.entry.iter().flat_map(|own| &own.fields)));
+        fields.any(Field::has_real_limits)
     }
 
     /// Whether requests decide what others mean.
@@ -134,31 +138,22 @@ impl ProtocolModel {
     }
 }
 
-/// The messages that have a shape, with names for request, reply, and what is repeated in each.
-fn shaped(device: &Device) -> Vec<Shaped<'_>> {
-    let mut all = Vec::new();
-    for message in &device.messages {
-        let Ok(request) = messages_shaped::request(device, message) else { continue };
-        let Ok(reply) = messages_shaped::reply(device, message, &request) else { continue };
-        all.push(Shaped { message, request, reply, names: Default::default() });
-    }
-    let names: Vec<[String; 4]> = all.iter().map(|own| wished(own.message)).collect();
-    let wish = |(at, name): (usize, &'_ String)| (name.clone(), at);
-    let flat: Vec<(String, usize)> =
-        names.iter().enumerate().flat_map(|(at, own)| own.iter().map(move |name| wish((at, name)))).collect();
-    let wishes: Vec<Wish<'_>> = flat
+/// The names of the types of each message: request, reply, and what is repeated in each.
+type Names = [String; 4];
+
+fn names(shapes: &[Shaped<'_>]) -> Vec<Names> {
+    let wished = shapes.iter().enumerate().flat_map(|(at, own)| wished(own.message).map(|name| (name, at)));
+    let wished: Vec<(String, usize)> = wished.collect();
+    let wishes: Vec<Wish<'_>> = wished
         .iter()
         .map(|(name, at)| Wish { name, fallback: format!("message {at}"), suffix: at.to_string() })
         .collect();
     let mut names = names_unique::unique(&wishes, &RESERVED, Case::Pascal).into_iter();
-    for own in &mut all {
-        own.names = std::array::from_fn(|_| names.next().unwrap_or_default());
-    }
-    all
+    shapes.iter().map(|_| std::array::from_fn(|_| names.next().unwrap_or_default())).collect()
 }
 
 /// Names of request, reply, and of what is repeated in them. What only a device sends is no reply.
-fn wished(message: &Message) -> [String; 4] {
+fn wished(message: &Message) -> Names {
     let name = &message.name;
     let reply = if message.request.is_empty() { name.to_string() } else { format!("{name} reply") };
     let request = if message.request.is_empty() { format!("{name} request") } else { name.to_string() };
@@ -171,15 +166,15 @@ struct Maker<'m, 'a> {
     options: &'m RustOptions,
     device: &'m Device,
     rules: &'m Rules,
-    all: &'m [Shaped<'a>],
+    shapes: &'m [Shaped<'a>],
+    names: &'m [Names],
 }
 
 impl Maker<'_, '_> {
-    fn message(&self, own: &Shaped<'_>) -> MessageModel {
+    fn message(&self, own: &Shaped<'_>, names: &Names) -> MessageModel {
         let message = own.message;
-        let refuses = |name| self.all.iter().find(|other| Some(&other.message.name) == name);
-        let refusal = refuses(message.error.as_ref()).filter(|other| !borrows(&other.reply.steps));
-        let [request_name, reply_name, entry, reply_entry] = &own.names;
+        let refusal = messages_shaped::refusal(self.shapes, message).and_then(|at| self.names.get(at));
+        let [request_name, reply_name, entry, reply_entry] = names;
         let has_request = !message.request.is_empty();
         let request = has_request.then(|| {
             let data = self.data(&own.request.steps, request_name, entry);
@@ -191,7 +186,7 @@ impl Maker<'_, '_> {
                 true => vec![format!("What is answered to [`{request_name}`].")],
                 false => self.documentation(message),
             };
-            let polled = || completion::expression(self.scope, self.device, message, &data.fields);
+            let polled = || completion::expression(self.scope, self.device, message, (&own.reply.steps, &data.fields));
             let is_complete = has_request.then(polled).flatten();
             DataModel { docs, is_complete, ..data }
         });
@@ -199,9 +194,9 @@ impl Maker<'_, '_> {
             title: super::literal::string(&message.name),
             request,
             reply,
-            refusal: refusal.map_or_else(|| "core::convert::Infallible".to_owned(), |other| other.names[1].clone()),
+            refusal: refusal.map_or_else(|| "core::convert::Infallible".to_owned(), |names| names[1].clone()),
             completion: completion(&message.completion),
-            is_selector: self.all.iter().any(|other| other.message.after.as_ref() == Some(&message.name)),
+            is_selector: self.shapes.iter().any(|other| other.message.after.as_ref() == Some(&message.name)),
         }
     }
 
@@ -216,7 +211,7 @@ impl Maker<'_, '_> {
         DataModel {
             name: name.to_owned(),
             docs: Vec::new(),
-            derives: self.derives(borrows),
+            derives: self.derives(borrows || fields.iter().any(Field::is_long)),
             borrows,
             fields,
             code,
@@ -233,16 +228,16 @@ impl Maker<'_, '_> {
         EntryModel {
             name: name.to_owned(),
             title: format!("What is repeated in [`{owner}`]."),
-            derives: self.derives(false),
+            derives: self.derives(fields.iter().any(Field::is_long)),
             length,
             fields,
             code,
         }
     }
 
-    /// Lists have neither a form for `serde` nor for `defmt`.
-    fn derives(&self, borrows: bool) -> Vec<String> {
-        if !borrows {
+    /// Lists have neither a form for `serde` nor for `defmt`, and long texts none for `serde`.
+    fn derives(&self, is_plain: bool) -> Vec<String> {
+        if !is_plain {
             return self.options.derives(true);
         }
         let plain =
@@ -275,13 +270,6 @@ impl Maker<'_, '_> {
         }
         lines
     }
-}
-
-fn borrows(steps: &[Step<'_>]) -> bool {
-    let is_open = |step: &Step<'_>| {
-        matches!(step, Step::Settings { .. } | Step::List { .. } | Step::Rest | Step::ValueOnly { .. })
-    };
-    steps.iter().any(is_open)
 }
 
 fn completion(completion: &Completion) -> String {

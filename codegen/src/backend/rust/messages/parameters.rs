@@ -1,9 +1,9 @@
-//! The messages that read and write numbered parameters.
+//! The messages that read and write numbered parameters one by one.
 
-use super::rules::{self, Rules};
-use super::Shaped;
-use crate::ir::{CompactString, Device};
-use crate::passes::messages_shaped::Step;
+use super::rules::Rules;
+use super::MessageModel;
+use crate::ir::Device;
+use crate::passes::messages_shaped::{carriers, Shaped, Step};
 
 /// The implementation of `ParameterMessages`, ready to be written.
 #[derive(Default)]
@@ -25,59 +25,51 @@ pub(in crate::backend::rust) struct Arm {
 }
 
 /// `None` where no parameter is read or written by messages.
-pub(super) fn model(device: &Device, shaped: &[Shaped<'_>], rules: &Rules) -> Option<ParametersModel> {
+pub(super) fn model(
+    device: &Device,
+    shapes: &[Shaped<'_>],
+    messages: &[MessageModel],
+    rules: &Rules,
+) -> Option<ParametersModel> {
     let mut model = ParametersModel::default();
-    for space in &device.parameter_spaces {
-        let items = rules::parameters(device, &space.name);
-        let rule = rules.name(&space.name, None);
-        if items.is_empty() || rule.is_empty() {
-            continue;
-        }
-        let rule = || rule.to_owned();
-        let find = |name: &Option<CompactString>| shaped.iter().find(|own| Some(&own.message.name) == name.as_ref());
-        if let Some((own, build)) = find(&space.read).and_then(|own| Some((own, request(own, rules, false)?))) {
-            let value = value(own, rules);
-            let message = own.names[0].clone();
-            model.read.extend(value.map(|value| Arm { rule: rule(), message, build: vec![build], value }));
-        }
-        if let Some((own, build)) = find(&space.write).and_then(|own| Some((own, request(own, rules, true)?))) {
-            model.write.push(Arm {
-                rule: rule(),
-                message: own.names[0].clone(),
-                build: vec![build],
-                value: String::new(),
-            });
-        }
+    let at = |at: usize| Some((shapes.get(at)?, messages.get(at)?));
+    for own in carriers(device, shapes) {
+        let rule = rules.name(own.space, None);
+        model.read.extend(own.read.and_then(at).and_then(|own| reading(own, rule, rules)));
+        model.write.extend(own.write.and_then(at).and_then(|own| writing(own, rule, rules)));
     }
     (!model.read.is_empty() || !model.write.is_empty()).then_some(model)
 }
 
-/// The fields of the request; `None` where it has others than a parameter and its value.
-fn request(own: &Shaped<'_>, rules: &Rules, writes: bool) -> Option<String> {
-    let mut build = None;
-    for step in &own.request.steps {
-        match step {
-            Step::Value { .. } | Step::Count { .. } | Step::List { .. } | Step::Rest | Step::ValueOnly { .. } => {
-                return None
-            }
-            Step::Code { .. } | Step::Blank { .. } if !writes => build = Some("parameter".to_owned()),
-            Step::Setting { .. } if writes => build = Some("setting: settings[0]".to_owned()),
-            Step::Settings { bits, space, .. } if writes => {
-                let rule = rules.name(space, Some(*bits));
-                build = Some(format!("settings: rt::message::Settings::sent(«&settings¦ {rule}»)"));
-            }
-            Step::Code { .. } | Step::Blank { .. } | Step::Setting { .. } | Step::Settings { .. } => return None,
-            _ => {}
-        }
-    }
-    build
+fn reading((shape, model): (&Shaped<'_>, &MessageModel), rule: &str, rules: &Rules) -> Option<Arm> {
+    let (request, reply) = (model.request.as_ref()?, model.reply.as_ref()?);
+    let field = request.fields.first()?;
+    let build = if field.name == "parameter" { "parameter".to_owned() } else { format!("{}: parameter", field.name) };
+    let steps = shape.reply.steps.iter();
+    let mut value = steps.filter_map(|step| match step {
+        Step::Setting { space, .. } => Some((true, *space)),
+        Step::ValueOnly { space, .. } => Some((false, *space)),
+        _ => None,
+    });
+    let (with_number, space) = value.next_back()?;
+    let field = &reply.fields.iter().rfind(|field| field.is_value_of(space))?.name;
+    let value = match with_number {
+        true => format!("reply.{field}.copy(parameter, value)"),
+        false => format!("{}.copy(reply.{field}, value)", rules.name(space, None)),
+    };
+    Some(Arm { rule: rule.to_owned(), message: request.name.clone(), build: vec![build], value })
 }
 
-/// The expression that copies the value in the reply.
-fn value(own: &Shaped<'_>, rules: &Rules) -> Option<String> {
-    own.reply.steps.iter().find_map(|step| match step {
-        Step::Setting { .. } => Some("reply.setting.copy(parameter, value)".to_owned()),
-        Step::ValueOnly { space } => Some(format!("{}.copy(reply.value, value)", rules.name(space, None))),
+fn writing((shape, model): (&Shaped<'_>, &MessageModel), rule: &str, rules: &Rules) -> Option<Arm> {
+    let request = model.request.as_ref()?;
+    let name = &request.fields.first()?.name;
+    let build = shape.request.steps.iter().find_map(|step| match step {
+        Step::Setting { .. } => Some(format!("{name}: settings[0]")),
+        Step::Settings { bits, space, .. } => {
+            let rule = rules.name(space, Some(*bits));
+            Some(format!("{name}: rt::message::Settings::sent(«&settings¦ {rule}»)"))
+        }
         _ => None,
-    })
+    });
+    Some(Arm { rule: rule.to_owned(), message: request.name.clone(), build: vec![build?], value: String::new() })
 }

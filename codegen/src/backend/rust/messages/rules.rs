@@ -1,10 +1,9 @@
 //! How parameters stand in messages: a constant for each space of numbers.
 
-use std::collections::BTreeMap;
-
+use crate::backend::rust::docs;
 use crate::backend::rust::scope::Scope;
-use crate::ir::{Binding, Device, Item, Type};
-use crate::passes::messages_shaped::Step;
+use crate::ir::{Device, Type};
+use crate::passes::messages_shaped::{numbered, Step};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// The longest name: the lines that use it have to stay below the margin.
@@ -14,6 +13,7 @@ const MAX_NAME: usize = 24;
 pub(in crate::backend::rust) struct RuleModel {
     pub name: String,
     pub space: String,
+    pub title: String,
     pub code_bits: u32,
     pub order: String,
     /// First and last number, and how many bytes their values have.
@@ -27,20 +27,23 @@ pub(in crate::backend::rust) struct Rules {
 }
 
 impl Rules {
-    /// Those that these steps need.
-    pub(super) fn new<'a>(scope: &Scope<'_>, device: &Device, steps: impl Iterator<Item = &'a Step<'a>>) -> Self {
+    /// Those that these steps need, beside types of these names.
+    pub(super) fn new<'a>(
+        scope: &Scope<'_>,
+        device: &Device,
+        steps: impl Iterator<Item = &'a Step<'a>>,
+        types: &[&str],
+    ) -> Self {
         let mut used: Vec<(&str, u32)> = Vec::new();
         for step in steps {
             let own = match step {
                 Step::Setting { bits, space } | Step::Blank { bits, space } | Step::Settings { bits, space, .. } => {
                     (*space, *bits)
                 }
-                Step::ValueOnly { space } => (*space, 16),
+                Step::ValueOnly { bits, space } => (*space, *bits),
                 _ => continue,
             };
-            let is_known =
-                used.iter().any(|used| *used == own || own.0 == used.0 && matches!(step, Step::ValueOnly { .. }));
-            if !is_known {
+            if !used.contains(&own) {
                 used.push(own);
             }
         }
@@ -50,18 +53,19 @@ impl Rules {
             suffix: bits.to_string(),
         };
         let wishes: Vec<Wish<'_>> = used.iter().map(wish).collect();
-        let names = names_unique::unique_up_to(
-            &wishes,
-            &["self", "super", "crate", "framing", "max_data"],
-            Case::Snake,
-            MAX_NAME,
-        );
+        // A type of one letter, or of digits, is written like a constant.
+        let shouted = types.iter().filter(|name| name.to_ascii_uppercase() == **name);
+        let types: Vec<String> = shouted.map(|name| name.to_ascii_lowercase()).collect();
+        let mut reserved = vec!["framing", "max_data"];
+        reserved.extend(types.iter().map(String::as_str));
+        let names = names_unique::unique_up_to(&wishes, &reserved, Case::Snake, MAX_NAME);
         let models = used.iter().zip(names).map(|((space, bits), name)| {
             let own = device.parameter_spaces.iter().find(|own| own.name == *space);
             let order = own.map(|own| own.byte_order.iter().map(u8::to_string).collect::<Vec<_>>().join(", "));
             RuleModel {
-                name: name.trim_start_matches('_').to_ascii_uppercase(),
+                name: name.to_ascii_uppercase(),
                 space: (*space).to_owned(),
+                title: docs::escape(space),
                 code_bits: *bits,
                 order: order.unwrap_or_default(),
                 lengths: lengths(scope, device, space),
@@ -77,26 +81,10 @@ impl Rules {
     }
 }
 
-/// The parameters of a space, by their numbers.
-pub(super) fn parameters<'d>(device: &'d Device, space: &str) -> BTreeMap<u32, &'d Item> {
-    let items = device.groups.iter().flat_map(|group| &group.items);
-    let numbered = items.flat_map(|item| {
-        item.bindings.iter().filter_map(move |binding| match binding {
-            Binding::Parameter { space: own, code } if own == space => Some((*code, item)),
-            _ => None,
-        })
-    });
-    let mut all = BTreeMap::new();
-    for (code, item) in numbered {
-        all.entry(code).or_insert(item);
-    }
-    all
-}
-
 /// Neighbouring numbers whose values have one length.
 fn lengths(scope: &Scope<'_>, device: &Device, space: &str) -> String {
     let mut spans: Vec<(u32, u32, u32)> = Vec::new();
-    for (code, item) in parameters(device, space) {
+    for (code, item) in numbered(device, space) {
         let Some(length) = length(scope.base(item.ty)) else { continue };
         match spans.last_mut() {
             Some((_, last, own)) if last.checked_add(1) == Some(code) && *own == length => *last = code,

@@ -12,8 +12,9 @@ pub(in crate::backend::rust) struct Statements {
     pub read: Vec<String>,
     /// `name: value` for each field, from what was read.
     pub build: Vec<String>,
-    /// Whether writing and reading need the request, or the number of the device.
-    pub uses_request: bool,
+    /// Whether writing and reading need the request, and both the number of the device.
+    pub writes_request: bool,
+    pub reads_request: bool,
     pub uses_station: bool,
 }
 
@@ -23,6 +24,7 @@ const LINE: usize = 8;
 /// The statements for these steps; `fields` are those that have a value of their own, in order.
 pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) -> Statements {
     let mut own = Statements::default();
+    let list = fields.iter().find(|field| field.is_list()).map_or("", |field| field.name.as_str());
     let mut fields = fields.iter();
     // What is known only when all is written.
     let mut end = Vec::new();
@@ -49,8 +51,7 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
             Step::Length { bits, order, from, .. } => {
                 own.write.push("let length_at = to.len();".to_owned());
                 own.write.push(number(*bits, order, "0"));
-                let read = if order.is_empty() { format!("number({bits})") } else { format!("ordered(&{order:?})") };
-                own.read.push(format!("let length = from.{read}?;"));
+                own.read.push(format!("let length = from.{}?;", reading(*bits, order)));
                 own.read.push(format!("from.counted({from}, length)?;"));
                 let order = if order.is_empty() { (0..bits / 8).map(|at| at as u8).collect() } else { order.to_vec() };
                 end.push(format!("to.length(length_at, &{order:?}, {from})?;"));
@@ -60,31 +61,37 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
                 own.read.push(format!("from.skip({count})?;"));
             }
             Step::Echo { first, count } => {
-                own.uses_request = true;
+                (own.writes_request, own.reads_request) = (true, true);
                 own.write.push(format!("to.echo(request, {first}, {count})?;"));
                 own.read.push(format!("from.echo(request, {first}, {count})?;"));
             }
             Step::Copy { first, count } => {
-                own.uses_request = true;
+                (own.writes_request, own.reads_request) = (true, true);
                 own.write.push(format!("to.copy(request, {first}, {count})?;"));
                 own.read.push(format!("from.copy(request, {first}, {count})?;"));
+            }
+            Step::Same { first, count } => {
+                own.reads_request = true;
+                own.read.push(format!("from.clone().echo(request, {first}, {count})?;"));
             }
             Step::Station { bits, value } => {
                 own.uses_station = true;
                 own.write.extend(station(*bits, &value.item.limits));
-                own.write.push(format!("to.number({bits}, station.into())?;"));
-                own.read.push(format!("let station = from.number({bits})? as u32;"));
+                own.write.push(number(*bits, &value.byte_order, "station.into()"));
+                own.read.push(format!("let station = from.{}? as u32;", reading(*bits, &value.byte_order)));
             }
             Step::Count { bits, max } => {
                 let last = u64::MAX >> (64 - (*bits).clamp(1, 64));
                 let last = max.map_or(last, |max| last.min(max.into()));
-                own.write.push("let count = self.entries.len() as u64;".to_owned());
+                own.write.push(format!("let count = self.{list}.len() as u64;"));
                 own.write.push(format!("rt::message::check::<u64>(count, &rt::Range::To({last}))?;"));
                 own.write.push(format!("to.number({bits}, count)?;"));
                 own.read.push(format!("let count = usize::try_from(from.number({bits})?).ok()?;"));
             }
             Step::List { length, is_counted, max, .. } => {
-                own.write.extend(max.filter(|_| !is_counted).into_iter().flat_map(|max| limit("entries.len()", max)));
+                own.write.extend(
+                    max.filter(|_| !is_counted).into_iter().flat_map(|max| limit(&format!("{list}.len()"), max)),
+                );
                 let list = match is_counted {
                     true => format!("let list = from.bytes(count.checked_mul({length})?)?;"),
                     false => format!("let list = from.but({tail})?;"),
@@ -92,8 +99,10 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
                 value(&mut own, fields.next(), Some(list), rules, tail);
             }
             Step::Settings { max, .. } => {
-                own.write.extend(max.iter().flat_map(|max| limit("settings.iter().count()", *max)));
-                value(&mut own, fields.next(), None, rules, tail);
+                let field = fields.next();
+                let name = field.map_or("", |field| field.name.as_str());
+                own.write.extend(max.iter().flat_map(|max| limit(&format!("{name}.iter().count()"), *max)));
+                value(&mut own, field, None, rules, tail);
             }
             _ => value(&mut own, fields.next(), None, rules, tail),
         }
@@ -108,6 +117,14 @@ pub(super) fn number(bits: u32, order: &[u8], value: &str) -> String {
     match order.is_empty() {
         true => format!("to.number({bits}, {value})?;"),
         false => format!("to.ordered(&{order:?}, {value})?;"),
+    }
+}
+
+/// The method that reads a number.
+fn reading(bits: u32, order: &[u8]) -> String {
+    match order.is_empty() {
+        true => format!("number({bits})"),
+        false => format!("ordered(&{order:?})"),
     }
 }
 
@@ -142,5 +159,6 @@ fn value(own: &mut Statements, field: Option<&Field>, list: Option<String>, rule
         Some(list) => own.read.push(list),
         None => own.read.push(format!("let {local} = {};", field.read(rules, tail))),
     }
-    own.build.push(format!("{}: {}", field.name, field.decode(rules)));
+    let decoded = field.decode(rules);
+    own.build.push(if decoded == field.name { decoded } else { format!("{}: {decoded}", field.name) });
 }
