@@ -51,6 +51,6 @@ fn bits_values_and_codes() {
     assert_eq!(HomingType::from_raw(2), HomingType::SwitchAndIndex);
     let find = |table, code| lexibus::codes::find(table, code).map(|code: &lexibus::codes::Code| code.name);
     assert_eq!(find(codes::ALARM, 8), Some("communication error"));
-    assert_eq!(find(codes::WARNING, 0x400B), Some("way too long"));
+    assert_eq!(find(codes::WARNING, 0x400B), Some("motion too long"));
     assert_eq!((codes::ALARM.len(), codes::WARNING.len()), (23, 12));
 }
