@@ -57,6 +57,7 @@
 
 mod call;
 mod list;
+mod outcome;
 mod reader;
 mod scale;
 mod setting;
@@ -69,6 +70,7 @@ use crate::error::Error;
 pub(crate) use call::answer;
 pub use call::{Answer, AsyncMessageClient, Call, Failure, MessageClient, Station};
 pub use list::{Group, List, ListIter, Settings, SettingsIter, SettingsRule};
+pub use outcome::{Outcome, Outcomes, StateOutcomes};
 pub use reader::Reader;
 pub use scale::Scale;
 pub use setting::Setting;

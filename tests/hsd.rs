@@ -11,6 +11,8 @@ mod line;
 mod motor;
 #[path = "hsd/packets.rs"]
 mod packets;
+#[path = "hsd/states.rs"]
+mod states;
 
 use lexibus::framing::{FrameError, Framing};
 use lexibus_drives::hsd::messages::FRAMING;

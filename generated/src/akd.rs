@@ -424,6 +424,20 @@ impl<X> Akd<rt::Parameters<X, messages::Protocol, { messages::MAX_DATA }>> {
 }
 impl<C> Akd<C> {
     /// SDO.
+    ///
+    /// An object is written or read through the mailbox: at most four bytes, in 16 bytes each way. The master writes the request to 0x1800 of the slave controller, and reads the reply at 0x1C00.
+    ///
+    /// Manual, line 1130-1167, 1169-1205: Uscita della Mailbox.
+    ///
+    /// Note: No abort codes are listed: they are those of CANopen (L1203). Chosen: none in the table (the profile of CoE has them).
+    ///
+    /// Note: Only writes and reads of up to four bytes are described (L1156-1158); other types of the CoE header aren't. Chosen: this one message (the other types have no bytes in the manual).
+    ///
+    /// Note: The request's ten bytes are byte 2 to byte 11 (L1211-1212). Chosen: ten bytes, from byte 6 to byte 15 (the data of the mailbox are what follows its header, and are ten bytes).
+    ///
+    /// Note: The reply has length 0x0E, for byte 2 to byte 15 (L1230-1231), and as many data as the request. Chosen: 0x0A (the length of the request is that of the data from byte 6 on).
+    ///
+    /// Note: The reply has 0x20 in byte 7, and calls it an SDO response (L1237); type 2 is the request, 3 the response (L1149-1150, L1188-1189). Chosen: 0x30 (the table of types has it so).
     pub fn sdo(
         &mut self,
         message: messages::Sdo,
@@ -3223,6 +3237,8 @@ pub mod codes {
     ///
     /// What the AL status code means, of which changes of state, and in which state the drive is then.
     ///
+    /// Manual, line 636-641.
+    ///
     /// Further columns: change of state, resulting state.
     pub static AL_STATUS: &[rt::codes::Code] = &[
         rt::codes::Code::new(
@@ -3256,11 +3272,11 @@ pub mod codes {
     /// A code of [`AL_STATUS`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum AlStatus {
-        /// 0: no error.
+        /// 0: no error. Manual, line 637: Nessun errore.
         NoError,
-        /// 0x11: invalid requested state change.
+        /// 0x11: invalid requested state change. Manual, line 638: Modifica dello stato richiesto non valida.
         InvalidRequestedStateChange,
-        /// 0x17: invalid sync manager configuration.
+        /// 0x17: invalid sync manager configuration. Manual, line 639: Configurazione del gestore della sincronizzazione non valida.
         InvalidSyncManagerConfiguration,
         /// Any other number.
         Unknown(u16),
@@ -3291,6 +3307,8 @@ pub mod codes {
     ///
     /// The modes of operation that are supported, and the drive's own parameters that go with them.
     ///
+    /// Manual, line 1004-1008.
+    ///
     /// Further columns: DRV.OPMODE, DRV.CMDSOURCE.
     pub static OPERATING_MODES: &[rt::codes::Code] = &[
         rt::codes::Code::new(
@@ -3318,11 +3336,11 @@ pub mod codes {
     /// A code of [`OPERATING_MODES`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum OperatingModes {
-        /// 3: profile velocity. Cyclic velocities from the master.
+        /// 3: profile velocity. Cyclic velocities from the master. Manual, line 1006: Velocità del profilo.
         ProfileVelocity,
-        /// 7: interpolated position. Cyclic positions from the master.
+        /// 7: interpolated position. Cyclic positions from the master. Manual, line 1007: Posizione interpolata.
         InterpolatedPosition,
-        /// 6: homing. The drive's own homing.
+        /// 6: homing. The drive's own homing. Manual, line 1008: Modalità di ritorno al punto di partenza.
         Homing,
         /// Any other number.
         Unknown(u16),
@@ -3352,6 +3370,8 @@ pub mod codes {
     /// faults.
     ///
     /// The one fault that the manual names.
+    ///
+    /// Manual, line 1261.
     pub static FAULTS: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             0x7D,
@@ -3364,7 +3384,7 @@ pub mod codes {
     /// A code of [`FAULTS`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Faults {
-        /// 0x7D: synchronisation lost. F125: more than three SYNC messages of CANopen, or seven frames of EtherCAT, were missed while the drive was enabled and FBUS.PARAM04 was 1.
+        /// 0x7D: synchronisation lost. F125: more than three SYNC messages of CANopen, or seven frames of EtherCAT, were missed while the drive was enabled and FBUS.PARAM04 was 1. Manual, line 1261: Sincronizzazione persa.
         SynchronisationLost,
         /// Any other number.
         Unknown(u16),

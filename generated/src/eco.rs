@@ -5300,6 +5300,8 @@ pub mod codes {
     ///
     /// Alarms of every bus; what the drive does then is the reaction. EtherCAT and PROFINET have further ones, and give 31 to 34 other meanings each.
     ///
+    /// Manual, line 1945-2062.
+    ///
     /// Further columns: reaction.
     pub static GENERAL_ALARMS: &[rt::codes::Code] = &[
         rt::codes::Code::new(
@@ -5439,43 +5441,43 @@ pub mod codes {
     /// A code of [`GENERAL_ALARMS`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum GeneralAlarms {
-        /// 1: IGBT module. Over-current, over-temperature or short circuit of the power stage.
+        /// 1: IGBT module. Over-current, over-temperature or short circuit of the power stage. Manual, line 1955-1957: Allarme modulo IGBT.
         IgbtModule,
-        /// 2: motor temperature. The motor is too hot.
+        /// 2: motor temperature. The motor is too hot. Manual, line 1960-1962: Allarme termica motore.
         MotorTemperature,
-        /// 3: motor current. The current of the motor is too high.
+        /// 3: motor current. The current of the motor is too high. Manual, line 1965-1968: Allarme corrente motore.
         MotorCurrent,
-        /// 4: over-voltage. Too much voltage on the DC bus.
+        /// 4: over-voltage. Too much voltage on the DC bus. Manual, line 1971-1974: Allarme sovratensione.
         OverVoltage,
-        /// 5: under-voltage. Not enough voltage on the DC bus.
+        /// 5: under-voltage. Not enough voltage on the DC bus. Manual, line 1977-1980: Allarme sottotensione.
         UnderVoltage,
-        /// 6: drive temperature. The drive is too hot.
+        /// 6: drive temperature. The drive is too hot. Manual, line 1983-1986: Allarme termica drive.
         DriveTemperature,
-        /// 7: hardware. The hardware is broken; no reaction is printed.
+        /// 7: hardware. The hardware is broken; no reaction is printed. Manual, line 1989-1992: Allarme hardware.
         Hardware,
-        /// 8: position sensor. The resolver or encoder doesn't work.
+        /// 8: position sensor. The resolver or encoder doesn't work. Manual, line 1995-1998: Allarme sensore posizione.
         PositionSensor,
-        /// 9: non-volatile memory. The flash doesn't work.
+        /// 9: non-volatile memory. The flash doesn't work. Manual, line 2001-2004: Allarme memoria non volatile.
         NonVolatileMemory,
-        /// 0xA: braking resistor. The braking resistor is on too much.
+        /// 0xA: braking resistor. The braking resistor is on too much. Manual, line 2007-2010: Allarme resistore frenatura.
         BrakingResistor,
-        /// 0xD: network. An error of the network's communication.
+        /// 0xD: network. An error of the network's communication. Manual, line 2012-2015: Errore network.
         Network,
-        /// 0xE: homing. An error during homing.
+        /// 0xE: homing. An error during homing. Manual, line 2020-2023: Errore homing.
         Homing,
-        /// 0xF: overflow. Of positioning.
+        /// 0xF: overflow. Of positioning. Manual, line 2025-2028: Errore overflow.
         Overflow,
-        /// 0x10: following error. Too large for longer than its time.
+        /// 0x10: following error. Too large for longer than its time. Manual, line 2030-2034: Errore inseguimento posizione.
         FollowingError,
-        /// 0x16: absolute encoder not homed. Its zero wasn't set.
+        /// 0x16: absolute encoder not homed. Its zero wasn't set. Manual, line 2036-2039: Errore homing encoder assoluto.
         AbsoluteEncoderNotHomed,
-        /// 0x17: absolute encoder not aligned. The motor wasn't aligned with it yet.
+        /// 0x17: absolute encoder not aligned. The motor wasn't aligned with it yet. Manual, line 2041-2045: Errore allineamento encoder assoluto.
         AbsoluteEncoderNotAligned,
-        /// 0x18: absolute encoder communication. Drive and encoder don't reach each other.
+        /// 0x18: absolute encoder communication. Drive and encoder don't reach each other. Manual, line 2047-2050: Errore comunicazione encoder assoluto.
         AbsoluteEncoderCommunication,
-        /// 0x19: axis moved at power-on. Seen by the absolute encoder.
+        /// 0x19: axis moved at power-on. Seen by the absolute encoder. Manual, line 2052-2056: Errore asse in movimento all'accensione.
         AxisMovedAtPowerOn,
-        /// 0x1A: configuration not allowed. A mode that doesn't go with an external encoder.
+        /// 0x1A: configuration not allowed. A mode that doesn't go with an external encoder. Manual, line 2058-2062: Configurazione non consentita.
         ConfigurationNotAllowed,
         /// Any other number.
         Unknown(u16),
@@ -5537,6 +5539,8 @@ pub mod codes {
     /// ethercat\_alarms.
     ///
     /// Alarms, and the code that 0x603F shows for each. Several have the same, so that the code doesn't tell which it is; 30 has none.
+    ///
+    /// Manual, line 5860-5906, 5913-5915.
     ///
     /// On ethercat.
     ///
@@ -5736,61 +5740,61 @@ pub mod codes {
     /// A code of [`ETHERCAT_ALARMS`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum EthercatAlarms {
-        /// 1: IGBT.
+        /// 1: IGBT. Manual, line 5879: Problema IGBT.
         Igbt,
-        /// 2: motor temperature.
+        /// 2: motor temperature. Manual, line 5880: Termica motore.
         MotorTemperature,
-        /// 3: motor over-current.
+        /// 3: motor over-current. Manual, line 5881: Sovracorrente sul motore.
         MotorOverCurrent,
-        /// 4: over-voltage.
+        /// 4: over-voltage. Manual, line 5882: Sovratensione sul bus DC di potenza.
         OverVoltage,
-        /// 5: under-voltage.
+        /// 5: under-voltage. Manual, line 5883: Sottotensione.
         UnderVoltage,
-        /// 6: drive temperature.
+        /// 6: drive temperature. Manual, line 5884: Termica drive.
         DriveTemperature,
-        /// 7: DSP in fault.
+        /// 7: DSP in fault. Manual, line 5885: Processore DSP in fault.
         DspInFault,
-        /// 8: motor sensor.
+        /// 8: motor sensor. Manual, line 5886: Allarme trasduttore motore.
         MotorSensor,
-        /// 9: flash memory.
+        /// 9: flash memory. Manual, line 5887: Allarme flash memory.
         FlashMemory,
-        /// 0xA: braking resistor.
+        /// 0xA: braking resistor. Manual, line 5888: Eccessivo intervento resistore di frenatura.
         BrakingResistor,
-        /// 0xB: network communication.
+        /// 0xB: network communication. Manual, line 5889: Errore di comunicazione in rete.
         NetworkCommunication,
-        /// 0xC: during homing.
+        /// 0xC: during homing. Manual, line 5890: Errore durante operazione di Homing.
         DuringHoming,
-        /// 0xD: communication.
+        /// 0xD: communication. Manual, line 5891: Errore comunicazione.
         Communication,
-        /// 0xE: homing not ended properly.
+        /// 0xE: homing not ended properly. Manual, line 5892: Procedura di Homing non terminata correttamente.
         HomingNotEndedProperly,
-        /// 0xF: overflow.
+        /// 0xF: overflow. Manual, line 5893: Allarme overflow.
         Overflow,
-        /// 0x10: following error.
+        /// 0x10: following error. Manual, line 5894: Errore di inseguimento.
         FollowingError,
-        /// 0x14: limit switch 1.
+        /// 0x14: limit switch 1. Manual, line 5895: Allarme LS1.
         LimitSwitch1,
-        /// 0x15: limit switch 2.
+        /// 0x15: limit switch 2. Manual, line 5896: Allarme LS2.
         LimitSwitch2,
-        /// 0x17: absolute encoder not aligned.
+        /// 0x17: absolute encoder not aligned. Manual, line 5897: NO Allineamento encoder assoluto.
         AbsoluteEncoderNotAligned,
-        /// 0x18: no communication with absolute encoder.
+        /// 0x18: no communication with absolute encoder. Manual, line 5898: Encoder assoluto non comunica.
         NoCommunicationWithAbsoluteEncoder,
-        /// 0x19: absolute encoder, axis moved at power-on.
+        /// 0x19: absolute encoder, axis moved at power-on. Manual, line 5899: Encoder assoluto: asse in movimento all'accensione.
         AbsoluteEncoderAxisMovedAtPowerOn,
-        /// 0x1A: mode not allowed.
+        /// 0x1A: mode not allowed. Manual, line 5900: Allarme modalità non consentita.
         ModeNotAllowed,
-        /// 0x1E: internal communication timed out.
+        /// 0x1E: internal communication timed out. Manual, line 5901: Timeout comunicazione interna.
         InternalCommunicationTimedOut,
-        /// 0x1F: internal communication 1.
+        /// 0x1F: internal communication 1. Manual, line 5902: Errore 1 comunicazione interna al drive.
         InternalCommunication1,
-        /// 0x20: internal communication 2.
+        /// 0x20: internal communication 2. Manual, line 5903: Errore 2 comunicazione interna al drive.
         InternalCommunication2,
-        /// 0x21: PDO mapping failed.
+        /// 0x21: PDO mapping failed. Manual, line 5904: Errore mappatura pdo non eseguita correttamente.
         PdoMappingFailed,
-        /// 0x22: synchronisation timed out.
+        /// 0x22: synchronisation timed out. Manual, line 5905: Timeout sincronizzazione con il Master EtherCAT.
         SynchronisationTimedOut,
-        /// 0x23: EEPROM of EtherCAT at start.
+        /// 0x23: EEPROM of EtherCAT at start. Manual, line 5906: Errore caricamento eeprom ethercat all'avvio.
         EepromOfEtherCatAtStart,
         /// Any other number.
         Unknown(u16),
@@ -5871,6 +5875,8 @@ pub mod codes {
     ///
     /// Alarms of PROFINET, and whether they can be reset.
     ///
+    /// Manual, line 6431-6449, 6454-6458.
+    ///
     /// On profinet.
     ///
     /// Further columns: resettable.
@@ -5914,15 +5920,15 @@ pub mod codes {
     /// A code of [`PROFINET_ALARMS`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ProfinetAlarms {
-        /// 0x1E: internal communication timed out.
+        /// 0x1E: internal communication timed out. Manual, line 6441: Timeout comunicazione interna al Drive.
         InternalCommunicationTimedOut,
-        /// 0x1F: initialisation of the interface, phase 1.
+        /// 0x1F: initialisation of the interface, phase 1. Manual, line 6442: Errore fase 1 inizializzazione interfaccia Profinet.
         InitialisationOfTheInterfacePhase1,
-        /// 0x20: initialisation of the interface, phase 2.
+        /// 0x20: initialisation of the interface, phase 2. Manual, line 6443: Errore fase 2 inizializzazione interfaccia Profinet.
         InitialisationOfTheInterfacePhase2,
-        /// 0x21: fieldbus not started properly.
+        /// 0x21: fieldbus not started properly. Manual, line 6444: Fieldbus Profinet non partito correttamente.
         FieldbusNotStartedProperly,
-        /// 0x22: synchronisation timed out.
+        /// 0x22: synchronisation timed out. Manual, line 6445: Timeout sincronizzazione con il Master Profinet.
         SynchronisationTimedOut,
         /// Any other number.
         Unknown(u16),
@@ -5957,6 +5963,8 @@ pub mod codes {
     ///
     /// Classes of emergency codes, of the general part: which of them the drive sends isn't printed. A message has eight bytes: the code, the error register, and a field of the vendor's.
     ///
+    /// Manual, line 2386-2431, 2845-2924.
+    ///
     /// On canopen.
     pub static EMERGENCY: &[rt::codes::Code] = &[
         rt::codes::Code::new(0, 0xFF, "error reset or no error", "", &[]),
@@ -5975,29 +5983,29 @@ pub mod codes {
     /// A code of [`EMERGENCY`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Emergency {
-        /// 0 to 0xFF: error reset or no error.
+        /// 0 to 0xFF: error reset or no error. Manual, line 2900.
         ErrorResetOrNoError(u16),
-        /// 0x1000 to 0x10FF: generic error.
+        /// 0x1000 to 0x10FF: generic error. Manual, line 2904.
         GenericError(u16),
-        /// 0x2000 to 0x2FFF: current.
+        /// 0x2000 to 0x2FFF: current. Manual, line 2906.
         Current(u16),
-        /// 0x3000 to 0x3FFF: voltage.
+        /// 0x3000 to 0x3FFF: voltage. Manual, line 2908.
         Voltage(u16),
-        /// 0x4000 to 0x4FFF: temperature.
+        /// 0x4000 to 0x4FFF: temperature. Manual, line 2910.
         Temperature(u16),
-        /// 0x5000 to 0x50FF: device hardware.
+        /// 0x5000 to 0x50FF: device hardware. Manual, line 2912.
         DeviceHardware(u16),
-        /// 0x6000 to 0x6FFF: device software.
+        /// 0x6000 to 0x6FFF: device software. Manual, line 2914.
         DeviceSoftware(u16),
-        /// 0x7000 to 0x70FF: additional modules.
+        /// 0x7000 to 0x70FF: additional modules. Manual, line 2916.
         AdditionalModules(u16),
-        /// 0x8000 to 0x8FFF: monitoring.
+        /// 0x8000 to 0x8FFF: monitoring. Manual, line 2918.
         Monitoring(u16),
-        /// 0x9000 to 0x90FF: external error.
+        /// 0x9000 to 0x90FF: external error. Manual, line 2920.
         ExternalError(u16),
-        /// 0xF000 to 0xF0FF: additional functions.
+        /// 0xF000 to 0xF0FF: additional functions. Manual, line 2922.
         AdditionalFunctions(u16),
-        /// 0xFF00 to 0xFFFF: device specific.
+        /// 0xFF00 to 0xFFFF: device specific. Manual, line 2924.
         DeviceSpecific(u16),
         /// Any other number.
         Unknown(u16),
@@ -6046,6 +6054,8 @@ pub mod codes {
     ///
     /// The main abort codes of SDO.
     ///
+    /// Manual, line 2638-2651.
+    ///
     /// On canopen, ethercat.
     pub static SDO_ABORT: &[rt::codes::Code] = &[
         rt::codes::Code::new(0x5030000, 0x5030000, "toggle bit not alternated", "", &[]),
@@ -6066,21 +6076,21 @@ pub mod codes {
     /// A code of [`SDO_ABORT`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum SdoAbort {
-        /// 0x5030000: toggle bit not alternated.
+        /// 0x5030000: toggle bit not alternated. Manual, line 2644.
         ToggleBitNotAlternated,
-        /// 0x5040001: invalid command specifier.
+        /// 0x5040001: invalid command specifier. Manual, line 2645.
         InvalidCommandSpecifier,
-        /// 0x6010000 to 0x601000F: unsupported access.
+        /// 0x6010000 to 0x601000F: unsupported access. Manual, line 2646.
         UnsupportedAccess(u32),
-        /// 0x6010002: write to what is read-only.
+        /// 0x6010002: write to what is read-only. Manual, line 2647.
         WriteToWhatIsReadOnly,
-        /// 0x6020000: object does not exist.
+        /// 0x6020000: object does not exist. Manual, line 2648.
         ObjectDoesNotExist,
-        /// 0x6070010 to 0x607001F: data type does not match.
+        /// 0x6070010 to 0x607001F: data type does not match. Manual, line 2649.
         DataTypeDoesNotMatch(u32),
-        /// 0x6090011: sub-index does not exist.
+        /// 0x6090011: sub-index does not exist. Manual, line 2650.
         SubIndexDoesNotExist,
-        /// 0x8000000: general error.
+        /// 0x8000000: general error. Manual, line 2651.
         GeneralError,
         /// Any other number.
         Unknown(u32),
@@ -6122,6 +6132,8 @@ pub mod codes {
     ///
     /// State of a node, in the messages of guarding and heartbeat. With guarding, bit 7 changes each time.
     ///
+    /// Manual, line 3114-3132.
+    ///
     /// On canopen.
     pub static NMT_STATE: &[rt::codes::Code] = &[
         rt::codes::Code::new(0, 0, "boot-up", "", &[]),
@@ -6132,13 +6144,13 @@ pub mod codes {
     /// A code of [`NMT_STATE`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum NmtState {
-        /// 0: boot-up.
+        /// 0: boot-up. Manual, line 3122.
         BootUp,
-        /// 4: stopped.
+        /// 4: stopped. Manual, line 3122.
         Stopped,
-        /// 5: operational.
+        /// 5: operational. Manual, line 3122.
         Operational,
-        /// 0x7F: pre-operational.
+        /// 0x7F: pre-operational. Manual, line 3122.
         PreOperational,
         /// Any other number.
         Unknown(u16),
@@ -6171,6 +6183,8 @@ pub mod codes {
     ///
     /// The only exception that the drive sends; the function's number has bit 7 set then. Anything else that is wrong isn't answered.
     ///
+    /// Manual, line 942, 970, 999, 1072-1087.
+    ///
     /// On modbus.
     pub static MODBUS_EXCEPTIONS: &[rt::codes::Code] = &[
         rt::codes::Code::new(2, 2, "illegal data address", "", &[]),
@@ -6178,7 +6192,7 @@ pub mod codes {
     /// A code of [`MODBUS_EXCEPTIONS`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModbusExceptions {
-        /// 2: illegal data address.
+        /// 2: illegal data address. Manual, line 1085.
         IllegalDataAddress,
         /// Any other number.
         Unknown(u16),
@@ -6204,6 +6218,8 @@ pub mod codes {
     /// mini\_inputs.
     ///
     /// What the inputs of the miniECO do, by c8: each is the bit of digital\_inputs that has the name. Input enable has none.
+    ///
+    /// Manual, line 1841-1900, 4646-4705.
     ///
     /// Further columns: pin 11 (DIR), pin 10 (PULSE), pin 5 (IEN).
     pub static MINI_INPUTS: &[rt::codes::Code] = &[
@@ -6288,19 +6304,19 @@ pub mod codes {
     /// A code of [`MINI_INPUTS`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum MiniInputs {
-        /// 0: limits and home.
+        /// 0: limits and home. Manual, line 1852-1858.
         LimitsAndHome,
-        /// 1: limits and latch.
+        /// 1: limits and latch. Manual, line 1859-1865.
         LimitsAndLatch,
-        /// 2: limits and start.
+        /// 2: limits and start. Manual, line 1866-1872.
         LimitsAndStart,
-        /// 3: start, home and latch.
+        /// 3: start, home and latch. Manual, line 1873-1879.
         StartHomeAndLatch,
-        /// 4: start and negative limit.
+        /// 4: start and negative limit. Manual, line 1880-1886.
         StartAndNegativeLimit,
-        /// 5: start and positive limit.
+        /// 5: start and positive limit. Manual, line 1888-1894.
         StartAndPositiveLimit,
-        /// 6: start and home.
+        /// 6: start and home. Manual, line 1895-1900.
         StartAndHome,
         /// Any other number.
         Unknown(u16),
@@ -6338,6 +6354,8 @@ pub mod codes {
     /// cn2\_pins.
     ///
     /// Pins of connector CN2 with their direction and what they do for the drive; those without a function are free.
+    ///
+    /// Manual, line 1718-1735, 1756-1790.
     ///
     /// Further columns: direction, function.
     pub static CN2_PINS: &[rt::codes::Code] = &[
@@ -6463,37 +6481,37 @@ pub mod codes {
     /// A code of [`CN2_PINS`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Cn2Pins {
-        /// 1: pin 1. Its rising edge starts the positioner; high couples the electric axis.
+        /// 1: pin 1. Its rising edge starts the positioner; high couples the electric axis. Manual, line 1720, 1701-1707.
         Pin1,
-        /// 2: pin 2.
+        /// 2: pin 2. Manual, line 1721.
         Pin2,
-        /// 3: pin 3.
+        /// 3: pin 3. Manual, line 1722.
         Pin3,
-        /// 4: pin 4.
+        /// 4: pin 4. Manual, line 1723.
         Pin4,
-        /// 5: pin 5. Low takes target\_position, or target\_velocity, high takes aux\_in\_1.
+        /// 5: pin 5. Low takes target\_position, or target\_velocity, high takes aux\_in\_1. Manual, line 1724, 1709-1713, 1736-1740.
         Pin5,
-        /// 6: pin 6.
+        /// 6: pin 6. Manual, line 1725.
         Pin6,
-        /// 7: pin 7.
+        /// 7: pin 7. Manual, line 1726.
         Pin7,
-        /// 8: pin 8.
+        /// 8: pin 8. Manual, line 1727.
         Pin8,
-        /// 9: pin 9.
+        /// 9: pin 9. Manual, line 1728.
         Pin9,
-        /// 0xA: pin 10.
+        /// 0xA: pin 10. Manual, line 1729.
         Pin10,
-        /// 0xB: pin 11. High for 2 ms at least.
+        /// 0xB: pin 11. High for 2 ms at least. Manual, line 1730, 1747-1753.
         Pin11,
-        /// 0xC: pin 12. Falls at the start and rises at the target, by mode; always low in electric axis and analogue reference.
+        /// 0xC: pin 12. Falls at the start and rises at the target, by mode; always low in electric axis and analogue reference. Manual, line 1731, 1756-1779.
         Pin12,
-        /// 0xD: pin 13.
+        /// 0xD: pin 13. Manual, line 1732.
         Pin13,
-        /// 0xE: pin 14.
+        /// 0xE: pin 14. Manual, line 1733.
         Pin14,
-        /// 0xF: pin 15. Rises in target\_window; from 2.40 on.
+        /// 0xF: pin 15. Rises in target\_window; from 2.40 on. Manual, line 1734, 1782-1787.
         Pin15,
-        /// 0x10: pin 16.
+        /// 0x10: pin 16. Manual, line 1735, 1790.
         Pin16,
         /// Any other number.
         Unknown(u16),

@@ -36,22 +36,84 @@ impl<X> HsdMotor<rt::Parameters<X, messages::Protocol, { messages::MAX_DATA }>> 
 }
 impl<C, S> HsdMotor<C, S> {
     /// CmdReset.
+    ///
+    /// Leaves the state of alarm.
+    ///
+    /// Accepted in the states: alarm.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 222-238: Uscita dallo stato di allarme.
+    ///
+    /// Note: The notes to the drawings recommend CmdReset to leave the alarm (L2087, L2099); the table of commands and states doesn't have it (L1990-2023). Chosen: accepted in alarm (it is what leads out of alarm (L226)).
+    ///
+    /// Note: The last byte is numbered 09x (L238). Chosen: 09 (it follows 08).
     pub fn cmd_reset(&mut self) -> rt::message::Call<'_, C, messages::CmdReset> {
         rt::message::Call::new(&mut self.client, messages::CmdReset)
     }
     /// CmdNoReg.
+    ///
+    /// Leaves regulation: the motor no longer holds its position. It leads out of alarm too, unless bit 6 of BIT\_A is 1.
+    ///
+    /// Accepted in the states: alarm, released, stopped, homing, jogging, positioning, stopping.
+    ///
+    /// Manual, line 242-264, 1992, 2030: Motore fuori regolazione.
+    ///
+    /// Note: BitStato stands beside the node, B02, and B03 is 0x0 alone (L249-250). Chosen: B03, as in all other replies (40 other tables have it there, and a node number of half a byte would be another protocol).
+    ///
+    /// Note: BIT\_A is said to be in appendix A (L264). Chosen: chapter 6 (its bits are there (L1616), and appendix A has TESTSLIM).
+    ///
+    /// Note: Without effect during electrical homing (L260-261); the table of commands and states has an empty cell there (L1992). Chosen: not accepted (the text is the only thing said).
     pub fn cmd_no_reg(&mut self) -> rt::message::Call<'_, C, messages::CmdNoReg> {
         rt::message::Call::new(&mut self.client, messages::CmdNoReg)
     }
     /// CmdReg.
+    ///
+    /// Takes the motor into regulation. Before the first time, the electrical position of the rotor is found.
+    ///
+    /// The order is carried out when status.command complete says so. The reply tells it already.
+    ///
+    /// Accepted in the states: released, stopped.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 266-292, 1994, 2032, 2065: Motore in regolazione.
+    ///
+    /// Note: BitStato stands beside the node, B02, and again at B03 (L276-277). Chosen: B03 only (as in all other replies).
+    ///
+    /// Note: It has effect only while the motor isn't in regulation (L287); the table of commands and states has = for AXSTOP, and refuses it in all states but that and AXNOREG (L1994, L2032). Chosen: the table (it tells the states one by one, and no effect and no change are the same).
+    ///
+    /// Note: CMDREG has no asterisk in the table of commands and states (L1994); the text keeps it to the SM140 and to revision C (L268). Chosen: SM140 and revision C (the row also stands for CmdRegWait, which all motors have).
     pub fn cmd_reg(&mut self) -> rt::message::Call<'_, C, messages::CmdReg> {
         rt::message::Call::new(&mut self.client, messages::CmdReg)
     }
     /// CmdHold.
+    ///
+    /// Stops the motor with a ramp, and breaks off what it does. It counts as stopped where the theoretical speed is 0 and the real one below 12 rpm.
+    ///
+    /// The order is carried out when status.command complete says so. The reply tells it already.
+    ///
+    /// Accepted in the states: stopped, homing, jogging, positioning, stopping.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 294-322, 1999, 2037: Stop.
+    ///
+    /// Note: It has effect only while the motor moves (L317); the table of commands and states has = for AXSTOP, accepted without a change (L1999). Chosen: accepted in AXSTOP (no effect and no change are the same).
+    ///
+    /// Note: CMDHOLD has no asterisk in the table of commands and states (L1999); the text keeps it to the SM140 and to revision C (L296). Chosen: SM140 and revision C (the row also stands for CmdHoldWait, which all motors have).
     pub fn cmd_hold(&mut self) -> rt::message::Call<'_, C, messages::CmdHold> {
         rt::message::Call::new(&mut self.client, messages::CmdHold)
     }
     /// CmdMazz.
+    ///
+    /// Gives the motor its position: from now on it is where the request says. The homing state becomes \`set by hand\`.
+    ///
+    /// Accepted in the states: alarm, released, stopped.
+    ///
+    /// Manual, line 324-369, 1996, 2034: Azzeramento Manuale.
+    ///
+    /// Note: The example gives the position 6766.8176 mm (L361) and 6780.8465 mm in its formula (L365). Chosen: 6780\.8465 mm (it alone gives the printed bytes 0x0102AB34).
     pub fn cmd_mazz(
         &mut self,
         position: i32,
@@ -60,10 +122,30 @@ impl<C, S> HsdMotor<C, S> {
         rt::message::Call::new(&mut self.client, message)
     }
     /// CmdAzz.
+    ///
+    /// Homing as TIPOAZZ says: the motor takes the position ORIG\_AZZ. Type 0 needs a motor that jogs, and ends at the index of the encoder; types 1 and 2, of the SM140, start from \`stopped\`, look for the homing switch at VMAXAZZ, leave it at VAZZOUTMIC, and end there (1) or at the index behind it (2). Where it is broken off, the homing state becomes \`not homed\`.
+    ///
+    /// The order is carried out when status.command complete says so. The reply tells it already.
+    ///
+    /// Accepted in the states: stopped, homing, jogging.
+    ///
+    /// Manual, line 371-459, 1995, 2033: Azzeramento Automatico.
+    ///
+    /// Note: The cells of AXSTOP and AXFREERUN have an error or the homing, one or the other (L1995, L2033). Chosen: accepted in AXSTOP with TIPOAZZ 1 and 2, in AXFREERUN with 0 (the text tells which type starts where (L451)).
     pub fn cmd_azz(&mut self) -> rt::message::Call<'_, C, messages::CmdAzz> {
         rt::message::Call::new(&mut self.client, messages::CmdAzz)
     }
     /// CmdJogN.
+    ///
+    /// Turns the motor at a speed; its sign is the direction, + towards greater positions.
+    ///
+    /// Accepted in the states: stopped, jogging.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 461-502, 2016, 2054: Movimento manuale con assegnamento della velocità (JOG).
+    ///
+    /// Note: The example wants 185 mm/min (L496), and its formula begins with -185 (L498). Chosen: \-185 mm/min (only so it gives the printed 0xFDBE, -578 rpm, and section 5.3 has -185 (L1425)).
     pub fn cmd_jog_n(
         &mut self,
         speed: i16,
@@ -72,6 +154,16 @@ impl<C, S> HsdMotor<C, S> {
         rt::message::Call::new(&mut self.client, message)
     }
     /// CmdTraj.
+    ///
+    /// Positioning, with at most the speed VMAXPOS, and with the acceleration AMAXPOS. The motor has to be homed, and the way be at most 0x3FFFFFF counts long: else there is the warning ALMOVTOOLONG, from firmware 119 on. Complete once the real position is within INPOS for TIM\_INPOS.
+    ///
+    /// The order is carried out when status.command complete says so. The reply tells it already.
+    ///
+    /// Accepted in the states: stopped.
+    ///
+    /// Manual, line 506-550, 1555, 1557, 1563, 1574, 1998, 2036, 2067, 2188, 2194: Posizionamento alla quota assegnata (LINE).
+    ///
+    /// Note: The example gives the bytes 0x01 0x1B 0x6F 0x9E (L550) and 0x01B6F9E, a digit short (L546); its formula gives 1798046 counts. Chosen: 00 1B 6F 9E (1798046 is 0x001B6F9E; the printed bytes are 18575262).
     pub fn cmd_traj(
         &mut self,
         target: i32,
@@ -80,6 +172,28 @@ impl<C, S> HsdMotor<C, S> {
         rt::message::Call::new(&mut self.client, message)
     }
     /// CmdTrajVel.
+    ///
+    /// Positioning at a speed that isn't negative; a new target and speed can follow during the motion, if the motor needn't turn back. Refused where no ramp leads there. The motor has to be homed, and the way be at most 0x3FFFFFF counts long: else there is the warning ALMOVTOOLONG, from firmware 119 on.
+    ///
+    /// The order is carried out when status.command complete says so. The reply tells it already.
+    ///
+    /// Accepted in the states: stopped, positioning.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 552-623, 2013, 2051, 2067, 2072, 2075, 2188, 2194: Posizionamento alla quota assegnata con velocità assegnata (LINEVEL).
+    ///
+    /// Note: The speed is a number of 16 bits that isn't negative (L556, L564); whether it has a sign isn't said, and no limit is printed. Chosen: 0 to 32767 (these numbers are the same with a sign and without).
+    ///
+    /// Note: The third byte of the request is 0x00 (L574); all other requests with the opcode in the fourth have 0x08. Chosen: 0x00, as printed, and 0x08 by the option \`cmd\_traj\_vel\_form\` (an exception can't be told from a misprint; choose \`usual\` where the motor doesn't answer).
+    ///
+    /// Note: The reply has a byte 0x00 at B08, between the echo and the check (L579), and ends with the 10th; all other replies with an echo have nine bytes. Chosen: ten bytes, as printed (an exception can't be told from a misprint).
+    ///
+    /// Note: The end of the reply is ETX without its code (L581). Chosen: 0x03 (as in all other frames).
+    ///
+    /// Note: The limit of the way is that of CmdTraj (L592). Chosen: the same of CmdTrajVel (the paragraph was copied from section 3.9, and stands under the conditions of this command).
+    ///
+    /// Note: The example gives the bytes 0x01 0x1B 0x6F 0x9E (L615) and 0x01B6F9E, a digit short (L611); its formula gives 1798046 counts. Chosen: 00 1B 6F 9E (1798046 is 0x001B6F9E; the printed bytes are 18575262).
     pub fn cmd_traj_vel(
         &mut self,
         target: i32,
@@ -92,10 +206,30 @@ impl<C, S> HsdMotor<C, S> {
         rt::message::Call::new(&mut self.client, message)
     }
     /// CmdEmerg.
+    ///
+    /// Alarm by command: as released, but without a direct way back to regulation.
+    ///
+    /// Accepted in the states: alarm, calibrating current sensors, released, electrical homing, stopped, homing, jogging, positioning, stopping.
+    ///
+    /// Manual, line 686-706, 1990, 2028: Motore in EMERGENZA.
+    ///
+    /// Note: It has effect in any condition (L706); the table of commands and states refuses it in PREAXALARM, PREAXNOREG, AXINTERP and AXLATCH (L1990, L2028). Chosen: the table (it tells the states one by one).
+    ///
+    /// Note: CMDGOEMERG (L1635). Chosen: CmdEmerg (there is no other command of that kind).
     pub fn cmd_emerg(&mut self) -> rt::message::Call<'_, C, messages::CmdEmerg> {
         rt::message::Call::new(&mut self.client, messages::CmdEmerg)
     }
     /// CmdSetOverr.
+    ///
+    /// Sets the override: at which percentage of their speed motions are made. A motor that moves gets to the new speed with a ramp.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 708-738, 2014, 2052: Impostazione del valore di OVERRIDE.
+    ///
+    /// Note: It has effect at any moment (L730); the table of commands and states refuses it in AXINTERP and AXLATCH (L2052). Chosen: the table (it tells the states one by one).
     pub fn cmd_set_overr(
         &mut self,
         r#override: u16,
@@ -106,10 +240,34 @@ impl<C, S> HsdMotor<C, S> {
         rt::message::Call::new(&mut self.client, message)
     }
     /// CmdGetOverr.
+    ///
+    /// Reads the override.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 740-760, 2015, 2053: Lettura del valore di OVERRIDE.
+    ///
+    /// Note: It can be sent at any moment (L760); the table of commands and states refuses it in AXINTERP and AXLATCH (L2053). Chosen: the table (it tells the states one by one).
     pub fn cmd_get_overr(&mut self) -> rt::message::Call<'_, C, messages::CmdGetOverr> {
         rt::message::Call::new(&mut self.client, messages::CmdGetOverr)
     }
     /// CmdChgParN.
+    ///
+    /// Writes parameters of chapter 6, as many as fit: 16 of 16 bits, or 10 of 32 bits. They are lost at power-off unless CmdSaveParFl stores them.
+    ///
+    /// Accepted in the states: alarm, released, stopped.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 762-854, 2011, 2049: Modifica di un parametro dell'azionamento.
+    ///
+    /// Note: Bytes 18 to 21 of the frame with three parameters are PL2, PL0, PL3, PL2 (L845-848). Chosen: PL1, PL0, PL3, PL2 (PL2 stands twice, and the first parameter of 32 bits has PL1 there (L839)).
+    ///
+    /// Note: Bytes 08 and 09 are both the high byte (Parte alta) of the value, PS1 and PS0 (L789-790, L835-836). Chosen: high byte, low byte (PS0 is bits 7-0 (L774-776)).
+    ///
+    /// Note: The frame with three parameters is answered with one code (L833-834). Chosen: the first (the replies to other requests copy bytes 05 to 07).
     pub fn cmd_chg_par_n<'a>(
         &'a mut self,
         settings: &'a [rt::message::Setting],
@@ -120,6 +278,20 @@ impl<C, S> HsdMotor<C, S> {
         rt::message::Call::new(&mut self.client, message)
     }
     /// CmdGetParN.
+    ///
+    /// Reads a parameter of chapter 6. The request has as many zeros behind the code as the value has bytes.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 856-917, 2012, 2050: Lettura di un parametro dell'azionamento.
+    ///
+    /// Note: For 32 bits the code is at B05, without the 0x00 in front that the form for 16 bits has (L906-907, L880); one row has no number, and the frame of 12 rows ends with byte 11 (L908-913). Chosen: 0x00, the code, four bytes; 13 bytes in all (CmdChgParN has 13 bytes for 32 bits, with the 0x00 (L806-820), and the form for 16 bits has it too).
+    ///
+    /// Note: Bytes 08 and 09 of the reply are both the high byte (Parte alta) of the value, PS1 and PS0 (L883-884). Chosen: high byte, low byte (PS0 is bits 7-0 (L866-870)).
+    ///
+    /// Note: It can be sent at any moment (L917); the table of commands and states refuses it in AXINTERP and AXLATCH (L2050). Chosen: the table (it tells the states one by one).
     pub fn cmd_get_par_n(
         &mut self,
         parameter: rt::Parameter,
@@ -128,16 +300,52 @@ impl<C, S> HsdMotor<C, S> {
         rt::message::Call::new(&mut self.client, message)
     }
     /// CmdSaveParFl.
+    ///
+    /// Stores the parameters of chapter 6 in flash memory, from where they come back at power-on. The memory wears out by writing: don't send it often.
+    ///
+    /// The reply comes when the order is carried out.
+    ///
+    /// Accepted in the states: alarm.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 919-941, 2017, 2055: Salvataggio dei parametri.
+    ///
+    /// Note: Section 4.6 doesn't say when the reply comes; that it comes at the end of the writing stands under CmdAdcOff, which writes nothing (L965). Chosen: a late reply (the note fits here; who is ready for a late reply loses nothing where it comes at once).
+    ///
+    /// Note: In alarm only (L941); the cells of AXALARM, AXADCOFF and AXNOREG are empty in the table of commands and states (L2017). Chosen: in alarm (the text).
     pub fn cmd_save_par_fl(
         &mut self,
     ) -> rt::message::Call<'_, C, messages::CmdSaveParFl> {
         rt::message::Call::new(&mut self.client, messages::CmdSaveParFl)
     }
     /// CmdAdcOff.
+    ///
+    /// Measures the offsets of the current sensors, as the motor does by itself at power-on.
+    ///
+    /// The reply comes when the order is carried out.
+    ///
+    /// Accepted in the states: alarm.
+    ///
+    /// Manual, line 943-965, 1991, 2029: Taratura degli offset dei sensori di corrente.
+    ///
+    /// Note: The reply comes at the end of the writing (L965), and nothing is written. Chosen: at the end of the measurement (the sentence belongs to CmdSaveParFl, and a note on the time of the reply is meant).
     pub fn cmd_adc_off(&mut self) -> rt::message::Call<'_, C, messages::CmdAdcOff> {
         rt::message::Call::new(&mut self.client, messages::CmdAdcOff)
     }
     /// CmdAzzEl.
+    ///
+    /// Finds the electrical position of the rotor, as the motor does by itself before its first regulation.
+    ///
+    /// The order is carried out when status.command complete says so. Poll it with a further message.
+    ///
+    /// Accepted in the states: released.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 967-998, 1993, 2031: Azzeramento elettrico.
+    ///
+    /// Note: CMDAZZEL has no asterisk in the table of commands and states (L1993); the text keeps it to the SM140 and to revision C (L969). Chosen: SM140 and revision C (the row also stands for CmdAzzElWait, which all motors have).
     pub fn cmd_azz_el(
         &mut self,
         method: u8,
@@ -146,36 +354,88 @@ impl<C, S> HsdMotor<C, S> {
         rt::message::Call::new(&mut self.client, message)
     }
     /// CmdGetStatAzz.
+    ///
+    /// Reads the homing state.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 999-1028: Lettura dello stato di azzeramento.
     pub fn cmd_get_stat_azz(
         &mut self,
     ) -> rt::message::Call<'_, C, messages::CmdGetStatAzz> {
         rt::message::Call::new(&mut self.client, messages::CmdGetStatAzz)
     }
     /// CmdGetDistMicroZero.
+    ///
+    /// Reads the distance between homing switch and index of the encoder, of the last homing of type 2.
+    ///
+    /// Only of SM140.
+    ///
+    /// Manual, line 1030-1057, 431-433: Lettura della distanza fra microinterruttore di azzeramento e tacca di zero dell'encoder.
     pub fn cmd_get_dist_micro_zero(
         &mut self,
     ) -> rt::message::Call<'_, C, messages::CmdGetDistMicroZero> {
         rt::message::Call::new(&mut self.client, messages::CmdGetDistMicroZero)
     }
     /// CmdGetAlarm.
+    ///
+    /// Reads the message that waits: an alarm below 0x4000, else a warning.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// The message is cleared by reading it.
+    ///
+    /// Manual, line 1137-1157, 2002, 2040: Lettura dei messaggi di allarme o di Warning.
+    ///
+    /// Note: In any condition (L1157); the table of commands and states refuses it in AXLATCH (L2040). Chosen: the table (it tells the states one by one).
     pub fn cmd_get_alarm(&mut self) -> rt::message::Call<'_, C, messages::CmdGetAlarm> {
         rt::message::Call::new(&mut self.client, messages::CmdGetAlarm)
     }
     /// CmdGetVer.
+    ///
+    /// Reads the version of the firmware, a plain number: 0x0067 is 103.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Manual, line 1161-1185, 2007, 2045: Lettura della versione software del firmware.
+    ///
+    /// Note: In any condition (L1179); the table of commands and states refuses it in AXLATCH (L2045). Chosen: the table (it tells the states one by one).
     pub fn cmd_get_ver(&mut self) -> rt::message::Call<'_, C, messages::CmdGetVer> {
         rt::message::Call::new(&mut self.client, messages::CmdGetVer)
     }
     /// CmdGetType.
+    ///
+    /// Reads the motor and the fieldbus that it is made for.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 1187-1221: Lettura del tipo di motore e di bus di campo.
     pub fn cmd_get_type(&mut self) -> rt::message::Call<'_, C, messages::CmdGetType> {
         rt::message::Call::new(&mut self.client, messages::CmdGetType)
     }
     /// CmdGetSmStat.
+    ///
+    /// Reads the internal state.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Manual, line 1223-1243, 2008, 2046: Lettura dello stato interno del motore.
+    ///
+    /// Note: In any condition (L1243); the table of commands and states refuses it in AXLATCH (L2046). Chosen: the table (it tells the states one by one).
     pub fn cmd_get_sm_stat(
         &mut self,
     ) -> rt::message::Call<'_, C, messages::CmdGetSmStat> {
         rt::message::Call::new(&mut self.client, messages::CmdGetSmStat)
     }
     /// CmdSampleVar.
+    ///
+    /// Samples two variables of the firmware.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 1245-1266: Campionamento di variabili.
+    ///
+    /// Note: The codes of the variables are said to be in the appendices (L1266), which don't have them. Chosen: numbers of one byte (nothing more is printed).
     pub fn cmd_sample_var(
         &mut self,
         variable_1: u8,
@@ -188,6 +448,16 @@ impl<C, S> HsdMotor<C, S> {
         rt::message::Call::new(&mut self.client, message)
     }
     /// CmdSampleMem.
+    ///
+    /// Samples two variables of the firmware, by their addresses, at a rate of its own.
+    ///
+    /// Only of SM137 rev. C, SM140.
+    ///
+    /// Manual, line 1268-1291: Campionamento variabili a frequenza assegnata.
+    ///
+    /// Note: Title and text speak of a frequency (L1268, L1272), the frame of a time (t. di campionamento, L1284-1285), and there is no unit. Chosen: a time without a unit (the frame is what is sent).
+    ///
+    /// Note: No addresses of variables are printed anywhere. Chosen: two numbers of 16 bits (nothing more is printed).
     pub fn cmd_sample_mem(
         &mut self,
         address_1: u16,
@@ -202,27 +472,89 @@ impl<C, S> HsdMotor<C, S> {
         rt::message::Call::new(&mut self.client, message)
     }
     /// CmdGetSamp.
+    ///
+    /// Reads what was sampled, two values a sample.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Manual, line 1293-1328, 2010, 2048: Lettura dei dati campioni.
+    ///
+    /// Note: Whether samples have a sign isn't said (L1306-1318). Chosen: with a sign (positions, speeds and torques have one).
+    ///
+    /// Note: Sample 1 is at bytes 08 to 11 (L1306-1309), sample N at 8+4N (L1315), which is 12 for N = 1. Chosen: 4 + 4N: the samples follow each other (else a gap of four bytes would lie between the first samples and the last).
+    ///
+    /// Note: The greatest number of samples follows from the length of a packet (L1328), of which isn't said whether the check counts. Chosen: 15 (68 bytes without the check hold 15; with it, 14).
+    ///
+    /// Note: In any condition (L1326); the table of commands and states refuses it in AXLATCH (L2048). Chosen: the table (it tells the states one by one).
     pub fn cmd_get_samp(&mut self) -> rt::message::Call<'_, C, messages::CmdGetSamp> {
         rt::message::Call::new(&mut self.client, messages::CmdGetSamp)
     }
     /// CmdRegWait.
-    #[deprecated(note = "replaced by CmdReg")]
+    ///
+    /// As CmdReg; the first reply after power-on waits until the electrical position of the rotor is found. Motors before revision C don't have CmdReg, and use this one.
+    ///
+    /// The reply comes when the order is carried out, after about 100 ms.
+    ///
+    /// Accepted in the states: released, stopped.
+    ///
+    /// Replaced by CmdReg.
+    ///
+    /// Manual, line 1332-1362, 269, 1994, 2032: Regolazione con attesa.
+    ///
+    /// Note: The table of commands and states has one row CMDREG (L1994), and there are two commands, CmdReg and CmdRegWait. Chosen: the row is about both (they differ in the time of the reply only).
+    ///
+    /// Note: It has effect only out of regulation (L1356); the table of commands and states has = for AXSTOP (L1994). Chosen: accepted in AXSTOP (no effect and no change are the same).
+    #[deprecated(note = "replaced by CmdReg on SM137 rev. C, SM140")]
     pub fn cmd_reg_wait(&mut self) -> rt::message::Call<'_, C, messages::CmdRegWait> {
         rt::message::Call::new(&mut self.client, messages::CmdRegWait)
     }
     /// CmdHoldWait.
-    #[deprecated(note = "replaced by CmdHold")]
+    ///
+    /// As CmdHold; the reply waits until the theoretical speed is 0, so that its time follows from speed and deceleration. Motors before revision C don't have CmdHold, and use this one.
+    ///
+    /// The reply comes when the order is carried out.
+    ///
+    /// Accepted in the states: stopped, homing, jogging, positioning, stopping.
+    ///
+    /// Replaced by CmdHold.
+    ///
+    /// Manual, line 1366-1388, 297, 1999, 2037: Stop con attesa.
+    ///
+    /// Note: The table of commands and states has one row CMDHOLD (L1999), and there are two commands, CmdHold and CmdHoldWait. Chosen: the row is about both (they differ in the time of the reply only).
+    ///
+    /// Note: It has effect only while the motor moves (L1384); the table of commands and states has = for AXSTOP (L1999). Chosen: accepted in AXSTOP (no effect and no change are the same).
+    #[deprecated(note = "replaced by CmdHold on SM137 rev. C, SM140")]
     pub fn cmd_hold_wait(&mut self) -> rt::message::Call<'_, C, messages::CmdHoldWait> {
         rt::message::Call::new(&mut self.client, messages::CmdHoldWait)
     }
     /// CmdJog.
-    #[deprecated(note = "replaced by CmdJogN")]
+    ///
+    /// As CmdJogN, with the speed as a fraction of 8000 rpm. Motors before revision C don't have CmdJogN.
+    ///
+    /// Accepted in the states: stopped, jogging.
+    ///
+    /// Replaced by CmdJogN.
+    ///
+    /// Manual, line 1390-1433, 463, 1997, 2035: Movimento manuale con assegnamento della velocità (Jog).
+    #[deprecated(note = "replaced by CmdJogN on SM137 rev. C, SM140")]
     pub fn cmd_jog(&mut self, speed: i16) -> rt::message::Call<'_, C, messages::CmdJog> {
         let message = messages::CmdJog { speed };
         rt::message::Call::new(&mut self.client, message)
     }
     /// CmdChgPar.
-    #[deprecated(note = "replaced by CmdChgParN")]
+    ///
+    /// Writes a low-level parameter. Motors before revision C don't have CmdChgParN.
+    ///
+    /// Accepted in the states: alarm, released, stopped.
+    ///
+    /// Replaced by CmdChgParN.
+    ///
+    /// Manual, line 1435-1455, 764, 2000, 2038: Modifica di un parametro dell'azionamento.
+    ///
+    /// Note: B04 of the reply is CmdJog (0x40) (L1446). Chosen: 0x04 (the table was copied from section 5.3; all other replies have the opcode of their request).
+    ///
+    /// Note: The codes are said to be those of section 6 (L1439); the low-level parameters of appendix A go with CmdChgPar (L1758), and those of section 6 with CmdChgParN (L1508). Chosen: the low-level parameters (both chapters of parameters say so, and section 5.4 sends whoever wants standard units to CmdChgParN (L1455)).
+    #[deprecated(note = "replaced by CmdChgParN on SM137 rev. C, SM140")]
     pub fn cmd_chg_par(
         &mut self,
         setting: rt::message::Setting,
@@ -231,7 +563,19 @@ impl<C, S> HsdMotor<C, S> {
         rt::message::Call::new(&mut self.client, message)
     }
     /// CmdAzzElWait.
-    #[deprecated(note = "replaced by CmdAzzEl")]
+    ///
+    /// As CmdAzzEl; the reply comes once the electrical position is found. Motors before revision C don't have CmdAzzEl.
+    ///
+    /// The reply comes when the order is carried out, after about 100 ms.
+    ///
+    /// Accepted in the states: released.
+    ///
+    /// Replaced by CmdAzzEl.
+    ///
+    /// Manual, line 1457-1484, 969, 1993, 2031: Azzeramento elettrico con attesa.
+    ///
+    /// Note: The table of commands and states has one row CMDAZZEL (L1993), and there are two commands, CmdAzzEl and CmdAzzElWait. Chosen: the row is about both (they differ in the time of the reply only).
+    #[deprecated(note = "replaced by CmdAzzEl on SM137 rev. C, SM140")]
     pub fn cmd_azz_el_wait(
         &mut self,
         method: u8,
@@ -240,7 +584,19 @@ impl<C, S> HsdMotor<C, S> {
         rt::message::Call::new(&mut self.client, message)
     }
     /// CmdSample.
-    #[deprecated(note = "replaced by CmdSampleVar")]
+    ///
+    /// As CmdSampleVar. Motors before revision C don't have CmdSampleVar.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Replaced by CmdSampleVar.
+    ///
+    /// Manual, line 1486-1504, 1247, 2009, 2047: Campionamento di variabili.
+    ///
+    /// Note: It is obsolete (L1332), and what replaces it isn't said. Chosen: CmdSampleVar (same fields, same words).
+    ///
+    /// Note: In any condition (L1504); the table of commands and states refuses it in AXLATCH (L2047). Chosen: the table (it tells the states one by one).
+    #[deprecated(note = "replaced by CmdSampleVar on SM137 rev. C, SM140")]
     pub fn cmd_sample(
         &mut self,
         variable_1: u8,
@@ -256,18 +612,52 @@ impl<C, S> HsdMotor<C, S> {
 /// What decides the meaning of later requests. `select` sends it, and gives the device that has these.
 impl<C> HsdMotor<C> {
     /// CmdGetPos.
+    ///
+    /// Has the null request answered with the real position.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Manual, line 1059-1077, 2003, 2041: Ricezione della quota reale.
+    ///
+    /// Note: In any condition (L1077); the table of commands and states refuses it in AXLATCH (L2041). Chosen: the table (it tells the states one by one).
     pub fn cmd_get_pos(&mut self) -> rt::message::Call<'_, C, messages::CmdGetPos> {
         rt::message::Call::new(&mut self.client, messages::CmdGetPos)
     }
     /// CmdGetPosT.
+    ///
+    /// Has the null request answered with the theoretical position.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Manual, line 1081-1095, 2004, 2042: Ricezione della quota teorica.
     pub fn cmd_get_pos_t(&mut self) -> rt::message::Call<'_, C, messages::CmdGetPosT> {
         rt::message::Call::new(&mut self.client, messages::CmdGetPosT)
     }
     /// CmdGetVel.
+    ///
+    /// Has the null request answered with real and theoretical speed.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Manual, line 1097-1115, 2005, 2043: Ricezione delle velocità teorica e reale.
+    ///
+    /// Note: In any condition (L1115); the table of commands and states refuses it in AXLATCH (L2043). Chosen: the table (it tells the states one by one).
+    ///
+    /// Note: Q15 is said to be told in appendix D (L1099); it is in appendix A (L1870-1882). Chosen: appendix A (appendix D has the messages).
     pub fn cmd_get_vel(&mut self) -> rt::message::Call<'_, C, messages::CmdGetVel> {
         rt::message::Call::new(&mut self.client, messages::CmdGetVel)
     }
     /// CmdGetTor.
+    ///
+    /// Has the null request answered with real and theoretical torque.
+    ///
+    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    ///
+    /// Manual, line 1117-1135, 2006, 2044: Ricezione dei valori di coppia teorica e reale.
+    ///
+    /// Note: In any condition (L1135); the table of commands and states refuses it in AXLATCH (L2044). Chosen: the table (it tells the states one by one).
+    ///
+    /// Note: Q15 is said to be told in appendix D (L1119); it is in appendix A (L1870-1882). Chosen: appendix A (appendix D has the messages).
     pub fn cmd_get_tor(&mut self) -> rt::message::Call<'_, C, messages::CmdGetTor> {
         rt::message::Call::new(&mut self.client, messages::CmdGetTor)
     }
@@ -282,12 +672,30 @@ impl<C> HsdMotor<C> {
 }
 impl<C> HsdMotor<C, messages::CmdGetPos> {
     /// Poll position.
+    ///
+    /// The null request: the real position. So does a motor answer after power-on.
+    ///
+    /// Means this after CmdGetPos.
+    ///
+    /// So it is after power-on, too.
+    ///
+    /// Manual, line 625-664, 653, 657: Richiesta della quota, della velocità e della coppia del motore.
+    ///
+    /// Note: A reply whose low word begins with 0xB0, such as the position 0x0000B000, has the same bytes as CmdNACK (L2211-2221). Chosen: never refused (the command works in any condition (L648), and a reply that may be both can't be read).
+    ///
+    /// Note: The end of the request is ETX without its code (L641). Chosen: 0x03 (as in all other frames).
     pub fn poll_position(&mut self) -> rt::message::Call<'_, C, messages::PollPosition> {
         rt::message::Call::new(&mut self.client, messages::PollPosition)
     }
 }
 impl<C> HsdMotor<C, messages::CmdGetPosT> {
     /// Poll theoretical position.
+    ///
+    /// The null request: the theoretical position.
+    ///
+    /// Means this after CmdGetPosT.
+    ///
+    /// Manual, line 625-670, 658: Richiesta della quota, della velocità e della coppia del motore.
     pub fn poll_theoretical_position(
         &mut self,
     ) -> rt::message::Call<'_, C, messages::PollTheoreticalPosition> {
@@ -296,12 +704,24 @@ impl<C> HsdMotor<C, messages::CmdGetPosT> {
 }
 impl<C> HsdMotor<C, messages::CmdGetVel> {
     /// Poll speeds.
+    ///
+    /// The null request: real and theoretical speed.
+    ///
+    /// Means this after CmdGetVel.
+    ///
+    /// Manual, line 625-682, 659: Richiesta della quota, della velocità e della coppia del motore.
     pub fn poll_speeds(&mut self) -> rt::message::Call<'_, C, messages::PollSpeeds> {
         rt::message::Call::new(&mut self.client, messages::PollSpeeds)
     }
 }
 impl<C> HsdMotor<C, messages::CmdGetTor> {
     /// Poll torques.
+    ///
+    /// The null request: real and theoretical torque, as currents.
+    ///
+    /// Means this after CmdGetTor.
+    ///
+    /// Manual, line 625-653, 660, 1938: Richiesta della quota, della velocità e della coppia del motore.
     pub fn poll_torques(&mut self) -> rt::message::Call<'_, C, messages::PollTorques> {
         rt::message::Call::new(&mut self.client, messages::PollTorques)
     }
@@ -315,441 +735,441 @@ impl<C, S> HsdMotor<C, S> {
     pub fn into_client(self) -> C {
         self.client
     }
-    /// KP\_I: parameter 256.
+    /// KP\_I: parameter 0x0100.
     pub fn kp_i(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::KP_I.at(&mut self.client)
     }
-    /// KI\_I: parameter 257.
+    /// KI\_I: parameter 0x0101.
     pub fn ki_i(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::KI_I.at(&mut self.client)
     }
-    /// PIMIN\_I: parameter 259.
+    /// PIMIN\_I: parameter 0x0103.
     pub fn pimin_i(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 10>> {
         objects::PIMIN_I.at(&mut self.client)
     }
-    /// PIMAX\_I: parameter 260.
+    /// PIMAX\_I: parameter 0x0104.
     pub fn pimax_i(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 10>> {
         objects::PIMAX_I.at(&mut self.client)
     }
-    /// KP\_VEL: parameter 261.
+    /// KP\_VEL: parameter 0x0105.
     pub fn kp_vel(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::KP_VEL.at(&mut self.client)
     }
-    /// KI\_VEL: parameter 262.
+    /// KI\_VEL: parameter 0x0106.
     pub fn ki_vel(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::KI_VEL.at(&mut self.client)
     }
-    /// KFF\_VEL: parameter 263.
+    /// KFF\_VEL: parameter 0x0107.
     pub fn kff_vel(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::KFF_VEL.at(&mut self.client)
     }
-    /// PIMIN\_VEL: parameter 264.
+    /// PIMIN\_VEL: parameter 0x0108.
     pub fn pimin_vel(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::PIMIN_VEL.at(&mut self.client)
     }
-    /// PIMAX\_VEL: parameter 265.
+    /// PIMAX\_VEL: parameter 0x0109.
     pub fn pimax_vel(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::PIMAX_VEL.at(&mut self.client)
     }
-    /// KP\_POS: parameter 266.
+    /// KP\_POS: parameter 0x010A.
     pub fn kp_pos(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::KP_POS.at(&mut self.client)
     }
-    /// KI\_POS: parameter 267.
+    /// KI\_POS: parameter 0x010B.
     pub fn ki_pos(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::KI_POS.at(&mut self.client)
     }
-    /// KFF\_POS: parameter 268.
+    /// KFF\_POS: parameter 0x010C.
     pub fn kff_pos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::KFF_POS.at(&mut self.client)
     }
-    /// PIMIN\_POS: parameter 269.
+    /// PIMIN\_POS: parameter 0x010D.
     pub fn pimin_pos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::PIMIN_POS.at(&mut self.client)
     }
-    /// PIMAX\_POS: parameter 270.
+    /// PIMAX\_POS: parameter 0x010E.
     pub fn pimax_pos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::PIMAX_POS.at(&mut self.client)
     }
-    /// MAXERRORP: parameter 271.
+    /// MAXERRORP: parameter 0x010F.
     pub fn maxerrorp(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<i32, 1>, 0>> {
         objects::MAXERRORP.at(&mut self.client)
     }
-    /// TIM\_MAXERRORP: parameter 272.
+    /// TIM\_MAXERRORP: parameter 0x0110.
     pub fn tim_maxerrorp(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::TIM_MAXERRORP.at(&mut self.client)
     }
-    /// MAXERRORV: parameter 273.
+    /// MAXERRORV: parameter 0x0111.
     pub fn maxerrorv(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::MAXERRORV.at(&mut self.client)
     }
-    /// TIM\_MAXERRORV: parameter 274.
+    /// TIM\_MAXERRORV: parameter 0x0112.
     pub fn tim_maxerrorv(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::TIM_MAXERRORV.at(&mut self.client)
     }
-    /// INPOS: parameter 275.
+    /// INPOS: parameter 0x0113.
     pub fn inpos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::INPOS.at(&mut self.client)
     }
-    /// TIM\_INPOS: parameter 276.
+    /// TIM\_INPOS: parameter 0x0114.
     pub fn tim_inpos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::TIM_INPOS.at(&mut self.client)
     }
-    /// MAXTORQ: parameter 277.
+    /// MAXTORQ: parameter 0x0115.
     pub fn maxtorq(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::MAXTORQ.at(&mut self.client)
     }
-    /// TIM\_MAXTORQ: parameter 278.
+    /// TIM\_MAXTORQ: parameter 0x0116.
     pub fn tim_maxtorq(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::TIM_MAXTORQ.at(&mut self.client)
     }
-    /// VMAXPOS: parameter 279.
+    /// VMAXPOS: parameter 0x0117.
     pub fn vmaxpos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::VMAXPOS.at(&mut self.client)
     }
-    /// VMAXAZZ: parameter 280.
+    /// VMAXAZZ: parameter 0x0118.
     pub fn vmaxazz(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::VMAXAZZ.at(&mut self.client)
     }
-    /// AMAX: parameter 281.
+    /// AMAX: parameter 0x0119.
     pub fn amax(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 10000>> {
         objects::AMAX.at(&mut self.client)
     }
-    /// AMAXPOS: parameter 282.
+    /// AMAXPOS: parameter 0x011A.
     pub fn amaxpos(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 10000>> {
         objects::AMAXPOS.at(&mut self.client)
     }
-    /// ORIG\_AZZ: parameter 283.
+    /// ORIG\_AZZ: parameter 0x011B.
     pub fn orig_azz(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::ORIG_AZZ.at(&mut self.client)
     }
-    /// LOW\_SLIM: parameter 284.
+    /// LOW\_SLIM: parameter 0x011C.
     pub fn low_slim(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::LOW_SLIM.at(&mut self.client)
     }
-    /// HIGH\_SLIM: parameter 285.
+    /// HIGH\_SLIM: parameter 0x011D.
     pub fn high_slim(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::HIGH_SLIM.at(&mut self.client)
     }
-    /// BIT\_A: parameter 286.
+    /// BIT\_A: parameter 0x011E.
     pub fn bit_a(&mut self) -> objects::ReadWriteAccess<'_, C, types::BitA> {
         objects::BIT_A.at(&mut self.client)
     }
-    /// ANGELETTRTACCA: parameter 287.
+    /// ANGELETTRTACCA: parameter 0x011F.
     pub fn angelettrtacca(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::ANGELETTRTACCA.at(&mut self.client)
     }
-    /// RESERVED1: parameter 288.
+    /// RESERVED1: parameter 0x0120.
     pub fn reserved1(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::RESERVED1.at(&mut self.client)
     }
-    /// RESERVED2: parameter 289.
+    /// RESERVED2: parameter 0x0121.
     pub fn reserved2(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RESERVED2.at(&mut self.client)
     }
-    /// RESERVED3: parameter 290.
+    /// RESERVED3: parameter 0x0122.
     pub fn reserved3(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RESERVED3.at(&mut self.client)
     }
-    /// RESERVED4: parameter 291.
+    /// RESERVED4: parameter 0x0123.
     pub fn reserved4(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RESERVED4.at(&mut self.client)
     }
-    /// RESERVED5: parameter 292.
+    /// RESERVED5: parameter 0x0124.
     pub fn reserved5(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RESERVED5.at(&mut self.client)
     }
-    /// RESERVED6: parameter 293.
+    /// RESERVED6: parameter 0x0125.
     pub fn reserved6(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RESERVED6.at(&mut self.client)
     }
-    /// RESERVED7: parameter 294.
+    /// RESERVED7: parameter 0x0126.
     pub fn reserved7(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RESERVED7.at(&mut self.client)
     }
-    /// RESERVED8: parameter 295.
+    /// RESERVED8: parameter 0x0127.
     pub fn reserved8(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RESERVED8.at(&mut self.client)
     }
-    /// RESERVED9: parameter 296.
+    /// RESERVED9: parameter 0x0128.
     pub fn reserved9(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RESERVED9.at(&mut self.client)
     }
-    /// RESERVED10: parameter 298.
+    /// RESERVED10: parameter 0x012A.
     pub fn reserved10(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RESERVED10.at(&mut self.client)
     }
-    /// RESERVED11: parameter 299.
+    /// RESERVED11: parameter 0x012B.
     pub fn reserved11(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RESERVED11.at(&mut self.client)
     }
-    /// TIMFB: parameter 300.
+    /// TIMFB: parameter 0x012C.
     pub fn timfb(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::TIMFB.at(&mut self.client)
     }
-    /// TIMEOUTFB: parameter 301.
+    /// TIMEOUTFB: parameter 0x012D.
     pub fn timeoutfb(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<i16, 1>, 0>> {
         objects::TIMEOUTFB.at(&mut self.client)
     }
-    /// INVDIN: parameter 302.
+    /// INVDIN: parameter 0x012E.
     pub fn invdin(&mut self) -> objects::ReadWriteAccess<'_, C, types::InvertedInputs> {
         objects::INVDIN.at(&mut self.client)
     }
-    /// TIPOAZZ: parameter 303.
+    /// TIPOAZZ: parameter 0x012F.
     pub fn tipoazz(&mut self) -> objects::ReadWriteAccess<'_, C, types::HomingType> {
         objects::TIPOAZZ.at(&mut self.client)
     }
-    /// VAZZOUTMIC: parameter 304.
+    /// VAZZOUTMIC: parameter 0x0130.
     pub fn vazzoutmic(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::VAZZOUTMIC.at(&mut self.client)
     }
-    /// KIQDPIMANT: parameter 4096.
+    /// KIQDPIMANT: parameter 0x1000.
     pub fn kiqdpimant(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::KIQDPIMANT.at(&mut self.client)
     }
-    /// KIQDPIEXP: parameter 4097.
+    /// KIQDPIEXP: parameter 0x1001.
     pub fn kiqdpiexp(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::KIQDPIEXP.at(&mut self.client)
     }
-    /// KIQDKCOR: parameter 2.
+    /// KIQDKCOR: parameter 0x0002.
     pub fn kiqdkcor(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 1, 32768>> {
         objects::KIQDKCOR.at(&mut self.client)
     }
-    /// KIQDKFF: parameter 3.
+    /// KIQDKFF: parameter 0x0003.
     pub fn kiqdkff(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::KIQDKFF.at(&mut self.client)
     }
-    /// KIQDLIMIN: parameter 4.
+    /// KIQDLIMIN: parameter 0x0004.
     pub fn kiqdlimin(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::KIQDLIMIN.at(&mut self.client)
     }
-    /// KIQDLIMAX: parameter 5.
+    /// KIQDLIMAX: parameter 0x0005.
     pub fn kiqdlimax(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::KIQDLIMAX.at(&mut self.client)
     }
-    /// KVELPIMANT: parameter 8198.
+    /// KVELPIMANT: parameter 0x2006.
     pub fn kvelpimant(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::KVELPIMANT.at(&mut self.client)
     }
-    /// KVELPIEXP: parameter 8199.
+    /// KVELPIEXP: parameter 0x2007.
     pub fn kvelpiexp(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::KVELPIEXP.at(&mut self.client)
     }
-    /// KVELKCOR: parameter 8.
+    /// KVELKCOR: parameter 0x0008.
     pub fn kvelkcor(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 1, 32768>> {
         objects::KVELKCOR.at(&mut self.client)
     }
-    /// KVELKFF: parameter 9.
+    /// KVELKFF: parameter 0x0009.
     pub fn kvelkff(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 25, 8192>> {
         objects::KVELKFF.at(&mut self.client)
     }
-    /// KVELLIMIN: parameter 10.
+    /// KVELLIMIN: parameter 0x000A.
     pub fn kvellimin(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::KVELLIMIN.at(&mut self.client)
     }
-    /// KVELLIMAX: parameter 11.
+    /// KVELLIMAX: parameter 0x000B.
     pub fn kvellimax(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::KVELLIMAX.at(&mut self.client)
     }
-    /// KPOSPIMANT: parameter 12300.
+    /// KPOSPIMANT: parameter 0x300C.
     pub fn kpospimant(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::KPOSPIMANT.at(&mut self.client)
     }
-    /// KPOSPIEXP: parameter 12301.
+    /// KPOSPIEXP: parameter 0x300D.
     pub fn kpospiexp(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::KPOSPIEXP.at(&mut self.client)
     }
-    /// KPOSKCOR: parameter 14.
+    /// KPOSKCOR: parameter 0x000E.
     pub fn kposkcor(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 1, 32768>> {
         objects::KPOSKCOR.at(&mut self.client)
     }
-    /// KPOSKFF: parameter 15.
+    /// KPOSKFF: parameter 0x000F.
     pub fn kposkff(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 25, 8192>> {
         objects::KPOSKFF.at(&mut self.client)
     }
-    /// KPOSLIMMIN: parameter 16.
+    /// KPOSLIMMIN: parameter 0x0010.
     pub fn kposlimmin(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::KPOSLIMMIN.at(&mut self.client)
     }
-    /// KPOSLIMAX: parameter 17.
+    /// KPOSLIMAX: parameter 0x0011.
     pub fn kposlimax(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::KPOSLIMAX.at(&mut self.client)
     }
-    /// MAXERRORPL: parameter 16402.
+    /// MAXERRORPL: parameter 0x4012.
     pub fn maxerrorpl(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::MAXERRORPL.at(&mut self.client)
     }
-    /// MAXERRORPH: parameter 16403.
+    /// MAXERRORPH: parameter 0x4013.
     pub fn maxerrorph(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 65536>> {
         objects::MAXERRORPH.at(&mut self.client)
     }
-    /// AMAXHOLD: parameter 20.
+    /// AMAXHOLD: parameter 0x0014.
     pub fn amaxhold(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::AMAXHOLD.at(&mut self.client)
     }
-    /// AMAXTRAJ: parameter 21.
+    /// AMAXTRAJ: parameter 0x0015.
     pub fn amaxtraj(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::AMAXTRAJ.at(&mut self.client)
     }
-    /// VMAXTRAJ: parameter 22.
+    /// VMAXTRAJ: parameter 0x0016.
     pub fn vmaxtraj(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::VMAXTRAJ.at(&mut self.client)
     }
-    /// ORIGINEL: parameter 20503.
+    /// ORIGINEL: parameter 0x5017.
     pub fn originel(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::ORIGINEL.at(&mut self.client)
     }
-    /// ORIGINEH: parameter 20504.
+    /// ORIGINEH: parameter 0x5018.
     pub fn origineh(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 65536>> {
         objects::ORIGINEH.at(&mut self.client)
     }
-    /// TESTSLIM: parameter 25.
+    /// TESTSLIM: parameter 0x0019.
     pub fn testslim(&mut self) -> objects::WriteOnlyAccess<'_, C, types::TestSlim> {
         objects::TESTSLIM.at(&mut self.client)
     }
-    /// LOWSLIML: parameter 24602.
+    /// LOWSLIML: parameter 0x601A.
     pub fn lowsliml(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::LOWSLIML.at(&mut self.client)
     }
-    /// LOWSLIMH: parameter 24603.
+    /// LOWSLIMH: parameter 0x601B.
     pub fn lowslimh(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 65536>> {
         objects::LOWSLIMH.at(&mut self.client)
     }
-    /// HIGHSLIML: parameter 24604.
+    /// HIGHSLIML: parameter 0x601C.
     pub fn highsliml(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::HIGHSLIML.at(&mut self.client)
     }
-    /// HIGHSLIMH: parameter 24605.
+    /// HIGHSLIMH: parameter 0x601D.
     pub fn highslimh(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 65536>> {
         objects::HIGHSLIMH.at(&mut self.client)
     }
-    /// MAXERRORV\_LOW: parameter 30.
+    /// MAXERRORV\_LOW: parameter 0x001E.
     pub fn maxerrorv_low(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::MAXERRORV_LOW.at(&mut self.client)
     }
-    /// MAXTORQUE: parameter 31.
+    /// MAXTORQUE: parameter 0x001F.
     pub fn maxtorque(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::MAXTORQUE.at(&mut self.client)
     }
-    /// ANGELETTRTACCA\_LOW: parameter 32.
+    /// ANGELETTRTACCA\_LOW: parameter 0x0020.
     pub fn angelettrtacca_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::ANGELETTRTACCA_LOW.at(&mut self.client)
     }
-    /// RESERVED1\_LOW: parameter 33.
+    /// RESERVED1\_LOW: parameter 0x0021.
     pub fn reserved1_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED1_LOW.at(&mut self.client)
     }
-    /// RESERVED2\_LOW: parameter 34.
+    /// RESERVED2\_LOW: parameter 0x0022.
     pub fn reserved2_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED2_LOW.at(&mut self.client)
     }
-    /// RESERVED3\_LOW: parameter 35.
+    /// RESERVED3\_LOW: parameter 0x0023.
     pub fn reserved3_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED3_LOW.at(&mut self.client)
     }
-    /// RESERVED4\_LOW: parameter 36.
+    /// RESERVED4\_LOW: parameter 0x0024.
     pub fn reserved4_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED4_LOW.at(&mut self.client)
     }
-    /// RESERVED5\_LOW: parameter 37.
+    /// RESERVED5\_LOW: parameter 0x0025.
     pub fn reserved5_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED5_LOW.at(&mut self.client)
     }
-    /// RESERVED6\_LOW: parameter 38.
+    /// RESERVED6\_LOW: parameter 0x0026.
     pub fn reserved6_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED6_LOW.at(&mut self.client)
     }
-    /// RESERVED7\_LOW: parameter 39.
+    /// RESERVED7\_LOW: parameter 0x0027.
     pub fn reserved7_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED7_LOW.at(&mut self.client)
     }
-    /// RESERVED8\_LOW: parameter 40.
+    /// RESERVED8\_LOW: parameter 0x0028.
     pub fn reserved8_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED8_LOW.at(&mut self.client)
     }
-    /// RESERVED9\_LOW: parameter 41.
+    /// RESERVED9\_LOW: parameter 0x0029.
     pub fn reserved9_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED9_LOW.at(&mut self.client)
     }
-    /// RESERVED10\_LOW: parameter 42.
+    /// RESERVED10\_LOW: parameter 0x002A.
     pub fn reserved10_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED10_LOW.at(&mut self.client)
     }
-    /// RESERVED11\_LOW: parameter 43.
+    /// RESERVED11\_LOW: parameter 0x002B.
     pub fn reserved11_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED11_LOW.at(&mut self.client)
     }
-    /// RESERVED12: parameter 44.
+    /// RESERVED12: parameter 0x002C.
     pub fn reserved12(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED12.at(&mut self.client)
     }
-    /// TIMEOUTMAXTORQUE: parameter 45.
+    /// TIMEOUTMAXTORQUE: parameter 0x002D.
     pub fn timeoutmaxtorque(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::TIMEOUTMAXTORQUE.at(&mut self.client)
     }
@@ -757,6 +1177,10 @@ impl<C, S> HsdMotor<C, S> {
 /// Numbers that belong to the models of the device.
 pub mod models {
     /// SM137 rev. B.
+    ///
+    /// Firmware below 110. It lacks all commands that the manual reserves to revision C. It leaves the alarm by CmdNoReg, and of those that have an obsolete counterpart it has only that one: CmdRegWait, CmdHoldWait, CmdJog, CmdChgPar, CmdAzzElWait, CmdSample.
+    ///
+    /// Manual, line 216-218, 224, 269, 297, 1332-1334, 1935-1940.
     #[allow(clippy::approx_constant)]
     pub mod sm137_rev_b {
         /// voltage\_base.
@@ -767,10 +1191,14 @@ pub mod models {
         pub const SPEED_BASE: f64 = 8000.0;
         /// acceleration\_base.
         pub const ACCELERATION_BASE: f64 = 9411.0;
-        /// counts per turn.
+        /// counts per turn, in count/rev.
         pub const COUNTS_PER_TURN: f64 = 800.0;
     }
     /// SM137 rev. C.
+    ///
+    /// Firmware from 110 on.
+    ///
+    /// Manual, line 216-218, 1935-1940.
     #[allow(clippy::approx_constant)]
     pub mod sm137_rev_c {
         /// voltage\_base.
@@ -781,10 +1209,14 @@ pub mod models {
         pub const SPEED_BASE: f64 = 8000.0;
         /// acceleration\_base.
         pub const ACCELERATION_BASE: f64 = 9411.0;
-        /// counts per turn.
+        /// counts per turn, in count/rev.
         pub const COUNTS_PER_TURN: f64 = 800.0;
     }
     /// SM140.
+    ///
+    /// Sold with firmware from 110 on only; it has three digital inputs for two limit cams and a homing switch.
+    ///
+    /// Manual, line 220, 1935-1940, 2227.
     #[allow(clippy::approx_constant)]
     pub mod sm140 {
         /// voltage\_base.
@@ -795,7 +1227,7 @@ pub mod models {
         pub const SPEED_BASE: f64 = 8000.0;
         /// acceleration\_base.
         pub const ACCELERATION_BASE: f64 = 9411.0;
-        /// counts per turn.
+        /// counts per turn, in count/rev.
         pub const COUNTS_PER_TURN: f64 = 2000.0;
     }
 }
@@ -858,6 +1290,10 @@ pub mod machine {
 pub mod messages {
     use ::lexibus as rt;
     /// How frames are delimited and checked.
+    ///
+    /// Bytes of 8 bits, least significant bit first, no parity, one stop bit. The check is the exclusive or of all data before they are escaped, although the manual calls it an 8-bit CRC. A motor answers TIMFB ms after the request at the soonest, and raises an alarm where the master is silent for longer than TIMEOUTFB, if that isn't 0. The address of a node is set by DIP switches.
+    ///
+    /// Manual, line 140-152, 156-163, 167-181, 185, 189, 205-206.
     pub const FRAMING: rt::framing::Delimited = rt::framing::Delimited {
         start: Some(0x02),
         end: 0x03,
@@ -1103,6 +1539,63 @@ pub mod messages {
             Some((station, own))
         }
     }
+    impl CmdNoReg {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 1992, 2030.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::States(&[super::types::State::Released])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::States(&[super::types::State::Released])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::States(&[super::types::State::Released])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::States(&[super::types::State::Released])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::States(&[super::types::State::Released])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::States(&[super::types::State::Released])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
+    }
     /// What is answered to [`CmdNoReg`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdNoRegReply {
@@ -1185,6 +1678,76 @@ pub mod messages {
             Some((station, own))
         }
     }
+    impl CmdReg {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 1994, 2032.
+        ///
+        /// In released: Before the first regulation the electrical position is found, else it is \`stopped\` at once.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::ElectricalHoming,
+                                super::types::State::Stopped,
+                            ],
+                        ),
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
+    }
     /// What is answered to [`CmdReg`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdRegReply {
@@ -1264,6 +1827,88 @@ pub mod messages {
             let own = Self;
             Some((station, own))
         }
+    }
+    impl CmdHold {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 1999, 2037.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::Stopping,
+                                super::types::State::Stopped,
+                            ],
+                        ),
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::Stopping,
+                                super::types::State::Stopped,
+                            ],
+                        ),
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::Stopping,
+                                super::types::State::Stopped,
+                            ],
+                        ),
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     /// What is answered to [`CmdHold`].
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1348,6 +1993,73 @@ pub mod messages {
             Some((station, own))
         }
     }
+    impl CmdMazz {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 1996, 2034.
+        ///
+        /// In alarm: the position is set.
+        ///
+        /// In released: the position is set.
+        ///
+        /// In stopped: the position is set.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
+    }
     /// What is answered to [`CmdMazz`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdMazzReply {
@@ -1425,6 +2137,85 @@ pub mod messages {
             let own = Self;
             Some((station, own))
         }
+    }
+    impl CmdAzz {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 1995, 2033.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[
+                        rt::message::Outcome::Refused,
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::Homing,
+                                super::types::State::Stopping,
+                                super::types::State::Stopped,
+                            ],
+                        ),
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::Homing,
+                                super::types::State::Stopping,
+                                super::types::State::Stopped,
+                            ],
+                        ),
+                        rt::message::Outcome::Refused,
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     /// What is answered to [`CmdAzz`].
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1510,6 +2301,69 @@ pub mod messages {
             let own = Self { speed: value_0 as i16 };
             Some((station, own))
         }
+    }
+    impl CmdJogN {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2016, 2054.
+        ///
+        /// In jogging: The speed of jogging is changed with ramps, where it has to be.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::States(&[super::types::State::Jogging])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     /// What is answered to [`CmdJogN`].
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1597,6 +2451,76 @@ pub mod messages {
             let own = Self { target: value_0 as i32 };
             Some((station, own))
         }
+    }
+    impl CmdTraj {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 1998, 2036.
+        ///
+        /// In stopped: Only where the motor is homed, by hand or automatically.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::Positioning,
+                                super::types::State::Stopped,
+                            ],
+                        ),
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     /// What is answered to [`CmdTraj`].
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -1709,6 +2633,78 @@ pub mod messages {
             };
             Some((station, own))
         }
+    }
+    impl CmdTrajVel {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2013, 2051.
+        ///
+        /// In stopped: Only where the motor is homed, by hand or automatically.
+        ///
+        /// In positioning: Speed and target are changed with ramps, where they have to be; refused where they can't.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::Positioning,
+                                super::types::State::Stopped,
+                            ],
+                        ),
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     /// What is answered to [`CmdTrajVel`].
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -2130,6 +3126,67 @@ pub mod messages {
             Some((station, own))
         }
     }
+    impl CmdEmerg {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 1990, 2028.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::States(&[super::types::State::Alarm])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::States(&[super::types::State::Alarm])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::States(&[super::types::State::Alarm])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::States(&[super::types::State::Alarm])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::States(&[super::types::State::Alarm])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::States(&[super::types::State::Alarm])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::States(&[super::types::State::Alarm])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::States(&[super::types::State::Alarm])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::States(&[super::types::State::Alarm])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
+    }
     /// What is answered to [`CmdEmerg`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdEmergReply {
@@ -2213,6 +3270,67 @@ pub mod messages {
             Some((station, own))
         }
     }
+    impl CmdSetOverr {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2014, 2052.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
+    }
     /// What is answered to [`CmdSetOverr`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdSetOverrReply {
@@ -2290,6 +3408,67 @@ pub mod messages {
             let own = Self;
             Some((station, own))
         }
+    }
+    impl CmdGetOverr {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2015, 2053.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     /// What is answered to [`CmdGetOverr`].
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -2385,6 +3564,67 @@ pub mod messages {
             Some((station, own))
         }
     }
+    impl<'a> CmdChgParN<'a> {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2011, 2049.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
+    }
     /// What is answered to [`CmdChgParN`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdChgParNReply {
@@ -2472,6 +3712,67 @@ pub mod messages {
             Some((station, own))
         }
     }
+    impl CmdGetParN {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2012, 2050.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
+    }
     /// What is answered to [`CmdGetParN`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetParNReply {
@@ -2558,6 +3859,55 @@ pub mod messages {
             Some((station, own))
         }
     }
+    impl CmdSaveParFl {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2017, 2055.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
+    }
     /// What is answered to [`CmdSaveParFl`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdSaveParFlReply {
@@ -2633,6 +3983,74 @@ pub mod messages {
             let own = Self;
             Some((station, own))
         }
+    }
+    impl CmdAdcOff {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 1991, 2029.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::CalibratingCurrentSensors,
+                                super::types::State::Alarm,
+                            ],
+                        ),
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     /// What is answered to [`CmdAdcOff`].
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -2720,6 +4138,74 @@ pub mod messages {
             let own = Self { method: value_0 as u8 };
             Some((station, own))
         }
+    }
+    impl CmdAzzEl {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 1993, 2031.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::ElectricalHoming,
+                                super::types::State::Released,
+                            ],
+                        ),
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     /// What is answered to [`CmdAzzEl`].
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -2947,6 +4433,67 @@ pub mod messages {
             Some((station, own))
         }
     }
+    impl CmdGetPos {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2003, 2041.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
+    }
     impl rt::message::Selector for CmdGetPos {
         type Device<C> = super::HsdMotor<C, Self>;
         fn device<C>(client: C) -> Self::Device<C> {
@@ -3027,6 +4574,67 @@ pub mod messages {
             let own = Self;
             Some((station, own))
         }
+    }
+    impl CmdGetPosT {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2004, 2042.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     impl rt::message::Selector for CmdGetPosT {
         type Device<C> = super::HsdMotor<C, Self>;
@@ -3113,6 +4721,67 @@ pub mod messages {
             Some((station, own))
         }
     }
+    impl CmdGetVel {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2005, 2043.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
+    }
     impl rt::message::Selector for CmdGetVel {
         type Device<C> = super::HsdMotor<C, Self>;
         fn device<C>(client: C) -> Self::Device<C> {
@@ -3197,6 +4866,67 @@ pub mod messages {
             let own = Self;
             Some((station, own))
         }
+    }
+    impl CmdGetTor {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2006, 2044.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     impl rt::message::Selector for CmdGetTor {
         type Device<C> = super::HsdMotor<C, Self>;
@@ -3283,6 +5013,67 @@ pub mod messages {
             Some((station, own))
         }
     }
+    impl CmdGetAlarm {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2002, 2040.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
+    }
     /// What is answered to [`CmdGetAlarm`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetAlarmReply {
@@ -3363,6 +5154,67 @@ pub mod messages {
             let own = Self;
             Some((station, own))
         }
+    }
+    impl CmdGetVer {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2007, 2045.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     /// What is answered to [`CmdGetVer`].
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -3519,6 +5371,67 @@ pub mod messages {
             let own = Self;
             Some((station, own))
         }
+    }
+    impl CmdGetSmStat {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2008, 2046.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     /// What is answered to [`CmdGetSmStat`].
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -3792,6 +5705,67 @@ pub mod messages {
             Some((station, own))
         }
     }
+    impl CmdGetSamp {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2010, 2048.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
+    }
     /// What is repeated in [`CmdGetSampReply`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetSampReplyEntry {
@@ -3911,6 +5885,76 @@ pub mod messages {
             Some((station, own))
         }
     }
+    impl CmdRegWait {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 1994, 2032.
+        ///
+        /// In released: Before the first regulation the electrical position is found, else it is \`stopped\` at once.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::ElectricalHoming,
+                                super::types::State::Stopped,
+                            ],
+                        ),
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
+    }
     /// What is answered to [`CmdRegWait`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdRegWaitReply {
@@ -3990,6 +6034,88 @@ pub mod messages {
             let own = Self;
             Some((station, own))
         }
+    }
+    impl CmdHoldWait {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 1999, 2037.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::Stopping,
+                                super::types::State::Stopped,
+                            ],
+                        ),
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::Stopping,
+                                super::types::State::Stopped,
+                            ],
+                        ),
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::Stopping,
+                                super::types::State::Stopped,
+                            ],
+                        ),
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     /// What is answered to [`CmdHoldWait`].
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -4080,6 +6206,69 @@ pub mod messages {
             Some((station, own))
         }
     }
+    impl CmdJog {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 1997, 2035.
+        ///
+        /// In jogging: The speed of jogging is changed with ramps, where it has to be.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::States(&[super::types::State::Jogging])],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
+    }
     /// What is answered to [`CmdJog`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdJogReply {
@@ -4164,6 +6353,67 @@ pub mod messages {
             let own = Self { setting: value_0 };
             Some((station, own))
         }
+    }
+    impl CmdChgPar {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2000, 2038.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     /// What is answered to [`CmdChgPar`].
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -4253,6 +6503,74 @@ pub mod messages {
             let own = Self { method: value_0 as u8 };
             Some((station, own))
         }
+    }
+    impl CmdAzzElWait {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 1993, 2031.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[
+                        rt::message::Outcome::States(
+                            &[
+                                super::types::State::ElectricalHoming,
+                                super::types::State::Released,
+                            ],
+                        ),
+                    ],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Refused],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     /// What is answered to [`CmdAzzElWait`].
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -4345,6 +6663,67 @@ pub mod messages {
             };
             Some((station, own))
         }
+    }
+    impl CmdSample {
+        /// What it does in each state of axis.
+        ///
+        /// Manual, line 2009, 2047.
+        pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
+            &[
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToAlarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Alarm,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::CalibratingCurrentSensors,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::BrakingToRelease,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Released,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::ElectricalHoming,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopped,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Homing,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Jogging,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Positioning,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Stopping,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Interpolating,
+                    &[rt::message::Outcome::Unchanged],
+                ),
+                rt::message::StateOutcomes::new(
+                    super::types::State::Latching,
+                    &[rt::message::Outcome::Refused],
+                ),
+            ],
+        );
     }
     /// What is answered to [`CmdSample`].
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -5429,6 +7808,8 @@ pub mod codes {
     ///
     /// Alarms: the motor leaves regulation. CmdGetAlarm reads them.
     ///
+    /// Manual, line 2120, 2125-2169.
+    ///
     /// Further columns: remedy.
     pub static ALARM: &[rt::codes::Code] = &[
         rt::codes::Code::new(
@@ -5640,51 +8021,51 @@ pub mod codes {
     /// A code of [`ALARM`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Alarm {
-        /// 0: no alarm. The motor works properly.
+        /// 0: no alarm. The motor works properly. Manual, line 2131: NOALARM.
         NoAlarm,
-        /// 1: overheated. The drive was hotter than 70 °C.
+        /// 1: overheated. The drive was hotter than 70 °C. Manual, line 2132: ALOVERHEATED.
         Overheated,
-        /// 2: over-current. Too great a current in the power stage.
+        /// 2: over-current. Too great a current in the power stage. Manual, line 2133: ALOVERCURR.
         OverCurrent,
-        /// 3: overload. More than the greatest torque was needed for too long.
+        /// 3: overload. More than the greatest torque was needed for too long. Manual, line 2134: ALOVERLOAD.
         Overload,
-        /// 4: trajectory generator. An error of the generator of trajectories in the motor.
+        /// 4: trajectory generator. An error of the generator of trajectories in the motor. Manual, line 2135: ALGENTRAIETT.
         TrajectoryGenerator,
-        /// 5: beyond software limit. The motor is beyond a software limit, with their check enabled and the axis homed.
+        /// 5: beyond software limit. The motor is beyond a software limit, with their check enabled and the axis homed. Manual, line 2136: ALOVERLIM.
         BeyondSoftwareLimit,
-        /// 6: following error of position. The following error of the position was greater than the parameter.
+        /// 6: following error of position. The following error of the position was greater than the parameter. Manual, line 2137: ALMAXERRORP.
         FollowingErrorOfPosition,
-        /// 7: following error of speed. The following error of the speed was greater than the parameter.
+        /// 7: following error of speed. The following error of the speed was greater than the parameter. Manual, line 2138: ALMAXERRORV.
         FollowingErrorOfSpeed,
-        /// 8: communication error. On RS-485: silence of the master, a packet that is too long or has no ETX, a second STX before the ETX, a wrong check, or a wrong byte behind ESC.
+        /// 8: communication error. On RS-485: silence of the master, a packet that is too long or has no ETX, a second STX before the ETX, a wrong check, or a wrong byte behind ESC. Manual, line 2142, 2163-2168: ALCOMERROR.
         CommunicationError,
-        /// 9: no power. The power supply fell below 16 V during regulation.
+        /// 9: no power. The power supply fell below 16 V during regulation. Manual, line 2143: ALNOPOWER.
         NoPower,
-        /// 0xA: no parameters in flash. The parameters stored in flash memory are wrong. Only of SM137 rev. C, SM140.
+        /// 0xA: no parameters in flash. The parameters stored in flash memory are wrong. Only of SM137 rev. C, SM140. Manual, line 2144, 2169: ALNOPARAMINFL.
         NoParametersInFlash,
-        /// 0xB: no program in flash. The software stored in flash memory is wrong. Only of SM137 rev. C, SM140.
+        /// 0xB: no program in flash. The software stored in flash memory is wrong. Only of SM137 rev. C, SM140. Manual, line 2145, 2169: ALNOPRGINFLASH.
         NoProgramInFlash,
-        /// 0xC: erasing flash. Flash memory couldn't be erased while software was sent. Only of SM137 rev. C, SM140.
+        /// 0xC: erasing flash. Flash memory couldn't be erased while software was sent. Only of SM137 rev. C, SM140. Manual, line 2146, 2169: ALERASINGFL.
         ErasingFlash,
-        /// 0xD: programming flash. Flash memory couldn't be written while software was sent. Only of SM137 rev. C, SM140.
+        /// 0xD: programming flash. Flash memory couldn't be written while software was sent. Only of SM137 rev. C, SM140. Manual, line 2147, 2169: ALPRGMINGFL.
         ProgrammingFlash,
-        /// 0xE: wrong interpolation data. A packet with a wrong coding came during interpolation. Only of SM137 rev. C, SM140.
+        /// 0xE: wrong interpolation data. A packet with a wrong coding came during interpolation. Only of SM137 rev. C, SM140. Manual, line 2148, 2169: ALWRONGDATA2INTERP.
         WrongInterpolationData,
-        /// 0xF: set-point too fast. A set-point of the interpolation asks for too great a speed. Only of SM137 rev. C, SM140.
+        /// 0xF: set-point too fast. A set-point of the interpolation asks for too great a speed. Only of SM137 rev. C, SM140. Manual, line 2149, 2169: ALWRONGSETP.
         SetPointTooFast,
-        /// 0x10: set-point missing. A set-point of the interpolation didn't come in time. Only of SM137 rev. C, SM140.
+        /// 0x10: set-point missing. A set-point of the interpolation didn't come in time. Only of SM137 rev. C, SM140. Manual, line 2150, 2169: ALNOSETP2INTERP.
         SetPointMissing,
-        /// 0x11: wrong bus frequency. The bus has another frequency than the parameter says. Only of SM137 rev. C, SM140.
+        /// 0x11: wrong bus frequency. The bus has another frequency than the parameter says. Only of SM137 rev. C, SM140. Manual, line 2151, 2169: ALWRONGFREQ.
         WrongBusFrequency,
-        /// 0x12: parameters of the motor missing. At power-on parameters that the motor needs weren't found.
+        /// 0x12: parameters of the motor missing. At power-on parameters that the motor needs weren't found. Manual, line 2152: ALNOTIPICPARAM.
         ParametersOfTheMotorMissing,
-        /// 0x13: communication time-out. An error in the protocol with the motor.
+        /// 0x13: communication time-out. An error in the protocol with the motor. Manual, line 2156: ALTIMEOUTCOMUNIC.
         CommunicationTimeOut,
-        /// 0x14: over-power. The power supply rose above 38 V.
+        /// 0x14: over-power. The power supply rose above 38 V. Manual, line 2157: ALOVERPOWER.
         OverPower,
-        /// 0x20: processor overload. An error of the drive's software.
+        /// 0x20: processor overload. An error of the drive's software. Manual, line 2158: ALDSPOVERLOAD.
         ProcessorOverload,
-        /// 0x21: wrong interrupt. An error of the drive's software.
+        /// 0x21: wrong interrupt. An error of the drive's software. Manual, line 2159: ALWRONGIRQ.
         WrongInterrupt,
         /// Any other number.
         Unknown(u16),
@@ -5754,6 +8135,8 @@ pub mod codes {
     /// warning.
     ///
     /// Warnings: they don't take the motor to alarm. CmdGetAlarm reads them.
+    ///
+    /// Manual, line 2121, 2171-2194.
     ///
     /// Further columns: remedy.
     pub static WARNING: &[rt::codes::Code] = &[
@@ -5853,29 +8236,29 @@ pub mod codes {
     /// A code of [`WARNING`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Warning {
-        /// 0x4000: not homed. A positioning was commanded to an axis that isn't homed.
+        /// 0x4000: not homed. A positioning was commanded to an axis that isn't homed. Manual, line 2177: ALNOAZZ.
         NotHomed,
-        /// 0x4001: no such parameter. A parameter was written or read that doesn't exist.
+        /// 0x4001: no such parameter. A parameter was written or read that doesn't exist. Manual, line 2178: ALPARNONCORR.
         NoSuchParameter,
-        /// 0x4002: command lost. An error of the drive's software.
+        /// 0x4002: command lost. An error of the drive's software. Manual, line 2179: ALCMDLOOSED.
         CommandLost,
-        /// 0x4003: no such command. A command was sent that doesn't exist.
+        /// 0x4003: no such command. A command was sent that doesn't exist. Manual, line 2180: ALWRONGCMD.
         NoSuchCommand,
-        /// 0x4004: already in position. A positioning was commanded to where the motor is.
+        /// 0x4004: already in position. A positioning was commanded to where the motor is. Manual, line 2181: ALAXALREADYINPOS.
         AlreadyInPosition,
-        /// 0x4005: target beyond software limit. A positioning was commanded to beyond a software limit.
+        /// 0x4005: target beyond software limit. A positioning was commanded to beyond a software limit. Manual, line 2182: ALREQPOSOVERLIM.
         TargetBeyondSoftwareLimit,
-        /// 0x4006: software limit reached. The motor is at the upper or lower software limit. Only of SM137 rev. C, SM140.
+        /// 0x4006: software limit reached. The motor is at the upper or lower software limit. Only of SM137 rev. C, SM140. Manual, line 2183, 2192: ALNOTPOT.
         SoftwareLimitReached,
-        /// 0x4007: flash not erased. Flash memory was to be written where it isn't erased. Only of SM137 rev. C, SM140.
+        /// 0x4007: flash not erased. Flash memory was to be written where it isn't erased. Only of SM137 rev. C, SM140. Manual, line 2184, 2192: ALFLNOTERASED.
         FlashNotErased,
-        /// 0x4008: reading flash. An error while flash memory was written. Only of SM137 rev. C, SM140.
+        /// 0x4008: reading flash. An error while flash memory was written. Only of SM137 rev. C, SM140. Manual, line 2185, 2192: ALFLREADING.
         ReadingFlash,
-        /// 0x4009: negative limit cam. The motor met the negative limit cam. Only of SM140.
+        /// 0x4009: negative limit cam. The motor met the negative limit cam. Only of SM140. Manual, line 2186, 2193: ALNOTHW\_M.
         NegativeLimitCam,
-        /// 0x400A: positive limit cam. The motor met the positive limit cam. Only of SM140.
+        /// 0x400A: positive limit cam. The motor met the positive limit cam. Only of SM140. Manual, line 2187, 2193: ALPOTHW\_M.
         PositiveLimitCam,
-        /// 0x400B: motion too long. A positioning goes further than 67108863 counts. From firmware 119 on.
+        /// 0x400B: motion too long. A positioning goes further than 67108863 counts. From firmware 119 on. Manual, line 2188, 2194: ALMOVTOOLONG.
         MotionTooLong,
         /// Any other number.
         Unknown(u16),
@@ -5952,7 +8335,7 @@ pub mod objects {
     pub type ReadWriteAccess<'c, C, V> = rt::Accessor<'c, C, V, rt::Rw, rt::OnSerial>;
     /// KP\_I.
     ///
-    /// Parameter 256, INTEGER16, rw, default 30, range 0 to 32767 (0 to 327.67), in 0.01.
+    /// Parameter 0x0100, INTEGER16, rw, default 30, range 0 to 32767 (0 to 327.67), in 0.01.
     ///
     /// Proportional gain of the current controller; to be left at its default
     ///
@@ -5971,7 +8354,7 @@ pub mod objects {
     );
     /// KI\_I.
     ///
-    /// Parameter 257, INTEGER16, rw, default 12, range 0 to 32767 (0 to 327.67), in 0.01.
+    /// Parameter 0x0101, INTEGER16, rw, default 12, range 0 to 32767 (0 to 327.67), in 0.01.
     ///
     /// Integral gain of the current controller; to be left at its default
     ///
@@ -5990,7 +8373,7 @@ pub mod objects {
     );
     /// PIMIN\_I.
     ///
-    /// Parameter 259, INTEGER16, rw, default -194, range \-32767 to 0 (-3276.7 to 0 V), in 0.1 V.
+    /// Parameter 0x0103, INTEGER16, rw, default -194, range \-32767 to 0 (-3276.7 to 0 V), in 0.1 V.
     ///
     /// Least output of the current controller; to be left at its default
     ///
@@ -6011,7 +8394,7 @@ pub mod objects {
     );
     /// PIMAX\_I.
     ///
-    /// Parameter 260, INTEGER16, rw, default 194, range 0 to 32767 (0 to 3276.7 V), in 0.1 V.
+    /// Parameter 0x0104, INTEGER16, rw, default 194, range 0 to 32767 (0 to 3276.7 V), in 0.1 V.
     ///
     /// Greatest output of the current controller; to be left at its default
     ///
@@ -6032,7 +8415,7 @@ pub mod objects {
     );
     /// KP\_VEL.
     ///
-    /// Parameter 261, INTEGER16, rw, default 150, range 0 to 32767 (0 to 327.67), in 0.01.
+    /// Parameter 0x0105, INTEGER16, rw, default 150, range 0 to 32767 (0 to 327.67), in 0.01.
     ///
     /// Proportional gain of the speed controller
     ///
@@ -6051,7 +8434,7 @@ pub mod objects {
     );
     /// KI\_VEL.
     ///
-    /// Parameter 262, INTEGER16, rw, default 10, range 0 to 32767 (0 to 327.67), in 0.01.
+    /// Parameter 0x0106, INTEGER16, rw, default 10, range 0 to 32767 (0 to 327.67), in 0.01.
     ///
     /// Integral gain of the speed controller; best not 0
     ///
@@ -6070,7 +8453,7 @@ pub mod objects {
     );
     /// KFF\_VEL.
     ///
-    /// Parameter 263, INTEGER16, rw, default 100, range 0 to 100, in %.
+    /// Parameter 0x0107, INTEGER16, rw, default 100, range 0 to 100, in %.
     ///
     /// Feedforward of the speed controller; best left at 100 %
     ///
@@ -6087,7 +8470,7 @@ pub mod objects {
     );
     /// PIMIN\_VEL.
     ///
-    /// Parameter 264, INTEGER16, rw, default -500, range \-900 to 0 (-9 to 0 A), in 0.01 A.
+    /// Parameter 0x0108, INTEGER16, rw, default -500, range \-900 to 0 (-9 to 0 A), in 0.01 A.
     ///
     /// Least output of the speed controller: it limits the torque
     ///
@@ -6106,7 +8489,7 @@ pub mod objects {
     );
     /// PIMAX\_VEL.
     ///
-    /// Parameter 265, INTEGER16, rw, default 500, range 0 to 900 (0 to 9 A), in 0.01 A.
+    /// Parameter 0x0109, INTEGER16, rw, default 500, range 0 to 900 (0 to 9 A), in 0.01 A.
     ///
     /// Greatest output of the speed controller: it limits the torque
     ///
@@ -6127,7 +8510,7 @@ pub mod objects {
     );
     /// KP\_POS.
     ///
-    /// Parameter 266, INTEGER16, rw, default 500, range 0 to 32767 (0 to 327.67), in 0.01.
+    /// Parameter 0x010A, INTEGER16, rw, default 500, range 0 to 32767 (0 to 327.67), in 0.01.
     ///
     /// Proportional gain of the position controller
     ///
@@ -6144,7 +8527,7 @@ pub mod objects {
     );
     /// KI\_POS.
     ///
-    /// Parameter 267, INTEGER16, rw, default 0, range 0 to 32767 (0 to 327.67), in 0.01.
+    /// Parameter 0x010B, INTEGER16, rw, default 0, range 0 to 32767 (0 to 327.67), in 0.01.
     ///
     /// Integral gain of the position controller
     ///
@@ -6161,7 +8544,7 @@ pub mod objects {
     );
     /// KFF\_POS.
     ///
-    /// Parameter 268, INTEGER16, rw, default 70, range 0 to 100, in %.
+    /// Parameter 0x010C, INTEGER16, rw, default 70, range 0 to 100, in %.
     ///
     /// Feedforward of the position controller; 50 % to 100 % are usual
     ///
@@ -6178,7 +8561,7 @@ pub mod objects {
     );
     /// PIMIN\_POS.
     ///
-    /// Parameter 269, INTEGER16, rw, default -4500, range \-5000 to 0, in rpm.
+    /// Parameter 0x010D, INTEGER16, rw, default -4500, range \-5000 to 0, in rpm.
     ///
     /// Least output of the position controller: it limits the speed
     ///
@@ -6195,7 +8578,7 @@ pub mod objects {
     );
     /// PIMAX\_POS.
     ///
-    /// Parameter 270, INTEGER16, rw, default 4500, range 0 to 5000, in rpm.
+    /// Parameter 0x010E, INTEGER16, rw, default 4500, range 0 to 5000, in rpm.
     ///
     /// Greatest output of the position controller: it limits the speed
     ///
@@ -6214,7 +8597,7 @@ pub mod objects {
     );
     /// MAXERRORP.
     ///
-    /// Parameter 271, INTEGER32, rw, default 0, range 0 to 2147483647, in count.
+    /// Parameter 0x010F, INTEGER32, rw, default 0, range 0 to 2147483647, in count.
     ///
     /// Greatest following error of the position
     ///
@@ -6237,7 +8620,7 @@ pub mod objects {
     );
     /// TIM\_MAXERRORP.
     ///
-    /// Parameter 272, INTEGER16, rw, default 0, range 0 to 32000, in ms.
+    /// Parameter 0x0110, INTEGER16, rw, default 0, range 0 to 32000, in ms.
     ///
     /// How long the following error of the position has to last for an alarm
     ///
@@ -6254,7 +8637,7 @@ pub mod objects {
     );
     /// MAXERRORV.
     ///
-    /// Parameter 273, INTEGER16, rw, default 0, range 0 to 8000, in rpm.
+    /// Parameter 0x0111, INTEGER16, rw, default 0, range 0 to 8000, in rpm.
     ///
     /// Greatest following error of the speed
     ///
@@ -6271,7 +8654,7 @@ pub mod objects {
     );
     /// TIM\_MAXERRORV.
     ///
-    /// Parameter 274, INTEGER16, rw, default 0, range 0 to 32000, in ms.
+    /// Parameter 0x0112, INTEGER16, rw, default 0, range 0 to 32000, in ms.
     ///
     /// How long the following error of the speed has to last for an alarm
     ///
@@ -6288,7 +8671,7 @@ pub mod objects {
     );
     /// INPOS.
     ///
-    /// Parameter 275, INTEGER16, rw, default 0, range 0 to 32000, in count.
+    /// Parameter 0x0113, INTEGER16, rw, default 0, range 0 to 32000, in count.
     ///
     /// How near the target has to be for a positioning to be complete
     ///
@@ -6305,7 +8688,7 @@ pub mod objects {
     );
     /// TIM\_INPOS.
     ///
-    /// Parameter 276, INTEGER16, rw, default 0, range 0 to 32000, in ms.
+    /// Parameter 0x0114, INTEGER16, rw, default 0, range 0 to 32000, in ms.
     ///
     /// How long the position has to be that near
     ///
@@ -6322,7 +8705,7 @@ pub mod objects {
     );
     /// MAXTORQ.
     ///
-    /// Parameter 277, INTEGER16, rw, default 250, range 0 to 32767 (0 to 327.67 A), in 0.01 A.
+    /// Parameter 0x0115, INTEGER16, rw, default 250, range 0 to 32767 (0 to 327.67 A), in 0.01 A.
     ///
     /// The torque above which the motor goes to alarm, where it lasts for TIM\_MAXTORQ
     ///
@@ -6343,7 +8726,7 @@ pub mod objects {
     );
     /// TIM\_MAXTORQ.
     ///
-    /// Parameter 278, INTEGER16, rw, default 1000, range 0 to 32000, in ms.
+    /// Parameter 0x0116, INTEGER16, rw, default 1000, range 0 to 32000, in ms.
     ///
     /// How long the torque has to be above MAXTORQ for an alarm
     ///
@@ -6362,7 +8745,7 @@ pub mod objects {
     );
     /// VMAXPOS.
     ///
-    /// Parameter 279, INTEGER16, rw, default 4000, range 0 to 32767, in rpm.
+    /// Parameter 0x0117, INTEGER16, rw, default 4000, range 0 to 32767, in rpm.
     ///
     /// Greatest speed of positionings
     ///
@@ -6381,7 +8764,7 @@ pub mod objects {
     );
     /// VMAXAZZ.
     ///
-    /// Parameter 280, INTEGER16, rw, default 0, range \-32767 to 32767, in rpm.
+    /// Parameter 0x0118, INTEGER16, rw, default 0, range \-32767 to 32767, in rpm.
     ///
     /// Speed of automatic homing towards the homing switch; its sign is the direction
     ///
@@ -6400,7 +8783,7 @@ pub mod objects {
     );
     /// AMAX.
     ///
-    /// Parameter 281, INTEGER16, rw, default 48, range 0 to 32767 (0 to 327670000 count/s²), in 10000 count/s².
+    /// Parameter 0x0119, INTEGER16, rw, default 48, range 0 to 32767 (0 to 327670000 count/s²), in 10000 count/s².
     ///
     /// Acceleration of jogging and of commanded stops
     ///
@@ -6421,7 +8804,7 @@ pub mod objects {
     );
     /// AMAXPOS.
     ///
-    /// Parameter 282, INTEGER16, rw, default 32, range 0 to 32767 (0 to 327670000 count/s²), in 10000 count/s².
+    /// Parameter 0x011A, INTEGER16, rw, default 32, range 0 to 32767 (0 to 327670000 count/s²), in 10000 count/s².
     ///
     /// Acceleration of positionings
     ///
@@ -6440,7 +8823,7 @@ pub mod objects {
     );
     /// ORIG\_AZZ.
     ///
-    /// Parameter 283, INTEGER32, rw, default 0, range \-2147483648 to 2147483647, in count.
+    /// Parameter 0x011B, INTEGER32, rw, default 0, range \-2147483648 to 2147483647, in count.
     ///
     /// The position that automatic homing gives
     ///
@@ -6459,7 +8842,7 @@ pub mod objects {
     );
     /// LOW\_SLIM.
     ///
-    /// Parameter 284, INTEGER32, rw, default -2147418112, range \-2147483648 to 2147483647, in count.
+    /// Parameter 0x011C, INTEGER32, rw, default -2147418112, range \-2147483648 to 2147483647, in count.
     ///
     /// Lower software limit, checked where bit 0 of BIT\_A is 1
     ///
@@ -6482,7 +8865,7 @@ pub mod objects {
     );
     /// HIGH\_SLIM.
     ///
-    /// Parameter 285, INTEGER32, rw, default 2147418112, range \-2147483648 to 2147483647, in count.
+    /// Parameter 0x011D, INTEGER32, rw, default 2147418112, range \-2147483648 to 2147483647, in count.
     ///
     /// Upper software limit, checked where bit 0 of BIT\_A is 1
     ///
@@ -6505,7 +8888,7 @@ pub mod objects {
     );
     /// BIT\_A.
     ///
-    /// Parameter 286, UNSIGNED16, rw, default 0.
+    /// Parameter 0x011E, UNSIGNED16, rw, default 0.
     ///
     /// Switches; no range is printed
     ///
@@ -6522,7 +8905,7 @@ pub mod objects {
     );
     /// ANGELETTRTACCA.
     ///
-    /// Parameter 287, INTEGER16, rw, default 676, range 0 to 799.
+    /// Parameter 0x011F, INTEGER16, rw, default 676, range 0 to 799.
     ///
     /// Reserved: don't change it
     ///
@@ -6541,7 +8924,7 @@ pub mod objects {
     );
     /// RESERVED1.
     ///
-    /// Parameter 288, INTEGER16, rw, default 600, stands for raw / 2^15 × speed\_base rpm.
+    /// Parameter 0x0120, INTEGER16, rw, default 600, stands for raw / 2^15 × speed\_base rpm.
     ///
     /// Speed from which the feedforward against friction acts; 200 is usual
     ///
@@ -6562,7 +8945,7 @@ pub mod objects {
     );
     /// RESERVED2.
     ///
-    /// Parameter 289, INTEGER16, rw, default 1400.
+    /// Parameter 0x0121, INTEGER16, rw, default 1400.
     ///
     /// Torque against friction: as much as lets the axis, jogging, be pushed on with little force, and stop when it isn't
     ///
@@ -6583,7 +8966,7 @@ pub mod objects {
     );
     /// RESERVED3.
     ///
-    /// Parameter 290, INTEGER16, rw, default 2600.
+    /// Parameter 0x0122, INTEGER16, rw, default 2600.
     ///
     /// Feedforward in proportion to the speed: raised by 100 until the speed while jogging is the wanted one
     ///
@@ -6604,7 +8987,7 @@ pub mod objects {
     );
     /// RESERVED4.
     ///
-    /// Parameter 291, INTEGER16, rw, default 6.
+    /// Parameter 0x0123, INTEGER16, rw, default 6.
     ///
     /// Feedforward while the speed changes: raised by 2 until real and theoretical speed are the same on the ramps
     ///
@@ -6627,7 +9010,7 @@ pub mod objects {
     );
     /// RESERVED5.
     ///
-    /// Parameter 292, unknown type, rw.
+    /// Parameter 0x0124, unknown type, rw.
     ///
     /// Reserved; neither size nor default is printed
     ///
@@ -6644,7 +9027,7 @@ pub mod objects {
     );
     /// RESERVED6.
     ///
-    /// Parameter 293, unknown type, rw.
+    /// Parameter 0x0125, unknown type, rw.
     ///
     /// Reserved; neither size nor default is printed
     ///
@@ -6661,7 +9044,7 @@ pub mod objects {
     );
     /// RESERVED7.
     ///
-    /// Parameter 294, unknown type, rw.
+    /// Parameter 0x0126, unknown type, rw.
     ///
     /// Reserved; neither size nor default is printed
     ///
@@ -6678,7 +9061,7 @@ pub mod objects {
     );
     /// RESERVED8.
     ///
-    /// Parameter 295, unknown type, rw.
+    /// Parameter 0x0127, unknown type, rw.
     ///
     /// Reserved; neither size nor default is printed
     ///
@@ -6695,7 +9078,7 @@ pub mod objects {
     );
     /// RESERVED9.
     ///
-    /// Parameter 296, unknown type, rw.
+    /// Parameter 0x0128, unknown type, rw.
     ///
     /// Reserved; neither size nor default is printed
     ///
@@ -6712,7 +9095,7 @@ pub mod objects {
     );
     /// RESERVED10.
     ///
-    /// Parameter 298, unknown type, rw.
+    /// Parameter 0x012A, unknown type, rw.
     ///
     /// Reserved; neither size nor default is printed
     ///
@@ -6731,7 +9114,7 @@ pub mod objects {
     );
     /// RESERVED11.
     ///
-    /// Parameter 299, unknown type, rw.
+    /// Parameter 0x012B, unknown type, rw.
     ///
     /// Reserved; neither size nor default is printed
     ///
@@ -6748,7 +9131,7 @@ pub mod objects {
     );
     /// TIMFB.
     ///
-    /// Parameter 300, INTEGER16, rw, default 50, range 1 to 100, in ms.
+    /// Parameter 0x012C, INTEGER16, rw, default 50, range 1 to 100, in ms.
     ///
     /// How long the motor waits with its reply at least. On ENET-X, where the default is 8, the actuation time of the bus, a multiple of 4
     ///
@@ -6765,7 +9148,7 @@ pub mod objects {
     );
     /// TIMEOUTFB.
     ///
-    /// Parameter 301, INTEGER16, rw, default 50, range 0 to 100, in ms.
+    /// Parameter 0x012D, INTEGER16, rw, default 50, range 0 to 100, in ms.
     ///
     /// How long the master may be silent before the motor goes to alarm. On ENET-X the default is 8
     ///
@@ -6790,7 +9173,7 @@ pub mod objects {
     );
     /// INVDIN.
     ///
-    /// Parameter 302, UNSIGNED16, rw, default 0, range 0 to 7.
+    /// Parameter 0x012E, UNSIGNED16, rw, default 0, range 0 to 7.
     ///
     /// Which digital inputs are inverted
     ///
@@ -6811,7 +9194,7 @@ pub mod objects {
     );
     /// TIPOAZZ.
     ///
-    /// Parameter 303, UNSIGNED16, rw, default 0, range 0 to 2.
+    /// Parameter 0x012F, UNSIGNED16, rw, default 0, range 0 to 2.
     ///
     /// How CmdAzz homes
     ///
@@ -6830,7 +9213,7 @@ pub mod objects {
     );
     /// VAZZOUTMIC.
     ///
-    /// Parameter 304, INTEGER16, rw, default -125, range \-32767 to 32767, in rpm.
+    /// Parameter 0x0130, INTEGER16, rw, default -125, range \-32767 to 32767, in rpm.
     ///
     /// Speed at which homing leaves the homing switch
     ///
@@ -6849,7 +9232,7 @@ pub mod objects {
     );
     /// KIQDPIMANT.
     ///
-    /// Parameter 4096, INTEGER16, wo, default 13762, range 0 to 32767, stands for raw / 2^15 × 2^KIQDPIEXP.
+    /// Parameter 0x1000, INTEGER16, wo, default 13762, range 0 to 32767, stands for raw / 2^15 × 2^KIQDPIEXP.
     ///
     /// Proportional plus integral gain of the current controller: the mantissa
     ///
@@ -6868,7 +9251,7 @@ pub mod objects {
     );
     /// KIQDPIEXP.
     ///
-    /// Parameter 4097, INTEGER16, wo, default 0, range 0 to 6.
+    /// Parameter 0x1001, INTEGER16, wo, default 0, range 0 to 6.
     ///
     /// Its exponent
     ///
@@ -6885,7 +9268,7 @@ pub mod objects {
     );
     /// KIQDKCOR.
     ///
-    /// Parameter 2, INTEGER16, wo, default 9362, range 0 to 32767 (0 to 0.999969482421875), in 0.000030517578125.
+    /// Parameter 0x0002, INTEGER16, wo, default 9362, range 0 to 32767 (0 to 0.999969482421875), in 0.000030517578125.
     ///
     /// Integral gain of the current controller over the sum of both gains
     ///
@@ -6904,7 +9287,7 @@ pub mod objects {
     );
     /// KIQDKFF.
     ///
-    /// Parameter 3, INTEGER16, wo.
+    /// Parameter 0x0003, INTEGER16, wo.
     ///
     /// Not used
     ///
@@ -6921,7 +9304,7 @@ pub mod objects {
     );
     /// KIQDLIMIN.
     ///
-    /// Parameter 4, INTEGER16, wo, default -32767, range \-32767 to 0, stands for raw / 2^15 × voltage\_base V.
+    /// Parameter 0x0004, INTEGER16, wo, default -32767, range \-32767 to 0, stands for raw / 2^15 × voltage\_base V.
     ///
     /// Least output of the current controller
     ///
@@ -6940,7 +9323,7 @@ pub mod objects {
     );
     /// KIQDLIMAX.
     ///
-    /// Parameter 5, INTEGER16, wo, default 32767, range 0 to 32767, stands for raw / 2^15 × voltage\_base V.
+    /// Parameter 0x0005, INTEGER16, wo, default 32767, range 0 to 32767, stands for raw / 2^15 × voltage\_base V.
     ///
     /// Greatest output of the current controller
     ///
@@ -6957,7 +9340,7 @@ pub mod objects {
     );
     /// KVELPIMANT.
     ///
-    /// Parameter 8198, INTEGER16, wo, default 26214, range 0 to 32767, stands for raw / 2^15 × 2^KVELPIEXP.
+    /// Parameter 0x2006, INTEGER16, wo, default 26214, range 0 to 32767, stands for raw / 2^15 × 2^KVELPIEXP.
     ///
     /// Proportional plus integral gain of the speed controller: the mantissa
     ///
@@ -6976,7 +9359,7 @@ pub mod objects {
     );
     /// KVELPIEXP.
     ///
-    /// Parameter 8199, INTEGER16, wo, default 1, range 0 to 6.
+    /// Parameter 0x2007, INTEGER16, wo, default 1, range 0 to 6.
     ///
     /// Its exponent
     ///
@@ -6995,7 +9378,7 @@ pub mod objects {
     );
     /// KVELKCOR.
     ///
-    /// Parameter 8, INTEGER16, wo, default 2047, range 0 to 32767 (0 to 0.999969482421875), in 0.000030517578125.
+    /// Parameter 0x0008, INTEGER16, wo, default 2047, range 0 to 32767 (0 to 0.999969482421875), in 0.000030517578125.
     ///
     /// Integral gain of the speed controller over the sum of both gains
     ///
@@ -7014,7 +9397,7 @@ pub mod objects {
     );
     /// KVELKFF.
     ///
-    /// Parameter 9, INTEGER16, wo, default 32767, range 0 to 32767 (0 to 99.9969482421875 %), in 0.0030517578125 %.
+    /// Parameter 0x0009, INTEGER16, wo, default 32767, range 0 to 32767 (0 to 99.9969482421875 %), in 0.0030517578125 %.
     ///
     /// Feedforward of the speed controller, as a fraction of 100 %
     ///
@@ -7031,7 +9414,7 @@ pub mod objects {
     );
     /// KVELLIMIN.
     ///
-    /// Parameter 10, INTEGER16, wo, default -14486, range \-26067 to 0, stands for raw / 2^15 × current\_base A.
+    /// Parameter 0x000A, INTEGER16, wo, default -14486, range \-26067 to 0, stands for raw / 2^15 × current\_base A.
     ///
     /// Least output of the speed controller: it limits the torque in the negative direction
     ///
@@ -7050,7 +9433,7 @@ pub mod objects {
     );
     /// KVELLIMAX.
     ///
-    /// Parameter 11, INTEGER16, wo, default 14486, range 0 to 26067, stands for raw / 2^15 × current\_base A.
+    /// Parameter 0x000B, INTEGER16, wo, default 14486, range 0 to 26067, stands for raw / 2^15 × current\_base A.
     ///
     /// Greatest output of the speed controller: it limits the torque in the positive direction
     ///
@@ -7069,7 +9452,7 @@ pub mod objects {
     );
     /// KPOSPIMANT.
     ///
-    /// Parameter 12300, INTEGER16, wo, default 20480, range 0 to 32767, stands for raw / 2^15 × 2^KPOSPIEXP.
+    /// Parameter 0x300C, INTEGER16, wo, default 20480, range 0 to 32767, stands for raw / 2^15 × 2^KPOSPIEXP.
     ///
     /// Proportional plus integral gain of the position controller: the mantissa
     ///
@@ -7086,7 +9469,7 @@ pub mod objects {
     );
     /// KPOSPIEXP.
     ///
-    /// Parameter 12301, INTEGER16, wo, default 3, range 0 to 6.
+    /// Parameter 0x300D, INTEGER16, wo, default 3, range 0 to 6.
     ///
     /// Its exponent
     ///
@@ -7103,7 +9486,7 @@ pub mod objects {
     );
     /// KPOSKCOR.
     ///
-    /// Parameter 14, INTEGER16, wo, default 0, range 0 to 32767 (0 to 0.999969482421875), in 0.000030517578125.
+    /// Parameter 0x000E, INTEGER16, wo, default 0, range 0 to 32767 (0 to 0.999969482421875), in 0.000030517578125.
     ///
     /// Integral gain of the position controller over the sum of both gains
     ///
@@ -7120,7 +9503,7 @@ pub mod objects {
     );
     /// KPOSKFF.
     ///
-    /// Parameter 15, INTEGER16, wo, default 22937, range 0 to 32767 (0 to 99.9969482421875 %), in 0.0030517578125 %.
+    /// Parameter 0x000F, INTEGER16, wo, default 22937, range 0 to 32767 (0 to 99.9969482421875 %), in 0.0030517578125 %.
     ///
     /// Feedforward of the position controller, as a fraction of 100 %
     ///
@@ -7137,7 +9520,7 @@ pub mod objects {
     );
     /// KPOSLIMMIN.
     ///
-    /// Parameter 16, INTEGER16, wo, default -18432, range \-32767 to 0, stands for raw / 2^15 × speed\_base rpm.
+    /// Parameter 0x0010, INTEGER16, wo, default -18432, range \-32767 to 0, stands for raw / 2^15 × speed\_base rpm.
     ///
     /// Least output of the position controller: it limits the speed in the negative direction
     ///
@@ -7154,7 +9537,7 @@ pub mod objects {
     );
     /// KPOSLIMAX.
     ///
-    /// Parameter 17, INTEGER16, wo, default 18432, range 0 to 32767, stands for raw / 2^15 × speed\_base rpm.
+    /// Parameter 0x0011, INTEGER16, wo, default 18432, range 0 to 32767, stands for raw / 2^15 × speed\_base rpm.
     ///
     /// Greatest output of the position controller: it limits the speed in the positive direction
     ///
@@ -7171,7 +9554,7 @@ pub mod objects {
     );
     /// MAXERRORPL.
     ///
-    /// Parameter 16402, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
+    /// Parameter 0x4012, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
     ///
     /// Greatest following error of the position: bits 15 to 0; 0 in both halves turns the check off
     ///
@@ -7188,7 +9571,7 @@ pub mod objects {
     );
     /// MAXERRORPH.
     ///
-    /// Parameter 16403, INTEGER16, wo, default 0, range 0 to 32767 (0 to 2147418112 count), in 65536 count.
+    /// Parameter 0x4013, INTEGER16, wo, default 0, range 0 to 32767 (0 to 2147418112 count), in 65536 count.
     ///
     /// Greatest following error of the position: bits 31 to 16
     ///
@@ -7205,7 +9588,7 @@ pub mod objects {
     );
     /// AMAXHOLD.
     ///
-    /// Parameter 20, INTEGER16, wo, default 2089, range 1 to 32767, stands for raw / 2^15 × acceleration\_base rev/s².
+    /// Parameter 0x0014, INTEGER16, wo, default 2089, range 1 to 32767, stands for raw / 2^15 × acceleration\_base rev/s².
     ///
     /// Acceleration of jogging and of commanded stops. On the SM137 it has steps of 4.096 turns/s²
     ///
@@ -7224,7 +9607,7 @@ pub mod objects {
     );
     /// AMAXTRAJ.
     ///
-    /// Parameter 21, INTEGER16, wo, default 1392, range 1 to 32767, stands for raw / 2^15 × acceleration\_base rev/s².
+    /// Parameter 0x0015, INTEGER16, wo, default 1392, range 1 to 32767, stands for raw / 2^15 × acceleration\_base rev/s².
     ///
     /// Acceleration of positionings. On the SM137 it has steps of 78.125 turns/s² (revision B) or 19.53125 turns/s² (revision C)
     ///
@@ -7243,7 +9626,7 @@ pub mod objects {
     );
     /// VMAXTRAJ.
     ///
-    /// Parameter 22, INTEGER16, wo, default 16384, range 0 to 32767, stands for raw / 2^15 × speed\_base rpm.
+    /// Parameter 0x0016, INTEGER16, wo, default 16384, range 0 to 32767, stands for raw / 2^15 × speed\_base rpm.
     ///
     /// Greatest speed of positionings
     ///
@@ -7262,7 +9645,7 @@ pub mod objects {
     );
     /// ORIGINEL.
     ///
-    /// Parameter 20503, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
+    /// Parameter 0x5017, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
     ///
     /// The position that automatic homing gives: bits 15 to 0
     ///
@@ -7279,7 +9662,7 @@ pub mod objects {
     );
     /// ORIGINEH.
     ///
-    /// Parameter 20504, INTEGER16, wo, default 0, range \-32768 to 32767 (-2147483648 to 2147418112 count), in 65536 count.
+    /// Parameter 0x5018, INTEGER16, wo, default 0, range \-32768 to 32767 (-2147483648 to 2147418112 count), in 65536 count.
     ///
     /// The position that automatic homing gives: bits 31 to 16
     ///
@@ -7296,7 +9679,7 @@ pub mod objects {
     );
     /// TESTSLIM.
     ///
-    /// Parameter 25, UNSIGNED16, wo, default 0.
+    /// Parameter 0x0019, UNSIGNED16, wo, default 0.
     ///
     /// Switches, as in BIT\_A
     ///
@@ -7315,7 +9698,7 @@ pub mod objects {
     );
     /// LOWSLIML.
     ///
-    /// Parameter 24602, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
+    /// Parameter 0x601A, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
     ///
     /// Lower software limit: bits 15 to 0
     ///
@@ -7332,7 +9715,7 @@ pub mod objects {
     );
     /// LOWSLIMH.
     ///
-    /// Parameter 24603, INTEGER16, wo, default 0, range \-32768 to 32767 (-2147483648 to 2147418112 count), in 65536 count.
+    /// Parameter 0x601B, INTEGER16, wo, default 0, range \-32768 to 32767 (-2147483648 to 2147418112 count), in 65536 count.
     ///
     /// Lower software limit: bits 31 to 16
     ///
@@ -7349,7 +9732,7 @@ pub mod objects {
     );
     /// HIGHSLIML.
     ///
-    /// Parameter 24604, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
+    /// Parameter 0x601C, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
     ///
     /// Upper software limit: bits 15 to 0
     ///
@@ -7366,7 +9749,7 @@ pub mod objects {
     );
     /// HIGHSLIMH.
     ///
-    /// Parameter 24605, INTEGER16, wo, default 0, range \-32768 to 32767 (-2147483648 to 2147418112 count), in 65536 count.
+    /// Parameter 0x601D, INTEGER16, wo, default 0, range \-32768 to 32767 (-2147483648 to 2147418112 count), in 65536 count.
     ///
     /// Upper software limit: bits 31 to 16
     ///
@@ -7383,7 +9766,7 @@ pub mod objects {
     );
     /// MAXERRORV\_LOW.
     ///
-    /// Parameter 30, INTEGER16, wo, default 0, range 0 to 32767, stands for raw / 2^15 × speed\_base rpm.
+    /// Parameter 0x001E, INTEGER16, wo, default 0, range 0 to 32767, stands for raw / 2^15 × speed\_base rpm.
     ///
     /// Greatest following error of the speed
     ///
@@ -7400,7 +9783,7 @@ pub mod objects {
     );
     /// MAXTORQUE.
     ///
-    /// Parameter 31, INTEGER16, wo, default 7243, range 0 to 32767, stands for raw / 2^15 × current\_base A.
+    /// Parameter 0x001F, INTEGER16, wo, default 7243, range 0 to 32767, stands for raw / 2^15 × current\_base A.
     ///
     /// The torque above which the motor goes to alarm, where it lasts for TIMEOUTMAXTORQUE
     ///
@@ -7419,7 +9802,7 @@ pub mod objects {
     );
     /// ANGELETTRTACCA\_LOW.
     ///
-    /// Parameter 32, INTEGER16, wo, default 676.
+    /// Parameter 0x0020, INTEGER16, wo, default 676.
     ///
     /// Reserved
     ///
@@ -7436,7 +9819,7 @@ pub mod objects {
     );
     /// RESERVED1\_LOW.
     ///
-    /// Parameter 33, INTEGER16, wo, default 600, range 0 to 32767.
+    /// Parameter 0x0021, INTEGER16, wo, default 600, range 0 to 32767.
     ///
     /// Reserved: as RESERVED1 of chapter 6
     ///
@@ -7455,7 +9838,7 @@ pub mod objects {
     );
     /// RESERVED2\_LOW.
     ///
-    /// Parameter 34, INTEGER16, wo, default 1400, range 0 to 32767.
+    /// Parameter 0x0022, INTEGER16, wo, default 1400, range 0 to 32767.
     ///
     /// Reserved: as RESERVED2 of chapter 6
     ///
@@ -7474,7 +9857,7 @@ pub mod objects {
     );
     /// RESERVED3\_LOW.
     ///
-    /// Parameter 35, INTEGER16, wo, default 2600, range 0 to 32767.
+    /// Parameter 0x0023, INTEGER16, wo, default 2600, range 0 to 32767.
     ///
     /// Reserved: as RESERVED3 of chapter 6
     ///
@@ -7493,7 +9876,7 @@ pub mod objects {
     );
     /// RESERVED4\_LOW.
     ///
-    /// Parameter 36, INTEGER16, wo, default 6, range 0 to 32767.
+    /// Parameter 0x0024, INTEGER16, wo, default 6, range 0 to 32767.
     ///
     /// Reserved: as RESERVED4 of chapter 6
     ///
@@ -7512,7 +9895,7 @@ pub mod objects {
     );
     /// RESERVED5\_LOW.
     ///
-    /// Parameter 37, INTEGER16, wo.
+    /// Parameter 0x0025, INTEGER16, wo.
     ///
     /// Reserved
     ///
@@ -7529,7 +9912,7 @@ pub mod objects {
     );
     /// RESERVED6\_LOW.
     ///
-    /// Parameter 38, INTEGER16, wo.
+    /// Parameter 0x0026, INTEGER16, wo.
     ///
     /// Reserved
     ///
@@ -7546,7 +9929,7 @@ pub mod objects {
     );
     /// RESERVED7\_LOW.
     ///
-    /// Parameter 39, INTEGER16, wo.
+    /// Parameter 0x0027, INTEGER16, wo.
     ///
     /// Reserved
     ///
@@ -7563,7 +9946,7 @@ pub mod objects {
     );
     /// RESERVED8\_LOW.
     ///
-    /// Parameter 40, INTEGER16, wo.
+    /// Parameter 0x0028, INTEGER16, wo.
     ///
     /// Reserved
     ///
@@ -7580,7 +9963,7 @@ pub mod objects {
     );
     /// RESERVED9\_LOW.
     ///
-    /// Parameter 41, INTEGER16, wo.
+    /// Parameter 0x0029, INTEGER16, wo.
     ///
     /// Reserved
     ///
@@ -7597,7 +9980,7 @@ pub mod objects {
     );
     /// RESERVED10\_LOW.
     ///
-    /// Parameter 42, INTEGER16, wo.
+    /// Parameter 0x002A, INTEGER16, wo.
     ///
     /// Reserved
     ///
@@ -7614,7 +9997,7 @@ pub mod objects {
     );
     /// RESERVED11\_LOW.
     ///
-    /// Parameter 43, INTEGER16, wo.
+    /// Parameter 0x002B, INTEGER16, wo.
     ///
     /// Reserved
     ///
@@ -7631,7 +10014,7 @@ pub mod objects {
     );
     /// RESERVED12.
     ///
-    /// Parameter 44, INTEGER16, wo, default 0.
+    /// Parameter 0x002C, INTEGER16, wo, default 0.
     ///
     /// Reserved
     ///
@@ -7648,7 +10031,7 @@ pub mod objects {
     );
     /// TIMEOUTMAXTORQUE.
     ///
-    /// Parameter 45, INTEGER16, wo, default 1000, range 0 to 32767, in ms.
+    /// Parameter 0x002D, INTEGER16, wo, default 1000, range 0 to 32767, in ms.
     ///
     /// How long the torque has to be above MAXTORQUE for an alarm
     ///

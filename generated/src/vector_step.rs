@@ -20726,6 +20726,8 @@ pub mod codes {
     ///
     /// An emergency message has five bytes of the vendor's own (VSD) for details; the codes 0xFFxx are the vendor's.
     ///
+    /// Manual, line 680-701.
+    ///
     /// Further columns: axis, vendor data.
     pub static EMERGENCY: &[rt::codes::Code] = &[
         rt::codes::Code::new(
@@ -20877,43 +20879,43 @@ pub mod codes {
     /// A code of [`EMERGENCY`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Emergency {
-        /// 0: generic error.
+        /// 0: generic error. Manual, line 683.
         GenericError,
-        /// 0x5400: power stage error. The power stage of the drive has an error.
+        /// 0x5400: power stage error. The power stage of the drive has an error. Manual, line 684.
         PowerStageError,
-        /// 0x8110: CAN overrun. A message was lost.
+        /// 0x8110: CAN overrun. A message was lost. Manual, line 685.
         CanOverrun,
-        /// 0x8120: CAN error passive. The CAN controller is in the error passive state, disabled in the manual's words.
+        /// 0x8120: CAN error passive. The CAN controller is in the error passive state, disabled in the manual's words. Manual, line 686.
         CanErrorPassive,
-        /// 0x8130: error control event. An error in the check of a message, by the manual's words; taken as guarding or heartbeat that failed.
+        /// 0x8130: error control event. An error in the check of a message, by the manual's words; taken as guarding or heartbeat that failed. Manual, line 687.
         ErrorControlEvent,
-        /// 0x8140: recovered from bus off.
+        /// 0x8140: recovered from bus off. Manual, line 688.
         RecoveredFromBusOff,
-        /// 0x8150: COB-ID collision.
+        /// 0x8150: COB-ID collision. Manual, line 689.
         CobIdCollision,
-        /// 0x8210: PDO longer than mapped.
+        /// 0x8210: PDO longer than mapped. Manual, line 690.
         PdoLongerThanMapped,
-        /// 0x8220: PDO shorter than mapped.
+        /// 0x8220: PDO shorter than mapped. Manual, line 691.
         PdoShorterThanMapped,
-        /// 0xFF01: NVRAM error. Reading or writing the non-volatile memory failed; the vendor data hold the error code of Reepsts.
+        /// 0xFF01: NVRAM error. Reading or writing the non-volatile memory failed; the vendor data hold the error code of Reepsts. Manual, line 692.
         NvramError,
-        /// 0xFF02: homing error axis 1. The homing command failed; on drives with one axis this is their axis.
+        /// 0xFF02: homing error axis 1. The homing command failed; on drives with one axis this is their axis. Manual, line 693.
         HomingErrorAxis1,
-        /// 0xFF06: homing error axis 2. The homing command of axis 2 failed, if the drive has it. Only of SMD2204.
+        /// 0xFF06: homing error axis 2. The homing command of axis 2 failed, if the drive has it. Only of SMD2204. Manual, line 696.
         HomingErrorAxis2,
-        /// 0xFF07: homing error axis 3. The homing command of axis 3 failed, if the drive has it. Only of SMD2204.
+        /// 0xFF07: homing error axis 3. The homing command of axis 3 failed, if the drive has it. Only of SMD2204. Manual, line 697.
         HomingErrorAxis3,
-        /// 0xFF03: interpolation data missing. Interpolated mode ran out of data.
+        /// 0xFF03: interpolation data missing. Interpolated mode ran out of data. Manual, line 698.
         InterpolationDataMissing,
-        /// 0xFF04: interpolation sync too early.
+        /// 0xFF04: interpolation sync too early. Manual, line 699.
         InterpolationSyncTooEarly,
-        /// 0xFF05: interpolation sync too late.
+        /// 0xFF05: interpolation sync too late. Manual, line 700.
         InterpolationSyncTooLate,
-        /// 0xFF13: power stage error axis 1. Sent beside 0x5400 for the axis whose power stage has an error. Only of SMD2204.
+        /// 0xFF13: power stage error axis 1. Sent beside 0x5400 for the axis whose power stage has an error. Only of SMD2204. Manual, line 701.
         PowerStageErrorAxis1,
-        /// 0xFF14: power stage error axis 2. Sent beside 0x5400 for the axis whose power stage has an error. Only of SMD2204.
+        /// 0xFF14: power stage error axis 2. Sent beside 0x5400 for the axis whose power stage has an error. Only of SMD2204. Manual, line 701.
         PowerStageErrorAxis2,
-        /// 0xFF15: power stage error axis 3. Sent beside 0x5400 for the axis whose power stage has an error. Only of SMD2204.
+        /// 0xFF15: power stage error axis 3. Sent beside 0x5400 for the axis whose power stage has an error. Only of SMD2204. Manual, line 701.
         PowerStageErrorAxis3,
         /// Any other number.
         Unknown(u16),
@@ -21015,15 +21017,15 @@ pub mod codes {
     /// A code of [`SDO_ABORT`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum SdoAbort {
-        /// 0x6090030: value range exceeded. Bits 29 and 30 of the COB-ID of SYNC or EMCY can't be changed.
+        /// 0x6090030: value range exceeded. Bits 29 and 30 of the COB-ID of SYNC or EMCY can't be changed. Manual, line 727, 815.
         ValueRangeExceeded,
-        /// 0x6040043: general parameter incompatibility. Another consumer heartbeat time other than 0 exists for the same node.
+        /// 0x6040043: general parameter incompatibility. Another consumer heartbeat time other than 0 exists for the same node. Manual, line 860.
         GeneralParameterIncompatibility,
-        /// 0x6020000: object does not exist. The mapped object doesn't exist, or the mapping is longer than 64 bits.
+        /// 0x6020000: object does not exist. The mapped object doesn't exist, or the mapping is longer than 64 bits. Manual, line 1023, 1024, 1161, 1163.
         ObjectDoesNotExist,
-        /// 0x6040041: object cannot be mapped. The mapped object doesn't exist, or the mapping is longer than 64 bits.
+        /// 0x6040041: object cannot be mapped. The mapped object doesn't exist, or the mapping is longer than 64 bits. Manual, line 1023, 1024, 1161, 1163.
         ObjectCannotBeMapped,
-        /// 0x6040042: mapping exceeds PDO length. The mapping is longer than 64 bits.
+        /// 0x6040042: mapping exceeds PDO length. The mapping is longer than 64 bits. Manual, line 1023, 1161.
         MappingExceedsPdoLength,
         /// Any other number.
         Unknown(u32),

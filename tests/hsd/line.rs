@@ -34,12 +34,40 @@ fn serve(mut port: TTYPort) {
     }
 }
 
-fn motor(node: u32) -> HsdMotor<Parameters<Line, Protocol, MAX_DATA>> {
+/// A line to a motor, which waits so long for what comes.
+fn served(patience: Duration) -> TTYPort {
     let (mut near, mut far) = TTYPort::pair().expect("a pseudo-terminal");
-    near.set_timeout(Duration::from_millis(if node == 5 { 5000 } else { 50 })).expect("a time limit");
+    near.set_timeout(patience).expect("a time limit");
     far.set_timeout(Duration::from_secs(5)).expect("a time limit");
     thread::spawn(move || serve(far));
+    near
+}
+
+fn motor(node: u32) -> HsdMotor<Parameters<Line, Protocol, MAX_DATA>> {
+    let near = served(Duration::from_millis(if node == 5 { 5000 } else { 50 }));
     HsdMotor::on(SerialLine::new(FromStd::new(near), messages::FRAMING), node)
+}
+
+/// The sample of docs/buses.md, line by line.
+#[test]
+fn the_sample_of_the_documentation() -> Result<(), Box<dyn std::error::Error>> {
+    let port = served(Duration::from_secs(5));
+    let line = SerialLine::<_, _, 140>::new(FromStd::new(port), messages::FRAMING);
+    let mut motor = HsdMotor::on(line, 5); // the device with number 5; `on` has no number where none is sent
+    motor.cmd_traj(100_000).send()?; // or `send_async().await?`
+    let mut positions = motor.cmd_get_pos().select()?; // decides what later polls mean
+    while !positions.poll_position().send()?.is_complete() {} // of replies with the field that `completion` polls
+    motor.kp_vel().write_scaled(1.5)?; // a parameter, through the messages of its space
+    motor.cmd_chg_par_n(&[objects::KP_VEL.setting(150)?, objects::LOW_SLIM.setting(-5)?]).send()?;
+
+    let (guide, own) = (include_str!("../../docs/buses.md"), include_str!("line.rs"));
+    let (_, behind) = guide.split_once("let line = SerialLine").ok_or("the sample")?;
+    let sample = format!("let line = SerialLine{}", behind.split("```").next().unwrap_or_default());
+    assert_eq!(sample.lines().count(), 7);
+    for line in sample.lines() {
+        assert!(own.contains(&format!("    {line}\n")), "{line}");
+    }
+    Ok(())
 }
 
 #[test]

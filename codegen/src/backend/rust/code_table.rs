@@ -4,7 +4,7 @@ use super::bus_facts;
 use super::code_type::{self, CodeTypeModel};
 use super::docs;
 use super::literal;
-use super::manual;
+use super::manual::{self, Manual};
 use super::options::RustOptions;
 use crate::ir::{CodeRow, CodeTable, Value};
 use crate::passes::names_unique::{self, Case, Wish};
@@ -18,7 +18,7 @@ pub(super) struct CodeTableModel {
     pub ty: Option<CodeTypeModel>,
 }
 
-pub(super) fn models(tables: &[CodeTable], options: &RustOptions) -> Vec<CodeTableModel> {
+pub(super) fn models(tables: &[CodeTable], manual: &Manual, options: &RustOptions) -> Vec<CodeTableModel> {
     let tables: Vec<&CodeTable> = tables.iter().filter(|table| !table.rows.is_empty()).collect();
     let wish = |(number, table)| {
         let table: &&CodeTable = table;
@@ -28,15 +28,16 @@ pub(super) fn models(tables: &[CodeTable], options: &RustOptions) -> Vec<CodeTab
     let names = names_unique::unique(&wishes, &bus_facts::RESERVED, Case::Snake);
     let types = names_unique::unique(&wishes, &["Self"], Case::Pascal);
     let named = tables.iter().zip(names.iter().zip(types));
-    named.map(|(table, (name, ty))| model(table, name.to_ascii_uppercase(), ty, options)).collect()
+    named.map(|(table, (name, ty))| model(table, (name.to_ascii_uppercase(), ty), manual, options)).collect()
 }
 
-fn model(table: &CodeTable, name: String, ty: String, options: &RustOptions) -> CodeTableModel {
+fn model(table: &CodeTable, (name, ty): (String, String), manual: &Manual, options: &RustOptions) -> CodeTableModel {
     let mut docs = vec![docs::sentence(&docs::escape(&table.name))];
     let text = table.documentation.as_ref().map_or("", |own| own.text.as_str());
     if !text.is_empty() {
         docs.extend([String::new(), docs::sentence(&docs::escape(text))]);
     }
+    docs.extend(manual.place(table.documentation.as_deref(), &[]).into_iter().flat_map(|own| [String::new(), own]));
     if !table.buses.is_empty() {
         docs.extend([String::new(), format!("On {}.", docs::escape(&table.buses.join(", ")))]);
     }
@@ -45,7 +46,7 @@ fn model(table: &CodeTable, name: String, ty: String, options: &RustOptions) -> 
         docs.extend([String::new(), format!("Further columns: {}.", columns.join(", "))]);
     }
     let rows = table.rows.iter().filter_map(|own| row(own, table.columns.len())).collect();
-    let ty = code_type::model(table, options).map(|own| CodeTypeModel { name: ty, ..own });
+    let ty = code_type::model(table, manual, options).map(|own| CodeTypeModel { name: ty, ..own });
     CodeTableModel { name, docs, rows, ty }
 }
 

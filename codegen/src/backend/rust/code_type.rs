@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashSet};
 
 use super::docs;
-use super::manual;
+use super::manual::{self, Manual};
 use super::options::RustOptions;
 use crate::ir::{CodeRow, CodeTable};
 use crate::passes::names_unique::{self, Case, Wish};
@@ -43,7 +43,7 @@ const NATIVES: [(&str, i64, i64); 4] = [
 type Span = (i64, i64);
 
 /// The type of `table`, without a name as yet; `None` where no row has a code of 64 bits.
-pub(super) fn model<'a>(table: &'a CodeTable, options: &RustOptions) -> Option<CodeTypeModel> {
+pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOptions) -> Option<CodeTypeModel> {
     let mut seen = HashSet::new();
     // Of rows for several models of a device, the first one names the code.
     let first_of_its_span = |row: &'a CodeRow| Some((span(row).filter(|own| seen.insert(*own))?, row));
@@ -65,7 +65,7 @@ pub(super) fn model<'a>(table: &'a CodeTable, options: &RustOptions) -> Option<C
         (pattern(*span), if is_range { format!("{}(code)", names[*at]) } else { names[*at].clone() })
     };
     let arms = pieces.iter().map(arm).collect();
-    let variants = rows.iter().zip(&names).map(|((span, row), name)| variant(*span, row, name)).collect();
+    let variants = rows.iter().zip(&names).map(|((span, row), name)| variant(*span, row, name, manual)).collect();
     let complete = covered == i128::from(last) - i128::from(first) + 1;
     Some(CodeTypeModel { name: String::new(), derives: options.derives(true), native, variants, arms, complete })
 }
@@ -124,13 +124,14 @@ pub(super) fn number(code: i64) -> String {
     }
 }
 
-fn variant(span: Span, row: &CodeRow, name: &str) -> CodeVariant {
+fn variant(span: Span, row: &CodeRow, name: &str, manual: &Manual) -> CodeVariant {
     let codes = if span.0 == span.1 { number(span.0) } else { format!("{} to {}", number(span.0), number(span.1)) };
     let title = docs::escape(&row.name);
     let mut text = if title.is_empty() { format!("{codes}.") } else { format!("{codes}: {}", docs::sentence(&title)) };
     let mut sentences = Vec::new();
     docs::words(row.documentation.as_deref(), &mut sentences);
     sentences.extend(row.availability.as_ref().map(|own| manual::availability(own)));
+    sentences.extend(manual.place(row.documentation.as_deref(), &row.names));
     for sentence in sentences {
         text.push(' ');
         text.push_str(&sentence);

@@ -31,7 +31,7 @@ pub(super) struct UnitModel {
 /// A model of the device that has constants.
 pub(super) struct ConstantsModel {
     pub name: String,
-    pub title: String,
+    pub docs: Vec<String>,
     /// Names, documentation, values.
     pub constants: Vec<(String, String, String)>,
 }
@@ -49,8 +49,7 @@ pub(super) fn model(scope: &Scope<'_>, device: &Device, options: &RustOptions) -
         names.get(at).map(|name| format!("self.{}", names_unique::escaped(name)))
     };
     let numbers = device.given.iter().zip(&names).map(|(own, name)| {
-        let unit = if own.unit.is_empty() { String::new() } else { format!(", in {}", docs::escape(&own.unit)) };
-        let mut lines = vec![format!("{}{unit}.", docs::escape(&own.name))];
+        let mut lines = vec![format!("{}{}.", docs::escape(&own.name), in_unit(&own.unit))];
         let mut sentences = Vec::new();
         docs::words(own.documentation.as_deref(), &mut sentences);
         sentences.extend(scope.manual.place(own.documentation.as_deref(), &[]));
@@ -102,13 +101,21 @@ fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitMod
     found.iter().zip(names.chunks(2)).filter_map(unit).collect()
 }
 
+/// The unit behind a name.
+fn in_unit(unit: &str) -> String {
+    if unit.is_empty() {
+        return String::new();
+    }
+    format!(", in {}", docs::escape(unit))
+}
+
 /// A symbol as words: `mm/s²` is `mm per s2`.
 fn words(symbol: &str) -> String {
     symbol.replace('/', " per ").replace('²', "2").replace('%', "percent").replace('°', "deg")
 }
 
 /// The constants of the models.
-pub(super) fn constants(device: &Device) -> Vec<ConstantsModel> {
+pub(super) fn constants(scope: &Scope<'_>, device: &Device) -> Vec<ConstantsModel> {
     let models: Vec<_> =
         device.variants.iter().map(|own| (own, constants_of(device, &own.name, &own.constants))).collect();
     let with: Vec<_> = models.into_iter().filter(|(_, constants)| !constants.is_empty()).collect();
@@ -116,11 +123,12 @@ pub(super) fn constants(device: &Device) -> Vec<ConstantsModel> {
     let names = names_unique::unique(&wishes, &["self", "super", "crate"], Case::Snake);
     let model = |((own, constants), name): ((&_, _), String)| {
         let own: &crate::ir::Variant = own;
-        ConstantsModel {
-            name: names_unique::escaped(&name),
-            title: docs::sentence(&docs::escape(&own.name)),
-            constants,
-        }
+        let mut lines = vec![docs::sentence(&docs::escape(&own.name))];
+        let mut sentences = Vec::new();
+        docs::words(own.documentation.as_deref(), &mut sentences);
+        sentences.extend(scope.manual.place(own.documentation.as_deref(), &[]));
+        lines.extend(sentences.into_iter().flat_map(|sentence| [String::new(), sentence]));
+        ConstantsModel { name: names_unique::escaped(&name), docs: lines, constants }
     };
     with.into_iter().zip(names).map(model).collect()
 }
@@ -131,13 +139,14 @@ fn constants_of(
     own: &[(crate::ir::CompactString, Value)],
 ) -> Vec<(String, String, String)> {
     let given = device.given.iter().flat_map(|own| own.models.iter().map(move |(name, value)| (own, name, value)));
-    let given = given.filter(|(_, name, _)| *name == model).map(|(own, _, value)| (&own.name, value));
-    let all: Vec<_> = own.iter().map(|(name, value)| (name, value)).chain(given).collect();
-    let wishes: Vec<Wish<'_>> = all.iter().map(|(name, _)| wish(name)).collect();
+    let given = given.filter(|(_, name, _)| *name == model);
+    let given = given.map(|(own, _, value)| (&own.name, value, in_unit(&own.unit)));
+    let all: Vec<_> = own.iter().map(|(name, value)| (name, value, String::new())).chain(given).collect();
+    let wishes: Vec<Wish<'_>> = all.iter().map(|(name, ..)| wish(name)).collect();
     let names = names_unique::unique(&wishes, &[], Case::Snake);
-    let constant = |((name, value), constant): ((&crate::ir::CompactString, &Value), String)| {
+    let constant = |((name, value, unit), constant): ((&crate::ir::CompactString, &Value, String), String)| {
         let real = literal::real(value.as_real()?, 64)?;
-        Some((constant.to_ascii_uppercase(), docs::sentence(&docs::escape(name)), real))
+        Some((constant.to_ascii_uppercase(), docs::sentence(&(docs::escape(name) + &unit)), real))
     };
     all.into_iter().zip(names).filter_map(constant).collect()
 }

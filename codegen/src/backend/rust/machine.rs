@@ -1,5 +1,7 @@
 //! State machines: the states that a status tells, and the commands that a control word gives.
 
+use std::collections::HashMap;
+
 use super::bit_field::BitFieldModel;
 use super::data::Data;
 use super::docs;
@@ -36,6 +38,13 @@ pub(super) struct PatternsModel {
     pub patterns: Vec<PatternModel>,
     /// The bit field that has the bits, and its method.
     pub bits: Option<(String, String)>,
+}
+
+impl PatternsModel {
+    /// The variants by their names in the source.
+    pub(super) fn by_name(&self) -> HashMap<String, String> {
+        self.patterns.iter().map(|own| (own.original.clone(), own.name.clone())).collect()
+    }
 }
 
 /// A state or a command.

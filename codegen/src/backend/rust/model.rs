@@ -10,6 +10,7 @@ use super::docs;
 use super::ethercat::{self, EtherCatModel, ModulePaths};
 use super::given::{self, ConstantsModel, GivenModel};
 use super::literal;
+use super::manual::Manual;
 use super::messages::ProtocolModel;
 use super::named::Types;
 use super::options::{Presence, RustOptions};
@@ -222,9 +223,10 @@ impl<'a> Model<'a> {
         let (scope, types) = Scope::of_device(device, options);
         let procedures = procedure::models(&scope, device);
         let given = given::model(&scope, device, options);
+        let models = given::constants(&scope, device);
         let (mut model, protocol) = Model::of_scope(scope, types, options);
         model.procedures = procedures;
-        model.models = given::constants(device);
+        model.models = models;
         model.given = given;
         let title = title(device);
         model.nest = place.nest;
@@ -235,7 +237,7 @@ impl<'a> Model<'a> {
         model.has_accessors =
             options.accessors && (!model.objects.is_empty() && has_object_access(device) || has_calls);
         model.ethercat = EtherCatModel::new(device, &model.pdos, &place.modules, place.nest);
-        model.code_tables = code_table::models(&device.code_tables, options);
+        model.code_tables = code_table::models(&device.code_tables, &Manual::of(device), options);
         model.axes = axes::model(device, place.nest);
         model.protocol = protocol;
         model.bus_facts = bus_facts::models(device, place.nest);
@@ -263,7 +265,7 @@ impl<'a> Model<'a> {
         let remappable = if options.pdos { remap::models(&scope, &mut objects) } else { Vec::new() };
         let taken = objects.iter().map(|object| object.name.trim_start_matches("r#"));
         let taken: Vec<&str> = taken.chain(RESERVED).chain(BESIDE_MESSAGES).collect();
-        let protocol = ProtocolModel::new(&scope, options, &taken);
+        let protocol = ProtocolModel::new(&scope, options, &types, &taken);
         let model = Model {
             handle_types,
             options,

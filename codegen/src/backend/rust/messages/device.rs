@@ -2,7 +2,8 @@
 
 use super::rules::Rules;
 use super::MessageModel;
-use crate::backend::rust::docs;
+use crate::backend::rust::literal;
+use crate::ir::Message;
 use crate::passes::messages_shaped::Shaped;
 use crate::passes::names_unique::{self, Case, Wish};
 
@@ -12,7 +13,7 @@ const MAX_ARGUMENTS: usize = 6;
 /// A method, ready to be written.
 pub(in crate::backend::rust) struct CallModel {
     pub method: String,
-    pub heading: String,
+    pub docs: Vec<String>,
     /// The type of the message, with its lifetime.
     pub ty: String,
     pub arguments: Vec<String>,
@@ -58,15 +59,14 @@ pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Ru
         };
         let after = own.message.after.as_ref();
         let selector = selector(shaped, messages, after.map(|own| own.as_str()));
-        let replaced = own.message.availability.as_ref().and_then(|own| own.replaced_by.as_ref());
         calls.push(CallModel {
             method: names_unique::escaped(&name),
-            heading: docs::sentence(&docs::escape(&own.message.name)),
+            docs: request.docs.clone(),
             ty: format!("{ty}{lifetime}"),
             arguments,
             build,
             borrows: request.borrows,
-            deprecated: replaced.map(|other| crate::backend::rust::literal::string(&format!("replaced by {other}"))),
+            deprecated: replacement(own.message, shaped).map(|note| literal::string(&note)),
             is_selector: model.is_selector,
             after: selector,
         });
@@ -83,6 +83,17 @@ pub(super) fn by_default(
     let own = shaped.iter().find(|own| own.message.by_default)?;
     let selector = selector(shaped, messages, own.message.after.as_deref())?;
     calls.iter().any(|call| call.after.as_ref() == Some(&selector)).then_some(DefaultModel { selector })
+}
+
+/// What to use instead of a message, and the only models that have it.
+fn replacement(message: &Message, all: &[Shaped<'_>]) -> Option<String> {
+    let name = message.availability.as_ref()?.replaced_by.as_ref()?;
+    let other = all.iter().find(|own| own.message.name == *name);
+    let models = other.and_then(|own| own.message.availability.as_ref()).map_or(&[][..], |own| &own.models);
+    Some(match models {
+        [] => format!("replaced by {name}"),
+        models => format!("replaced by {name} on {}", models.join(", ")),
+    })
 }
 
 /// The type of the message called so.

@@ -168,7 +168,7 @@ fn constant(field: &str) -> String {
     let name = field.trim_start_matches("r#").to_ascii_uppercase();
     match name.as_str() {
         // Of messages.
-        "NAME" | "COMPLETION" => name + "_SCALE",
+        "NAME" | "COMPLETION" | "OUTCOMES" => name + "_SCALE",
         _ => name,
     }
 }

@@ -1,6 +1,8 @@
 //! The constants of a protocol: how frames are delimited, how long they are, which field numbers the device.
 
 use crate::backend::rust::data::Data;
+use crate::backend::rust::docs;
+use crate::backend::rust::scope::Scope;
 use crate::ir::{Device, Framing};
 use crate::passes::messages_shaped::{Shaped, Step};
 
@@ -28,6 +30,16 @@ pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Strin
         ("max_data", Data::text(max)),
     ];
     Some(Data::Struct("rt::framing::Delimited", fields).render(4, START.len(), 1, 0))
+}
+
+/// What documentation says of it.
+pub(super) fn documentation(framing: &Framing, scope: &Scope<'_>) -> Vec<String> {
+    let mut lines = vec!["How frames are delimited and checked.".to_owned()];
+    let mut sentences = Vec::new();
+    docs::words(framing.documentation.as_deref(), &mut sentences);
+    sentences.extend(scope.manual.place(framing.documentation.as_deref(), &[]));
+    lines.extend(sentences.into_iter().flat_map(|sentence| [String::new(), sentence]));
+    lines
 }
 
 fn check(framing: &Framing) -> Option<String> {

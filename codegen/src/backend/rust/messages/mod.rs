@@ -4,6 +4,7 @@ mod completion;
 mod device;
 mod field;
 mod framing;
+mod outcomes;
 mod parameters;
 mod rules;
 mod steps;
@@ -13,6 +14,7 @@ use std::collections::HashSet;
 use super::docs;
 use super::layout;
 use super::manual;
+use super::named::Types;
 use super::options::RustOptions;
 use super::scope::Scope;
 use crate::ir::{Completion, Device, Message};
@@ -20,6 +22,7 @@ use crate::passes::messages_shaped::{self, Shaped, Step};
 use crate::passes::names_unique::{self, Case, Wish};
 pub(super) use device::{CallModel, DefaultModel};
 use field::Field;
+use outcomes::OutcomesModel;
 use parameters::ParametersModel;
 use rules::{RuleModel, Rules};
 use steps::Statements;
@@ -28,6 +31,7 @@ use steps::Statements;
 pub(super) struct ProtocolModel {
     /// The expression of the constant.
     pub framing: Option<String>,
+    pub framing_docs: Vec<String>,
     pub max_data: u32,
     pub derives: Vec<String>,
     /// Whether requests have the number of the device.
@@ -55,6 +59,8 @@ pub(super) struct MessageModel {
     pub completion: String,
     /// Whether the requests of others mean what this one has selected.
     pub is_selector: bool,
+    /// What it does in each state.
+    pub outcomes: Vec<OutcomesModel>,
 }
 
 /// The data of a request or a reply.
@@ -86,22 +92,27 @@ const RESERVED: [&str; 10] = ["Self", "Option", "Result", "Some", "None", "Ok", 
 
 impl ProtocolModel {
     /// The protocol of a device; `None` where it has none. Its methods must not be called as `taken`.
-    pub(super) fn new(scope: &Scope<'_>, options: &RustOptions, taken: &[&str]) -> Option<Self> {
+    pub(super) fn new(scope: &Scope<'_>, options: &RustOptions, types: &Types, taken: &[&str]) -> Option<Self> {
         let device = scope.device?;
         let shapes = messages_shaped::shapes(device);
         if shapes.is_empty() {
             return None;
         }
         let names = names(&shapes);
-        let types: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
+        let own_types: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
         let steps = shapes.iter().flat_map(|own| own.request.steps.iter().chain(&own.reply.steps));
-        let rules = Rules::new(scope, device, steps, &types);
+        let rules = Rules::new(scope, device, steps, &own_types);
         let make = Maker { scope, options, device, rules: &rules, shapes: &shapes, names: &names };
-        let messages: Vec<MessageModel> =
+        let mut outcomes = outcomes::models(scope, device, types);
+        let mut messages: Vec<MessageModel> =
             shapes.iter().zip(&names).map(|(own, names)| make.message(own, names)).collect();
+        for (own, model) in shapes.iter().zip(&mut messages) {
+            model.outcomes = outcomes.remove(own.message.name.as_str()).unwrap_or_default();
+        }
         let calls = if options.accessors { device::calls(&shapes, &messages, &rules, taken) } else { Vec::new() };
         Some(ProtocolModel {
             framing: device.framing.as_deref().and_then(|own| framing::constant(own, &shapes)),
+            framing_docs: device.framing.as_deref().map(|own| framing::documentation(own, scope)).unwrap_or_default(),
             max_data: framing::max_data(device, &shapes),
             derives: options.derives(true),
             has_station: framing::has_station(&shapes),
@@ -196,6 +207,7 @@ impl Maker<'_, '_> {
             reply,
             refusal: refusal.map_or_else(|| "core::convert::Infallible".to_owned(), |names| names[1].clone()),
             completion: completion(&message.completion),
+            outcomes: Vec::new(),
             is_selector: self.shapes.iter().any(|other| other.message.after.as_ref() == Some(&message.name)),
         }
     }

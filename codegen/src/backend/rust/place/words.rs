@@ -18,7 +18,7 @@ impl Place<'_> {
             (canopen, coe) => facts.extend(canopen.or(coe).map(object)),
         }
         facts.extend(self.modbus.map(register_facts));
-        facts.extend(self.serial.map(|code| format!("parameter {code}")));
+        facts.extend(self.serial.map(|code| format!("parameter 0x{code:04X}")));
         facts.extend(self.image.map(|field| field.facts()));
         facts.extend(self.numbers());
         facts.join(", ")
@@ -31,7 +31,7 @@ impl Place<'_> {
             Some(bit) => format!("register {} from bit {bit}", register.address),
             None => format!("register {}", register.address),
         });
-        let serial = self.serial.map(|code| format!("parameter {code}"));
+        let serial = self.serial.map(|code| format!("parameter 0x{code:04X}"));
         let found: Vec<String> = object.into_iter().chain(register).chain(serial).collect();
         if !found.is_empty() {
             return found.join(", ");

@@ -1,0 +1,31 @@
+//! What commands do in each state, as constants.
+
+use lexibus::message::Outcome;
+use lexibus_drives::hsd::messages::*;
+use lexibus_drives::hsd::types::State;
+
+#[test]
+fn commands_in_each_state() {
+    assert_eq!(CmdJogN::OUTCOMES.of(State::Stopped), [Outcome::States(&[State::Jogging])]);
+    assert_eq!(CmdJogN::OUTCOMES.accepts(State::Alarm), Some(false));
+    // The way of the manual's cell, of which the last state stays.
+    assert_eq!(
+        CmdAzz::OUTCOMES.of(State::Stopped),
+        [Outcome::Refused, Outcome::States(&[State::Homing, State::Stopping, State::Stopped])]
+    );
+    assert_eq!(CmdAzz::OUTCOMES.accepts(State::Stopped), None);
+    // An empty cell.
+    assert!(CmdNoReg::OUTCOMES.of(State::ElectricalHoming).is_empty());
+    assert_eq!(CmdChgPar::OUTCOMES.accepts(State::Released), Some(true));
+}
+
+#[test]
+fn two_commands_of_one_row() {
+    for state in [State::Released, State::Alarm, State::Stopped, State::Jogging] {
+        assert_eq!(CmdReg::OUTCOMES.of(state), CmdRegWait::OUTCOMES.of(state));
+    }
+    assert_eq!(
+        CmdReg::OUTCOMES.of(State::Released),
+        [Outcome::States(&[State::ElectricalHoming, State::Stopped])]
+    );
+}
