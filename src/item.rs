@@ -2,6 +2,7 @@
 
 use core::fmt;
 use core::marker::PhantomData;
+use core::ops::RangeInclusive;
 
 use crate::accessor::Accessor;
 use crate::error::OutOfRange;
@@ -10,7 +11,7 @@ use crate::initial::Initial;
 use crate::location::{
     OnCanOpen, OnCanOpenAndCoE, OnCanOpenAndModbus, OnCanOpenCoEAndModbus, OnCoE, OnCoEAndModbus, OnModbus,
 };
-use crate::quantity::Quantity;
+use crate::quantity::{Exponential, Quantity};
 use crate::range::Range;
 use crate::register::Register;
 use crate::value::Value;
@@ -128,6 +129,39 @@ impl<V: Quantity<Other = f64>, A, L> Item<V, A, L> {
     /// [`OutOfRange`] where it is outside the item's range, doesn't fit its type, or means something else.
     pub fn raw_by(&self, physical: f64, other: f64) -> Result<V::Native, OutOfRange> {
         self.checked(V::raw(physical, other)?)
+    }
+}
+
+impl<B, const BASE: u32, const BITS: u32, A, L> Item<Exponential<B, BASE, BITS>, A, L>
+where
+    Exponential<B, BASE, BITS>: Quantity<Native = B::Native, Other = f64>,
+    B: Value,
+{
+    /// Mantissa and exponent of a value: with the least of these exponents for which the mantissa is in range, so that it has
+    /// as many digits as it can. The exponent is another item, and is written beside this one.
+    ///
+    /// ```
+    /// use lexibus::{Exponential, Flags, Initial, Item, OnSerial, OutOfRange, Range, Rw};
+    ///
+    /// const GAIN: Item<Exponential<u16, 2, 15>, Rw, OnSerial> =
+    ///     Item::new(OnSerial::serial(0x1000), "Gain", Range::To(32_767), Initial::Unknown, "", Flags::NONE);
+    ///
+    /// assert_eq!(GAIN.mantissa_and_exponent(1.5, 0..=6), Ok((24_576, 1)));
+    /// assert_eq!(GAIN.mantissa_and_exponent(70.0, 0..=6), Err(OutOfRange));
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`OutOfRange`] where the mantissa is in range with none of them.
+    pub fn mantissa_and_exponent(
+        &self,
+        physical: f64,
+        exponents: RangeInclusive<i8>,
+    ) -> Result<(B::Native, i8), OutOfRange> {
+        exponents
+            .filter_map(|exponent| Some((self.raw_by(physical, exponent.into()).ok()?, exponent)))
+            .next()
+            .ok_or(OutOfRange)
     }
 }
 

@@ -131,8 +131,16 @@ pub struct Fraction<B, const BITS: u32>(PhantomData<B>);
 /// physical = raw × `NUM` / `DEN` / the other value.
 pub struct PerItem<B, const NUM: i64, const DEN: i64 = 1>(PhantomData<B>);
 
-/// physical = raw × 10^(the other value, a whole number).
-pub struct Exponential<B>(PhantomData<B>);
+/// physical = raw / 2^`BITS` × `BASE`^(the other value, a whole number): a mantissa whose exponent is elsewhere.
+///
+/// ```
+/// use lexibus::{Exponential, Quantity};
+///
+/// type Gain = Exponential<u16, 2, 15>;
+/// assert_eq!(Gain::physical(20_480, 3.0), 5.0);
+/// assert_eq!(Exponential::<i16>::physical(5, -3.0), 0.005);
+/// ```
+pub struct Exponential<B, const BASE: u32 = 10, const BITS: u32 = 0>(PhantomData<B>);
 
 /// A quantity whose raw number `RAW` isn't one, as 0xFFFF that means "no sensor".
 pub struct OrNone<V, const RAW: i128>(PhantomData<V>);
@@ -170,7 +178,7 @@ like_its_base!([B: Fixed, const NUM: i64, const DEN: i64, const OFFSET: i64] Sca
 like_its_base!([B: Fixed, const NUM: i64, const DEN: i64] Reciprocal<B, NUM, DEN>, B);
 like_its_base!([B: Fixed, const BITS_OF_FRACTION: u32] Fraction<B, BITS_OF_FRACTION>, B);
 like_its_base!([B: Fixed, const NUM: i64, const DEN: i64] PerItem<B, NUM, DEN>, B);
-like_its_base!([B: Fixed] Exponential<B>, B);
+like_its_base!([B: Fixed, const BASE: u32, const BITS_OF_FRACTION: u32] Exponential<B, BASE, BITS_OF_FRACTION>, B);
 like_its_base!([V: Fixed, const RAW: i128] OrNone<V, RAW>, V);
 
 fn nearest<N: Number>(real: f64) -> Result<N, OutOfRange> {
@@ -257,7 +265,7 @@ where
     }
 }
 
-impl<B> Quantity for Exponential<B>
+impl<B, const BASE: u32, const BITS_OF_FRACTION: u32> Quantity for Exponential<B, BASE, BITS_OF_FRACTION>
 where
     B: Fixed,
     B::Native: Number,
@@ -267,18 +275,20 @@ where
 
     #[inline]
     fn physical(raw: B::Native, exponent: f64) -> f64 {
+        let mantissa = raw.real() / one_shifted(BITS_OF_FRACTION);
         match exponent < 0.0 {
-            true => raw.real() / power_of_ten(-exponent),
-            false => raw.real() * power_of_ten(exponent),
+            true => mantissa / power(BASE, -exponent),
+            false => mantissa * power(BASE, exponent),
         }
     }
 
     #[inline]
     fn raw(physical: f64, exponent: f64) -> Result<B::Native, OutOfRange> {
-        nearest(match exponent < 0.0 {
-            true => physical * power_of_ten(-exponent),
-            false => physical / power_of_ten(exponent),
-        })
+        let mantissa = match exponent < 0.0 {
+            true => physical * power(BASE, -exponent),
+            false => physical / power(BASE, exponent),
+        };
+        nearest(mantissa * one_shifted(BITS_OF_FRACTION))
     }
 }
 
@@ -313,15 +323,27 @@ const fn one_shifted(bits: u32) -> f64 {
     (1_u64 << if bits > 63 { 63 } else { bits }) as f64
 }
 
-/// 10^`exponent`. Without the standard library there is no `powi`; 400 is beyond all that there is.
-fn power_of_ten(exponent: f64) -> f64 {
-    (0..exponent.min(400.0) as u32).fold(1.0, |power, _| power * 10.0)
+/// `base`^`exponent`. Without the standard library there is no `powi`; 2^1100 is beyond all that there is.
+fn power(base: u32, exponent: f64) -> f64 {
+    (0..exponent.min(1100.0) as u32).fold(1.0, |power, _| power * f64::from(base))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::Int;
+
+    #[test]
+    fn mantissa_and_exponent() {
+        type Gain = Exponential<u16, 2, 15>;
+        assert_eq!(
+            (Gain::physical(13_762, 0.0), Gain::physical(26_214, 1.0)),
+            (13_762.0 / 32_768.0, 26_214.0 / 16_384.0)
+        );
+        assert_eq!((Gain::raw(5.0, 3.0), Gain::raw(5.0, -1.0)), (Ok(20_480), Err(OutOfRange)));
+        assert_eq!((Gain::physical(32_768, -2.0), Gain::raw(0.25, -2.0)), (0.25, Ok(32_768)));
+        assert_eq!(Exponential::<i16>::raw(0.005, -3.0), Ok(5));
+    }
 
     #[test]
     fn nearest_numbers() {

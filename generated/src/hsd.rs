@@ -950,7 +950,9 @@ impl<C, S> HsdMotor<C, S> {
         objects::VAZZOUTMIC.at(&mut self.client)
     }
     /// KIQDPIMANT: parameter 0x1000.
-    pub fn kiqdpimant(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
+    pub fn kiqdpimant(
+        &mut self,
+    ) -> objects::WriteOnlyAccess<'_, C, rt::Exponential<i16, 2, 15>> {
         objects::KIQDPIMANT.at(&mut self.client)
     }
     /// KIQDPIEXP: parameter 0x1001.
@@ -980,7 +982,9 @@ impl<C, S> HsdMotor<C, S> {
         objects::KIQDLIMAX.at(&mut self.client)
     }
     /// KVELPIMANT: parameter 0x2006.
-    pub fn kvelpimant(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
+    pub fn kvelpimant(
+        &mut self,
+    ) -> objects::WriteOnlyAccess<'_, C, rt::Exponential<i16, 2, 15>> {
         objects::KVELPIMANT.at(&mut self.client)
     }
     /// KVELPIEXP: parameter 0x2007.
@@ -1012,7 +1016,9 @@ impl<C, S> HsdMotor<C, S> {
         objects::KVELLIMAX.at(&mut self.client)
     }
     /// KPOSPIMANT: parameter 0x300C.
-    pub fn kpospimant(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
+    pub fn kpospimant(
+        &mut self,
+    ) -> objects::WriteOnlyAccess<'_, C, rt::Exponential<i16, 2, 15>> {
         objects::KPOSPIMANT.at(&mut self.client)
     }
     /// KPOSPIEXP: parameter 0x300D.
@@ -8323,6 +8329,7 @@ pub mod objects {
     type ReadWriteNamedHomingType = ReadWrite<super::types::HomingType>;
     type ReadWriteNamedInvertedInputs = ReadWrite<super::types::InvertedInputs>;
     type ReadWriteOpaque = ReadWrite<rt::Opaque>;
+    type WriteOnlyExponential2Of15BitsI16 = WriteOnly<rt::Exponential<i16, 2, 15>>;
     type WriteOnlyFraction15OfI16 = WriteOnly<rt::Fraction<i16, 15>>;
     type WriteOnlyI16 = WriteOnly<i16>;
     type WriteOnlyI16Times1Per32768 = WriteOnly<rt::Scaled<i16, 1, 32768>>;
@@ -9241,7 +9248,7 @@ pub mod objects {
     /// Of SM140: default 16383.
     ///
     /// Chapter Low-level parameters. Manual, line 1764.
-    pub const KIQDPIMANT: WriteOnly<i16> = WriteOnlyI16::new(
+    pub const KIQDPIMANT: WriteOnly<rt::Exponential<i16, 2, 15>> = WriteOnlyExponential2Of15BitsI16::new(
         rt::OnSerial::serial(4096),
         "KIQDPIMANT",
         rt::Range::From(0),
@@ -9349,7 +9356,7 @@ pub mod objects {
     /// Of SM140: default 26624.
     ///
     /// Chapter Low-level parameters. Manual, line 1775.
-    pub const KVELPIMANT: WriteOnly<i16> = WriteOnlyI16::new(
+    pub const KVELPIMANT: WriteOnly<rt::Exponential<i16, 2, 15>> = WriteOnlyExponential2Of15BitsI16::new(
         rt::OnSerial::serial(8198),
         "KVELPIMANT",
         rt::Range::From(0),
@@ -9459,7 +9466,7 @@ pub mod objects {
     /// Lost at power-off.
     ///
     /// Chapter Low-level parameters. Manual, line 1792-1793.
-    pub const KPOSPIMANT: WriteOnly<i16> = WriteOnlyI16::new(
+    pub const KPOSPIMANT: WriteOnly<rt::Exponential<i16, 2, 15>> = WriteOnlyExponential2Of15BitsI16::new(
         rt::OnSerial::serial(12300),
         "KPOSPIMANT",
         rt::Range::From(0),

@@ -1,7 +1,7 @@
 //! The worked examples of the manual, through the bindings. The lines are those of the manual's text.
 
 use lexibus::message::{Message, Reader, Reply, Writer};
-use lexibus::{Client, Error, Parameter, Serial};
+use lexibus::{Client, Error, OutOfRange, Parameter, Serial};
 use lexibus_drives::hsd::machine::Machine;
 use lexibus_drives::hsd::messages::*;
 use lexibus_drives::hsd::{models, objects, types};
@@ -97,4 +97,15 @@ fn fractions() {
     objects::MAXTORQUE.at(&mut client).write_scaled_by(5.0, base).expect("within the base");
     assert_eq!(client.0, 14_482_i16.to_le_bytes());
     assert!((objects::MAXTORQUE.physical_by(14_482, base) - 5.0).abs() < 1e-3);
+}
+
+#[test]
+fn mantissa_and_exponent() {
+    // L1792-1795: 20480 and 3, as the gain of the position controller is delivered, are 5.
+    assert_eq!(objects::KPOSPIMANT.physical_by(20_480, 3.0), 5.0);
+    assert_eq!(objects::KPOSPIMANT.mantissa_and_exponent(5.0, 0..=6), Ok((20_480, 3)));
+    assert_eq!(objects::KPOSPIMANT.mantissa_and_exponent(64.0, 0..=6), Err(OutOfRange));
+    let mut client = Last(Vec::new());
+    objects::KPOSPIMANT.at(&mut client).write_scaled_by(5.0, 3.0).expect("in range");
+    assert_eq!(client.0, 20_480_i16.to_le_bytes());
 }

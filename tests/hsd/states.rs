@@ -24,8 +24,5 @@ fn two_commands_of_one_row() {
     for state in [State::Released, State::Alarm, State::Stopped, State::Jogging] {
         assert_eq!(CmdReg::OUTCOMES.of(state), CmdRegWait::OUTCOMES.of(state));
     }
-    assert_eq!(
-        CmdReg::OUTCOMES.of(State::Released),
-        [Outcome::States(&[State::ElectricalHoming, State::Stopped])]
-    );
+    assert_eq!(CmdReg::OUTCOMES.of(State::Released), [Outcome::States(&[State::ElectricalHoming, State::Stopped])]);
 }

@@ -36,10 +36,13 @@ pub(super) fn of(scope: &Scope<'_>, item: &Item) -> Option<QuantityType> {
         }
         // What models differ in, and what no type of the runtime computes, is left to the caller.
         Some(Scale::TimesItem { .. }) => return None,
-        Some(Scale::Exponent { base, fraction, .. }) if (*base, *fraction) != (10, 0) => return None,
-        Some(Scale::Exponent { .. }) => {
+        Some(Scale::Exponent { base: 10, fraction: 0, .. }) => {
             QuantityType { path: format!("rt::Exponential<«{base}»>"), word: format!("Exponential{word}") }
         }
+        Some(Scale::Exponent { base: raised, fraction, .. }) => QuantityType {
+            path: format!("rt::Exponential<«{base}¦ {raised}¦ {fraction}»>"),
+            word: format!("Exponential{raised}Of{fraction}Bits{word}"),
+        },
     };
     for (raw, _) in sentinels {
         own = QuantityType {
