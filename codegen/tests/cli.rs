@@ -1,7 +1,12 @@
 //! The command line, as its user calls it.
 
+#[path = "corpus_support/xsd.rs"]
+mod xsd;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+
+use xsd::Schema;
 
 const DEMO: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../dictionaries/demo-drive.eds");
 
@@ -371,5 +376,40 @@ fn export_writes_a_gsdml_under_its_name() {
     for name in names {
         let again = lexibus(&["check", &folder.join(&name).to_string_lossy()]);
         assert_eq!(code(&again), 0, "{name}: {}", err(&again));
+    }
+}
+
+/// The three files of the Eco, by the commands of the documentation.
+#[test]
+fn the_eco_as_eds_esi_and_gsdml() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let guide = std::fs::read_to_string(root.join("dictionaries/README.md")).expect("the documentation");
+    let (_, behind) = guide.split_once("## A table as EDS, ESI and GSDML").expect("the chapter");
+    let block = behind.split("```").nth(1).expect("the commands").trim_start_matches("sh").replace("\\\n", " ");
+    let folder = folder("eco");
+    let mut count = 0;
+    for line in block.lines().filter(|line| !line.is_empty()) {
+        let mut words = line.split_whitespace();
+        assert_eq!(words.next(), Some("lexibus"));
+        let mut call: Vec<String> = words.map(str::to_owned).collect();
+        let out = call.iter().position(|word| word == "--out").expect("an output") + 1;
+        call[out] = folder.join(&call[out]).to_string_lossy().into_owned();
+        call[1] = root.join(&call[1]).to_string_lossy().into_owned();
+        let call: Vec<&str> = call.iter().map(String::as_str).collect();
+        let output = lexibus(&call);
+        assert_eq!(code(&output), 0, "{line}\n{}", err(&output));
+        count += 1;
+    }
+    assert_eq!(count, 3);
+    let gsdml = folder.join("gsdml/GSDML-V2.35-Example-Eco-20240131.xml");
+    let (eds, esi) = (folder.join("eco.eds"), folder.join("eco.xml"));
+    for path in [&eds, &esi, &gsdml] {
+        let output = lexibus(&["check", &path.to_string_lossy()]);
+        assert_eq!((code(&output), err(&output).contains("error")), (0, false), "{}", err(&output));
+    }
+    for (path, schema) in [(&esi, "esi/EtherCATInfo.xsd"), (&gsdml, "gsdml/GSDML-DeviceProfile-v2.35.xsd")] {
+        let Some(schema) = Schema::new(schema) else { continue };
+        let text = std::fs::read(path).expect("an export");
+        assert_eq!(schema.violations("eco", [("eco.xml", text.as_slice())]), Vec::<String>::new());
     }
 }
