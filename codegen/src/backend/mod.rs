@@ -8,6 +8,7 @@ mod note;
 mod options;
 mod registers;
 pub mod rust;
+mod words;
 mod xml;
 
 pub use note::{Export, Note, NoteKind};

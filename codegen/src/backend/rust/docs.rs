@@ -8,8 +8,12 @@ use super::place::Place;
 use super::quantity;
 use super::scope::Scope;
 use super::value_type;
-use super::variant;
-use crate::ir::{Behaviour, Binding, Condition, Documentation, Item, Limits, Storage, Type, TypeDef, Value};
+pub(super) use crate::backend::words::sentence;
+use crate::backend::words::Words;
+use crate::ir::{Binding, Condition, Documentation, Item, Limits, Type, TypeDef, Value};
+
+/// Sentences for doc comments.
+pub(super) const WORDS: Words = Words { escape };
 
 /// Text as one line of Markdown without any markup.
 pub(super) fn escape(text: &str) -> String {
@@ -54,10 +58,11 @@ pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope
         paragraphs.extend(quantity::notes(quantity));
     }
     if let Some(behaviour) = &item.behaviour {
-        self::behaviour(behaviour, &mut paragraphs);
+        paragraphs.push(WORDS.behaviour(behaviour).join(" "));
     }
     paragraphs.extend(item.bindings.iter().filter_map(elsewhere));
-    paragraphs.extend(variant::sentences(item));
+    let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
+    paragraphs.extend(item.variants.iter().map(|own| WORDS.variant(own, unit)));
     if let Some(availability) = &item.availability {
         paragraphs.push(manual::availability(availability));
     }
@@ -83,53 +88,14 @@ fn elsewhere(binding: &Binding) -> Option<String> {
     }
 }
 
-/// What is known of storage, side effects and conditions of writing.
-fn behaviour(behaviour: &Behaviour, paragraphs: &mut Vec<String>) {
-    let mut sentences = Vec::new();
-    match &behaviour.storage {
-        Storage::Unknown => {}
-        Storage::Volatile => sentences.push("Lost at power-off.".to_owned()),
-        Storage::Immediate => sentences.push("Kept over power-off.".to_owned()),
-        Storage::OnCommand(command) => {
-            sentences.push(format!("Kept over power-off once {} was given.", escape(command)));
-        }
-    }
-    if let Some(access) = behaviour.pdi_access {
-        sentences.push(format!("The device's own side has it {}.", access.name()));
-    }
-    if let Some(effective) = &behaviour.effective {
-        sentences.push(format!("Takes effect at: {}", sentence(&escape(effective))));
-    }
-    for condition in &behaviour.write_when {
-        sentences.push(format!("Can be written only while {}.", holds(condition)));
-    }
-    if !behaviour.writable_values.is_empty() {
-        sentences.push(format!("Only {} can be written.", list(&behaviour.writable_values)));
-    }
-    if behaviour.self_clearing {
-        sentences.push("The device clears it by itself.".to_owned());
-    }
-    if behaviour.write_once {
-        sentences.push("Can be written only once.".to_owned());
-    }
-    sentences.extend(behaviour.side_effects.iter().map(|effect| sentence(&escape(effect))));
-    paragraphs.push(sentences.join(" "));
-}
-
 /// `Mode is 1 or 2`, `Status & 0x4 is 0`.
 pub(super) fn holds(condition: &Condition) -> String {
-    let mask = condition.mask.map(|mask| format!(" \\& {mask:#X}").replacen("0X", "0x", 1)).unwrap_or_default();
-    format!("{}{mask} is {}", escape(&condition.item), list(&condition.values))
-}
-
-fn list(values: &[Value]) -> String {
-    values.iter().map(value).collect::<Vec<_>>().join(" or ")
+    WORDS.holds(condition)
 }
 
 /// The words of a description, as sentences.
 pub(super) fn words(documentation: Option<&Documentation>, sentences: &mut Vec<String>) {
-    let lines = documentation.into_iter().flat_map(|documentation| documentation.text.lines());
-    sentences.extend(lines.map(escape).filter(|line| !line.is_empty()).map(|line| sentence(&line)));
+    sentences.extend(WORDS.description(documentation));
 }
 
 /// The lines about a type behind its name.
@@ -183,36 +149,11 @@ fn typed(shown: &Value, ty: Type) -> String {
 }
 
 pub(super) fn value(value: &Value) -> String {
-    const SHOWN: usize = 60;
-    let text = value.to_string();
-    match text.char_indices().nth(SHOWN) {
-        Some((cut, _)) => format!("{} …", escape(&text[..cut])),
-        None => escape(&text),
-    }
+    WORDS.value(value)
 }
 
 pub(super) fn limits(limits: &Limits) -> Option<String> {
-    let depends = [&limits.low, &limits.high].into_iter().any(|limit| matches!(limit, Some(Value::NodeId(_))));
-    if !limits.allowed.is_empty() {
-        const SHOWN: usize = 16;
-        let one = |(first, last): &(Value, Value)| match first == last {
-            true => value(first),
-            false => format!("{} to {}", value(first), value(last)),
-        };
-        let mut list: Vec<String> = limits.allowed.iter().take(SHOWN).map(one).collect();
-        if limits.allowed.len() > SHOWN {
-            list.push("…".to_owned());
-        }
-        return Some(format!("one of {}", list.join(", ")));
-    }
-    let text = match (&limits.low, &limits.high) {
-        (Some(low), Some(high)) => Some(format!("range {} to {}", value(low), value(high))),
-        (Some(low), None) => Some(format!("at least {}", value(low))),
-        (None, Some(high)) => Some(format!("at most {}", value(high))),
-        (None, None) => None,
-    };
-    // What depends on the node-ID is known only at run time.
-    text.map(|text| if depends { text + " (not checked)" } else { text })
+    WORDS.limits(limits)
 }
 
 fn documentation(item: &Item, lines: &mut Vec<String>) {
@@ -232,14 +173,6 @@ fn documentation(item: &Item, lines: &mut Vec<String>) {
 fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
-}
-
-/// `text` with a full stop, where it has none.
-pub(super) fn sentence(text: &str) -> String {
-    match text.ends_with(['.', '!', '?', ':']) {
-        true => text.to_owned(),
-        false => format!("{text}."),
-    }
 }
 
 #[cfg(test)]

@@ -148,40 +148,7 @@ fn rational(real: f64) -> Option<(i64, i64)> {
 
 /// `, in 0.01 rev/s`: unit and scale as a part of a sentence.
 pub(super) fn facts(quantity: &Quantity) -> String {
-    let unit = docs::escape(&quantity.unit);
-    let behind = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    match &quantity.scale {
-        None if unit.is_empty() => String::new(),
-        None => format!(", in {unit}"),
-        Some(scale) => scaled(scale, &behind),
-    }
-}
-
-/// The same for a scale, with the unit behind it.
-pub(super) fn scaled(scale: &Scale, behind: &str) -> String {
-    match scale {
-        Scale::Linear { factor, offset } if *offset == 0.0 => format!(", in {factor}{behind}"),
-        Scale::Linear { factor, offset } => {
-            let sign = if *offset < 0.0 { '−' } else { '+' };
-            format!(", stands for raw × {factor} {sign} {}{behind}", offset.abs())
-        }
-        Scale::Reciprocal { numerator } => format!(", stands for {numerator} / raw{behind}"),
-        Scale::Fraction { bits, base } => {
-            format!(", stands for raw / 2^{bits} × {}{behind}", docs::escape(base))
-        }
-        Scale::Exponent { exponent, base, fraction } => {
-            let part = if *fraction == 0 { String::new() } else { format!(" / 2^{fraction}") };
-            format!(", stands for raw{part} × {base}^{}{behind}", docs::escape(exponent))
-        }
-        Scale::ByItem { item, factor } => {
-            let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
-            format!(", stands for raw{factor} / {}{behind}", docs::escape(item))
-        }
-        Scale::TimesItem { item, factor } => {
-            let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
-            format!(", stands for raw{factor} × {}{behind}", docs::escape(item))
-        }
-    }
+    docs::WORDS.quantity(quantity)
 }
 
 /// Limits of a scaled number in its unit.
@@ -197,15 +164,7 @@ pub(super) fn limits(item: &Item) -> Option<String> {
 
 /// What else is known: numbers that are none, and steps.
 pub(super) fn notes(quantity: &Quantity) -> Vec<String> {
-    let mut notes: Vec<String> = quantity
-        .sentinels
-        .iter()
-        .map(|(value, name)| format!("{} means: {}", docs::value(value), docs::sentence(&docs::escape(name))))
-        .collect();
-    if let Some(step) = &quantity.step {
-        notes.push(format!("The device rounds to steps of {}.", docs::value(step)));
-    }
-    notes
+    docs::WORDS.notes(quantity)
 }
 
 #[cfg(test)]

@@ -1,0 +1,273 @@
+//! Sentences about elements of the IR, for documentation of any kind.
+
+use crate::ir::{
+    Availability, Behaviour, CompactString, Condition, Device, Documentation, Doubt, ItemVariant, Limits, LocalText,
+    Quantity, Scale, Storage, Value,
+};
+
+/// Makes sentences. Every text of a source goes through `escape` on its way into one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Words {
+    /// The text as the output shows it literally, on one line.
+    pub escape: fn(&str) -> String,
+}
+
+/// What is known of the manual that a description was taken from.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Manual {
+    /// Its language, where it isn't the one of the description.
+    pub language: String,
+    /// What places in it are: `line` or `page`.
+    cites: String,
+}
+
+impl Manual {
+    pub(super) fn of(device: &Device) -> Self {
+        let fact = |key: &str| {
+            let own = device.extensions.iter().find(|extension| extension.key == key);
+            own.map(|own| own.value.to_string()).unwrap_or_default()
+        };
+        Manual { language: fact("manual/language"), cites: fact("manual/cites") }
+    }
+}
+
+/// `text` with a full stop, where it has none.
+pub(super) fn sentence(text: &str) -> String {
+    match text.ends_with(['.', '!', '?', ':']) {
+        true => text.to_owned(),
+        false => format!("{text}."),
+    }
+}
+
+/// A bus as people write it.
+pub(super) fn bus_name(key: &str) -> &str {
+    match key {
+        "canopen" => "CANopen",
+        "ethercat" => "EtherCAT",
+        "modbus" => "Modbus",
+        "profinet" => "PROFINET",
+        "serial" => "a serial line",
+        other => other,
+    }
+}
+
+impl Words {
+    fn escaped(&self, text: &str) -> String {
+        (self.escape)(text)
+    }
+
+    fn list(&self, names: &[CompactString]) -> String {
+        names.iter().map(|name| self.escaped(name)).collect::<Vec<_>>().join(", ")
+    }
+
+    /// The words of a description, as sentences.
+    pub fn description(&self, documentation: Option<&Documentation>) -> Vec<String> {
+        let lines = documentation.into_iter().flat_map(|documentation| documentation.text.lines());
+        lines.map(|line| self.escaped(line)).filter(|line| !line.is_empty()).map(|line| sentence(&line)).collect()
+    }
+
+    /// What is known of storage, side effects and conditions of writing.
+    pub fn behaviour(&self, behaviour: &Behaviour) -> Vec<String> {
+        let mut sentences = Vec::new();
+        match &behaviour.storage {
+            Storage::Unknown => {}
+            Storage::Volatile => sentences.push("Lost at power-off.".to_owned()),
+            Storage::Immediate => sentences.push("Kept over power-off.".to_owned()),
+            Storage::OnCommand(command) => {
+                sentences.push(format!("Kept over power-off once {} was given.", self.escaped(command)));
+            }
+        }
+        if let Some(access) = behaviour.pdi_access {
+            sentences.push(format!("The device's own side has it {}.", access.name()));
+        }
+        if let Some(effective) = &behaviour.effective {
+            sentences.push(format!("Takes effect at: {}", sentence(&self.escaped(effective))));
+        }
+        for condition in &behaviour.write_when {
+            sentences.push(format!("Can be written only while {}.", self.holds(condition)));
+        }
+        if !behaviour.writable_values.is_empty() {
+            sentences.push(format!("Only {} can be written.", self.values(&behaviour.writable_values)));
+        }
+        if behaviour.self_clearing {
+            sentences.push("The device clears it by itself.".to_owned());
+        }
+        if behaviour.write_once {
+            sentences.push("Can be written only once.".to_owned());
+        }
+        sentences.extend(behaviour.side_effects.iter().map(|effect| sentence(&self.escaped(effect))));
+        sentences
+    }
+
+    /// `Mode is 1 or 2`, `Status & 0x4 is 0`.
+    pub fn holds(&self, condition: &Condition) -> String {
+        let mask = condition.mask.map(|mask| self.escaped(&format!("& {mask:#X}")).replacen("0X", "0x", 1));
+        let mask = mask.map(|mask| format!(" {mask}")).unwrap_or_default();
+        format!("{}{mask} is {}", self.escaped(&condition.item), self.values(&condition.values))
+    }
+
+    fn values(&self, values: &[Value]) -> String {
+        values.iter().map(|value| self.value(value)).collect::<Vec<_>>().join(" or ")
+    }
+
+    /// A value; of a long text or block of bytes, the start.
+    pub fn value(&self, value: &Value) -> String {
+        const SHOWN: usize = 60;
+        let text = value.to_string();
+        match text.char_indices().nth(SHOWN) {
+            Some((cut, _)) => format!("{} …", self.escaped(&text[..cut])),
+            None => self.escaped(&text),
+        }
+    }
+
+    /// `range 0 to 5`, `one of 1, 3 to 7`; `None` where there are no limits.
+    pub fn limits(&self, limits: &Limits) -> Option<String> {
+        let depends = [&limits.low, &limits.high].into_iter().any(|limit| matches!(limit, Some(Value::NodeId(_))));
+        if !limits.allowed.is_empty() {
+            const SHOWN: usize = 16;
+            let one = |(first, last): &(Value, Value)| match first == last {
+                true => self.value(first),
+                false => format!("{} to {}", self.value(first), self.value(last)),
+            };
+            let mut list: Vec<String> = limits.allowed.iter().take(SHOWN).map(one).collect();
+            if limits.allowed.len() > SHOWN {
+                list.push("…".to_owned());
+            }
+            return Some(format!("one of {}", list.join(", ")));
+        }
+        let text = match (&limits.low, &limits.high) {
+            (Some(low), Some(high)) => Some(format!("range {} to {}", self.value(low), self.value(high))),
+            (Some(low), None) => Some(format!("at least {}", self.value(low))),
+            (None, Some(high)) => Some(format!("at most {}", self.value(high))),
+            (None, None) => None,
+        };
+        // What depends on the node-ID is known only at run time.
+        text.map(|text| if depends { text + " (not checked)" } else { text })
+    }
+
+    /// Models, firmware, buses and options that have an element; empty where all do.
+    pub fn availability(&self, availability: &Availability) -> String {
+        let mut sentences = Vec::new();
+        if !availability.models.is_empty() {
+            sentences.push(format!("Only of {}.", self.list(&availability.models)));
+        }
+        match (&availability.since, &availability.until) {
+            (Some(since), Some(until)) => {
+                sentences.push(format!("From firmware {} to before {}.", self.escaped(since), self.escaped(until)));
+            }
+            (Some(since), None) => sentences.push(format!("From firmware {} on.", self.escaped(since))),
+            (None, Some(until)) => sentences.push(format!("Before firmware {}.", self.escaped(until))),
+            (None, None) => {}
+        }
+        if let Some(other) = &availability.replaced_by {
+            sentences.push(format!("Replaced by {}.", self.escaped(other)));
+        }
+        if !availability.buses.is_empty() {
+            let buses: Vec<CompactString> = availability.buses.iter().map(|bus| bus_name(bus).into()).collect();
+            sentences.push(format!("Only on {}.", self.list(&buses)));
+        }
+        if !availability.options.is_empty() {
+            sentences.push(format!("Needs {}.", self.list(&availability.options)));
+        }
+        sentences.join(" ")
+    }
+
+    /// `Note: … Chosen: … (why).`
+    pub fn doubt(&self, doubt: &Doubt) -> String {
+        let part = |text: &str| self.escaped(text.trim_end_matches('.'));
+        let why = if doubt.why.is_empty() { String::new() } else { format!(" ({})", part(&doubt.why)) };
+        format!("Note: {}. Chosen: {}{why}.", part(&doubt.says), part(&doubt.chosen))
+    }
+
+    /// The place in the manual and its own words for an element: `Manual, line 12: Posizione.`
+    pub fn place(&self, manual: &Manual, documentation: Option<&Documentation>, names: &[LocalText]) -> Option<String> {
+        let cite = documentation.and_then(|documentation| documentation.cite.as_deref());
+        let is_original = |text: &&LocalText| !manual.language.is_empty() && text.language == manual.language;
+        let original = names.iter().find(is_original).map(|text| self.escaped(&text.text));
+        let place = cite.map(|cite| match manual.cites.as_str() {
+            "" => format!("Manual, {}", self.escaped(cite)),
+            kind => format!("Manual, {} {}", self.escaped(kind), self.escaped(cite)),
+        });
+        match (place, original) {
+            (None, None) => None,
+            (Some(place), None) => Some(format!("{place}.")),
+            (place, Some(original)) => {
+                let place = place.unwrap_or_else(|| "Manual".to_owned());
+                Some(format!("{place}: {}", sentence(&original)))
+            }
+        }
+    }
+
+    /// `, in 0.01 rev/s`: unit and scale as a part of a sentence.
+    pub fn quantity(&self, quantity: &Quantity) -> String {
+        let unit = self.escaped(&quantity.unit);
+        let behind = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+        match &quantity.scale {
+            None if unit.is_empty() => String::new(),
+            None => format!(", in {unit}"),
+            Some(scale) => self.scaled(scale, &behind),
+        }
+    }
+
+    /// The same for a scale, with the unit behind it.
+    fn scaled(&self, scale: &Scale, behind: &str) -> String {
+        match scale {
+            Scale::Linear { factor, offset } if *offset == 0.0 => format!(", in {factor}{behind}"),
+            Scale::Linear { factor, offset } => {
+                let sign = if *offset < 0.0 { '−' } else { '+' };
+                format!(", stands for raw × {factor} {sign} {}{behind}", offset.abs())
+            }
+            Scale::Reciprocal { numerator } => format!(", stands for {numerator} / raw{behind}"),
+            Scale::Fraction { bits, base } => {
+                format!(", stands for raw / 2^{bits} × {}{behind}", self.escaped(base))
+            }
+            Scale::Exponent { exponent, base, fraction } => {
+                let part = if *fraction == 0 { String::new() } else { format!(" / 2^{fraction}") };
+                format!(", stands for raw{part} × {base}^{}{behind}", self.escaped(exponent))
+            }
+            Scale::ByItem { item, factor } => {
+                let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
+                format!(", stands for raw{factor} / {}{behind}", self.escaped(item))
+            }
+            Scale::TimesItem { item, factor } => {
+                let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
+                format!(", stands for raw{factor} × {}{behind}", self.escaped(item))
+            }
+        }
+    }
+
+    /// What else is known of a quantity: numbers that are none, and steps.
+    pub fn notes(&self, quantity: &Quantity) -> Vec<String> {
+        let sentinels = quantity.sentinels.iter();
+        let mut notes: Vec<String> = sentinels
+            .map(|(value, name)| format!("{} means: {}", self.value(value), sentence(&self.escaped(name))))
+            .collect();
+        if let Some(step) = &quantity.step {
+            notes.push(format!("The device rounds to steps of {}.", self.value(step)));
+        }
+        notes
+    }
+
+    /// What of an item differs on some models or buses, whose unit is `unit`.
+    pub fn variant(&self, variant: &ItemVariant, unit: &str) -> String {
+        let unit = self.escaped(unit);
+        let behind = if unit.is_empty() { unit } else { format!(" {unit}") };
+        let who = match (variant.models.is_empty(), variant.buses.is_empty()) {
+            (false, true) => format!("Of {}", self.list(&variant.models)),
+            (false, false) => format!("Of {} on {}", self.list(&variant.models), self.list(&variant.buses)),
+            (true, _) => format!("On {}", self.list(&variant.buses)),
+        };
+        let mut facts = Vec::new();
+        facts.extend(variant.ty.map(|ty| ty.to_string()));
+        facts.extend(variant.access.map(|access| access.name().to_owned()));
+        facts.extend(variant.default.as_ref().map(|value| format!("default {}", self.value(value))));
+        facts.extend(self.limits(&variant.limits));
+        facts.extend(variant.step.as_ref().map(|step| format!("rounded to steps of {}", self.value(step))));
+        facts.extend(
+            variant.scale.as_ref().map(|scale| self.scaled(scale, &behind).trim_start_matches(", ").to_owned()),
+        );
+        let mut sentences = vec![format!("{who}: {}.", facts.join(", "))];
+        sentences.extend(self.description(variant.documentation.as_deref()));
+        sentences.join(" ")
+    }
+}
