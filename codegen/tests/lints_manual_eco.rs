@@ -251,6 +251,61 @@ fn e4_the_address_before_the_value() {
 }
 
 #[test]
+fn e4_whatever_the_space_says() {
+    // The space waits for no clearing; that the number is cleared, its row says.
+    let waits = WRITE_WINDOW.replace("procedure = \"write\" }", "procedure = \"write\", clears = false }");
+    flags(&waits, &[("TAB049", 14)]);
+}
+
+#[test]
+fn d7_an_entry_of_a_mapping_twice() {
+    // L4441-4443 and L4533-4535.
+    let passage = r#"[[chapters]]
+title = "Mapping"
+[chapters.objects]
+0x6041 = { name = "Statusword", type = "u16", access = "ro", pdo = "tx" }
+0x6064 = { name = "Position Actual Value", type = "i32", access = "ro", pdo = "tx" }
+0x1A00 = { name = "Mapping", code = "record" }
+"0x1A00:0" = { name = "Count", type = "u8", access = "rw" }
+"0x1A00:1" = { name = "First", type = "u32", access = "rw" }
+"0x1A00:2" = { name = "Second", type = "u32", access = "rw" }
+[procedures.map]
+steps = [
+    { write = "0x1A00:0", value = 0 },
+    { write = "0x1A00:1", value = 0x60640020 },
+    { write = "0x1A00:1", value = 0x60410010 },
+    { write = "0x1A00:0", value = 2 },
+]
+"#;
+    let found = flags(passage, &[("TAB033", 14), ("TAB033", 15)]);
+    assert_eq!(message(&found, 0), "`map`: writes entry 1 of 0x1A00 a second time");
+    assert_eq!(message(&found, 1), "`map`: writes 2 as the number of entries of 0x1A00, and wrote 1 of them");
+    flags(&passage.replace("0x1A00:1\", value = 0x60410010", "0x1A00:2\", value = 0x60410010"), &[]);
+}
+
+#[test]
+fn b4_and_b5_a_frame_of_another_read() {
+    // L1210 and L1243: the start and quantity of L1123, and half of the reply.
+    let rows =
+        "R00 = { reg = 0, type = \"u32\", access = \"ro\" }\nR01 = { reg = 1, type = \"i32\", access = \"ro\" }\n";
+    let frames =
+        |request: &str, reply: &str| format!("{REGISTERS}{rows}[[frames]]\nrequest = [{request}]\nreply = [{reply}]\n");
+    let found = flags(&frames("5, 3, 0, 1, 0, 3", "5, 3, 4, 0x11, 0x22, 0x33, 0x44"), &[("TAB044", 8), ("TAB044", 9)]);
+    assert_eq!(message(&found, 0), "the request begins with the address 0x0001, which no row has");
+    assert_eq!(message(&found, 1), "the reply has 4 bytes for 3 registers, which are 6");
+    let found = flags(&frames("5, 3, 0x80, 0, 0, 4", "5, 3, 4, 0x11, 0x22, 0x33, 0x44"), &[("TAB044", 9)]);
+    assert_eq!(message(&found, 0), "the reply has 4 bytes for 4 registers, which are 8");
+    flags(&frames("5, 3, 0x80, 0, 0, 3", ""), &[("TAB044", 8)]);
+    flags(&frames("5, 3, 0x80, 0, 0, 4", "5, 3, 8, 0, 0, 0, 1, 0, 0, 0, 2"), &[]);
+    // One word of a register, an exception, a write of two words, and a CRC.
+    flags(&frames("5, 3, 0x80, 1, 0, 1", "5, 3, 2, 0, 7"), &[]);
+    flags(&frames("5, 3, 0x80, 1, 0, 1", "5, 0x83, 2"), &[]);
+    flags(&frames("5, 16, 0x80, 1, 0, 2, 4, 0, 0, 0, 7", "5, 16, 0x80, 1, 0, 2"), &[]);
+    let found = flags(&frames("5, 3, 0x80, 1, 0, 1, 0, 0", "6, 3, 2, 0, 7"), &[("TAB044", 8), ("TAB044", 9)]);
+    assert_eq!(message(&found, 1), "the reply is of node 6, and 5 was asked");
+}
+
+#[test]
 fn e4_in_an_image_both_go_together() {
     let passage = r#"[spaces.parameter]
 indirect = { write_address = "Variable Write Address", write = "Variable Write Value", procedure = "write" }

@@ -462,3 +462,67 @@ CMDGOTOBOOT = { commands = [], cells = ["?"] }
     assert_eq!(message(&found, 2), "there is no command called `CmdEmerg`");
     assert_eq!(message(&found, 6), "`CMDGOTOBOOT` has 1 cells, and the table 2 states");
 }
+
+/// Numbers of the machine, a field and parameters with the conversions of the manual.
+const CONVERSIONS: &str = r#"[given]
+"screw pitch" = { unit = "mm/rev" }
+"counts per turn" = { unit = "count/rev" }
+[units]
+position = { symbol = "count", machine = { unit = "mm", times = ["screw pitch"], over = ["counts per turn"] } }
+speed = { symbol = "rpm", machine = { unit = "mm/min", times = ["screw pitch"] } }
+"#;
+
+#[track_caller]
+fn converts(field: &str, expected: Option<&str>) {
+    let passage = format!("{CONVERSIONS}[[messages]]\nname = \"Go\"\nrequest = [{{ bytes = [2] }}, {{ {field} }}]\n");
+    let found = flags(&passage, &if expected.is_some() { vec![("TAB052", 9)] } else { Vec::new() });
+    if let Some(expected) = expected {
+        assert_eq!(message(&found, 0), expected);
+    }
+}
+
+#[test]
+fn item_18_to_20_numbers_that_do_not_fit_their_bytes() {
+    let place = |raw: &str, value: f64, counts: u32| {
+        format!(
+            "field = \"target\", type = \"i32\", unit = \"position\", conversions = [{{ raw = {raw}, value = {value}, unit = \"mm\", \
+             given = {{ \"screw pitch\" = 0.32, \"counts per turn\" = {counts} }} }}]"
+        )
+    };
+    // L361 and L365.
+    let other = "`target`: 16952116 stands for 6780.846 mm, and not for 6766.8176";
+    converts(&place("0x0102AB34", 6766.8176, 800), Some(other));
+    converts(&place("0x0102AB34", 6780.8465, 800), None);
+    // L546 and L550.
+    let other = "`target`: 18575262 stands for 11888.17 mm, and not for 1150.75";
+    converts(&place("0x011B6F9E", 1150.75, 500), Some(other));
+    converts(&place("0x001B6F9E", 1150.75, 500), None);
+    // L496 and L498.
+    let speed = |value: f64| {
+        format!(
+            "field = \"speed\", type = \"i16\", unit = \"speed\", conversions = [{{ raw = -578, value = {value}, unit = \"mm/min\", \
+             given = {{ \"screw pitch\" = 0.32 }} }}]"
+        )
+    };
+    converts(&speed(185.0), Some("`speed`: -578 stands for -184.96 mm/min, and not for 185"));
+    converts(&speed(-185.0), None);
+}
+
+#[test]
+fn item_21_a_fraction_that_is_rounded_elsewhere() {
+    // L1929: 0.1379 of 32768 is 4518.7; and L1894, 15.5 in two ways.
+    let fraction = |raw: i32, value: f64| {
+        format!("KCOR = {{ reg = 0x1003, type = \"i16\", access = \"rw\", scale = {{ fraction = 15, of = \"one\" }}, conversions = [{{ raw = {raw}, value = {value}, by = 1 }}] }}\n")
+    };
+    let found = flags(&fraction(4520, 0.1379), &[("TAB005", 1), ("TAB052", 1)]);
+    assert_eq!(message(&found, 1), "`KCOR`: 4520 stands for 0.1379395, and not for 0.1379");
+    flags(&fraction(4519, 0.1379), &[("TAB005", 1)]);
+    let both = "MANT = { reg = 0x1000, type = \"i16\", access = \"rw\", scale = { exponent = \"EXP\", base = 2, fraction = 15 }, \
+                conversions = [{ raw = 31744, value = 15.5, by = 4 }, { raw = 15872, value = 15.5, by = 5 }] }\n\
+                EXP = { reg = 0x1001, type = \"i16\", access = \"rw\" }\n";
+    flags(both, &[]);
+    let found =
+        flags(&both.replace("by = 5", "by = 4").replace(", by = 4 }, {", " }, {"), &[("TAB052", 1), ("TAB052", 1)]);
+    assert_eq!(message(&found, 0), "`MANT`: say `by`, the value of `EXP`");
+    assert_eq!(message(&found, 1), "`MANT`: 15872 stands for 7.75, and not for 15.5");
+}

@@ -855,6 +855,10 @@ codes! {
     TAB051 NUMBER_GAP "number-gap" Lint Allow
         "a number is missing between parameters that count up by one"
         "A row of the manual's table may have been lost. Devices leave numbers out as often, so that this lint is off unless asked for."
+    TAB052 CONVERSION_DIFFERS "conversion-differs" Lint Warn
+        "a number that the manual converts isn't what the scale gives"
+        "`conversions` has a raw number and what the manual says it stands for. They are further apart than a count: a digit was misprinted, or \
+        the scale, a number of the machine, or the base is another."
     MSG001 FRAMING_BYTES "framing-bytes" Lint Warn
         "start, end, escape and escaped bytes of frames contradict each other"
         "Start, end and escape of a frame are three bytes; each of them is escaped where it is data, and what is sent in its place is \

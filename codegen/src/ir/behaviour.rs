@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{CompactString, Condition, Documentation, Doubt, Scale, Texts, Type, Value};
-use crate::source::Origin;
+use crate::source::{Origin, Span};
 
 /// Access rights of an item, seen from the bus (CiA 306; ETG.2000 Flags/Access).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -284,6 +284,30 @@ pub struct Quantity {
     /// What the physical number is in a unit of the machine that the device drives.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub machine: Option<Box<MachineUnit>>,
+    /// Numbers that the source converts as examples.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub conversions: Vec<Conversion>,
+}
+
+/// A number that a source converts as an example.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Conversion {
+    /// The raw number.
+    pub raw: Option<i128>,
+    /// The physical one.
+    pub value: Option<f64>,
+    /// Its unit, where it isn't that of the item.
+    pub unit: Option<CompactString>,
+    /// Given numbers of the machine that the example has.
+    pub given: Vec<(CompactString, f64)>,
+    /// The model whose constants it uses.
+    pub model: Option<CompactString>,
+    /// The value of the item that the scale depends on.
+    pub by: Option<f64>,
+    /// What the source says about it.
+    pub documentation: Option<Box<Documentation>>,
+    /// Where it is declared.
+    pub at: Span,
 }
 
 /// A unit of the machine that a device drives: the physical number, multiplied and divided by numbers that only whoever builds the

@@ -33,6 +33,9 @@ pub struct Device {
     /// What its tables of Modbus take, where the source says so.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub modbus: Vec<ModbusTable>,
+    /// Frames of Modbus that the source prints: node, function and data, with or without the CRC.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub modbus_examples: Vec<super::MessageExample>,
     /// First and last of the numbers that a node, or a server, may have.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub node_ids: Option<(u8, u8)>,

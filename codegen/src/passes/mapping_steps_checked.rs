@@ -1,7 +1,7 @@
 //! After this pass the values that the procedures of a register table write into mapping objects were held against the items
 //! that they map, and the numbers of entries against the entries.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::declared_pdos_checked::{direction_of, Mapped, CAN_BITS};
 use super::owner::{Index, Owner};
@@ -14,7 +14,7 @@ pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     let groups = [device.groups.as_slice()];
     let items = Index::new(Owner { types: &device.types, groups: &groups });
     for procedure in &device.procedures {
-        let mut mapping = Mapping { device, procedure, words: BTreeMap::new() };
+        let mut mapping = Mapping { device, procedure, words: BTreeMap::new(), cleared: BTreeSet::new() };
         for (step, span) in procedure.spanned() {
             let Step::Write(name, value) = step else { continue };
             let (object, value) = (items.find(name).and_then(Item::object), value.as_int());
@@ -30,13 +30,23 @@ struct Mapping<'a> {
     device: &'a Device,
     procedure: &'a Procedure,
     words: BTreeMap<(u16, u8), i128>,
+    /// The mappings whose number of entries is 0 by then.
+    cleared: BTreeSet<u16>,
 }
 
 impl Mapping<'_> {
     fn step(&mut self, (index, sub): (u16, u8), value: i128, span: Span, diagnostics: &mut Diagnostics) {
         let Some(direction) = direction_of(index) else { return };
         if sub > 0 {
-            self.words.insert((index, sub), value);
+            let before = self.words.insert((index, sub), value);
+            if before.is_some() && self.cleared.contains(&index) {
+                let name = brief(&self.procedure.name);
+                let message = format!("`{name}`: writes entry {sub} of 0x{index:04X} a second time");
+                diagnostics.push(
+                    Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message)
+                        .help(format!("the entry behind it is {}", sub.saturating_add(1))),
+                );
+            }
             if let Some(mapped) = Mapped::word(value, direction, span) {
                 mapped.check(self.device, false, diagnostics);
             }
@@ -48,6 +58,19 @@ impl Mapping<'_> {
             let message =
                 format!("`{name}`: writes {value} as the number of entries of 0x{index:04X}, which has {entries}");
             diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
+        }
+        if value == 0 {
+            self.cleared.insert(index);
+            self.words.retain(|(own, _), _| *own != index);
+        } else if self.cleared.remove(&index) {
+            let written = self.words.keys().filter(|(own, _)| *own == index).count();
+            if value > written as i128 {
+                let name = brief(&self.procedure.name);
+                let message = format!(
+                    "`{name}`: writes {value} as the number of entries of 0x{index:04X}, and wrote {written} of them"
+                );
+                diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
+            }
         }
         let bits = self.bits(index, value);
         if self.device.ethercat.is_none() && bits > i128::from(CAN_BITS) {

@@ -76,7 +76,7 @@ fn order(
     let number = index.find(&side.number);
     let is_cyclic = |own: &Item| own.bindings.iter().any(|binding| matches!(binding, Binding::Image { .. }));
     let by_row = number.and_then(|own| own.behaviour.as_ref()).is_some_and(|own| own.self_clearing);
-    if index.find(&side.value).is_some_and(is_cyclic) || !side.clears.unwrap_or(by_row) {
+    if index.find(&side.value).is_some_and(is_cyclic) || !(by_row || side.clears == Some(true)) {
         return;
     }
     let (address, value) = (brief(&side.number), brief(&side.value));
@@ -84,8 +84,9 @@ fn order(
     if side.number_first == Some(true) {
         let message = format!("the number is written to `{address}` before the value to `{value}`, and {begins}");
         let found = Diagnostic::new(&codes::WINDOW_ORDER, number.map_or(item.at.name, |own| own.at.name), message);
-        diagnostics
-            .push(found.help("`first = \"value\"`, or `clears = false` where the device doesn't clear the number"));
+        diagnostics.push(
+            found.help("`first = \"value\"`, or no `clears` at the row where the device doesn't clear the number"),
+        );
     }
     let Some(procedure) = procedure else { return };
     let writes = |step: &Step, wanted: &CompactString| match step {

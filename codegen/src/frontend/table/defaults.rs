@@ -62,6 +62,7 @@ const OWN: &[&str] = &[
     "fixed",
     "allowed",
     "step",
+    "conversions",
     "variants",
     "when",
     "writable",

@@ -39,6 +39,7 @@ macro_rules! field_row {
             min: $field.min.clone(),
             max: $field.max.clone(),
             na: $field.na.clone(),
+            conversions: $field.conversions.clone(),
             orig: $field.orig.clone(),
             doc: $field.doc.clone(),
             cite: $field.cite.clone(),
@@ -253,6 +254,8 @@ tables! {
         pub framing: Option<At<FramingTable>>,
         /// Requests and replies of a command protocol.
         pub messages: Vec<At<MessageTable>>,
+        /// Frames of Modbus that the manual prints.
+        pub frames: Vec<At<FrameTable>>,
         /// Contradictions that belong to no row.
         pub doubts: Vec<At<DoubtTable>>,
     }
@@ -593,6 +596,8 @@ tables! {
         pub offset: Option<f64>,
         /// Raw values that are no numbers, with their meaning.
         pub na: Option<Entries<String>>,
+        /// Numbers that the manual converts as an example; each is held against the scale.
+        pub conversions: Vec<At<ConversionTable>>,
         /// The device rounds to steps of so many counts.
         pub step: Option<At<Literal>>,
         /// What differs between models or buses.
@@ -1032,6 +1037,8 @@ tables! {
         pub max: Option<At<Literal>>,
         /// Raw values that are no numbers, with their meaning.
         pub na: Option<Entries<String>>,
+        /// Numbers that the manual converts as an example; each is held against the scale.
+        pub conversions: Vec<At<ConversionTable>>,
         /// Its name in the manual's language.
         pub orig: Option<String>,
         /// What it is, in your own words.
@@ -1268,6 +1275,24 @@ tables! {
         pub doc: Option<String>,
     }
 
+    /// A frame of Modbus that the manual prints: node, function and data, with or without the CRC.
+    pub struct FrameTable {
+        /// The bytes of the request.
+        pub request: At<Vec<u8>>,
+        /// The bytes of the reply.
+        pub reply: At<Vec<u8>>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+        /// A contradiction of the manual, and what was made of it.
+        pub doubt: Option<OneOrMany<DoubtTable>>,
+        /// Several contradictions.
+        pub doubts: Option<OneOrMany<DoubtTable>>,
+        /// Findings that the doubts take upon themselves.
+        pub allow: Option<Vec<At<String>>>,
+    }
+
     /// How frames are delimited and checked.
     pub struct FramingTable {
         /// The byte that begins a frame.
@@ -1367,6 +1392,26 @@ tables! {
         pub doubts: Option<OneOrMany<DoubtTable>>,
     }
 
+    /// A number that the manual converts as an example.
+    pub struct ConversionTable {
+        /// The raw number.
+        pub raw: Option<i64>,
+        /// The physical one.
+        pub value: Option<f64>,
+        /// Its unit, where that is the machine's.
+        pub unit: Option<At<String>>,
+        /// Numbers of `[given]`, as the example has them.
+        pub given: Entries<f64>,
+        /// The model whose constants the example uses.
+        pub model: Option<At<String>>,
+        /// The value of the item that the scale depends on.
+        pub by: Option<f64>,
+        /// What it is, in your own words.
+        pub doc: Option<String>,
+        /// Page or line of the manual.
+        pub cite: Option<OneOrMany<NumberOrText>>,
+    }
+
     /// When an order is carried out.
     pub struct CompletionTable {
         /// When this item, or field of replies, says so; a bit stands behind a dot.
@@ -1418,6 +1463,8 @@ tables! {
         pub counts: Option<At<String>>,
         /// Raw values that are no numbers, with their meaning.
         pub na: Option<Entries<String>>,
+        /// Numbers that the manual converts as an example; each is held against the scale.
+        pub conversions: Vec<At<ConversionTable>>,
         /// A copy of this field of the request; of some of its bytes with `part`.
         pub echo: Option<At<String>>,
         /// The bytes of the field that come back (`"1..3"`), the first on the wire being 0.

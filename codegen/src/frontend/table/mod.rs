@@ -32,6 +32,7 @@ mod definitions;
 mod device;
 mod ethercat;
 pub mod format;
+mod frames;
 mod framing;
 mod given;
 mod images;
@@ -93,7 +94,7 @@ pub(crate) fn is_unit(symbol: &str) -> bool {
 const VERSION: u32 = 1;
 
 /// The keys of a table, and the order in which they are read: what others refer to comes first.
-const KEYS: [&str; 24] = [
+const KEYS: [&str; 25] = [
     "lexibus",
     "device",
     "overlay",
@@ -118,6 +119,7 @@ const KEYS: [&str; 24] = [
     "composites",
     "framing",
     "messages",
+    "frames",
 ];
 
 /// Reads the device that a table describes. `chosen` are the choices of its options.
@@ -307,6 +309,11 @@ impl<'a> Table<'a> {
         }
         if let Some(framing) = self.take(reader, "framing") {
             framing::read(reader, &framing, device);
+        }
+        for frame in self.list::<format::FrameTable>(reader, "frames") {
+            let end = frame.value.request.end.max(frame.value.reply.end).max(frame.end);
+            rows.allow_at(reader, (frame.start, end), &frame.value.allow);
+            frames::frame(reader, &frame, device);
         }
         let spaces = self.spaces.iter().map(|(name, table)| (name, table));
         messages::spaces(reader, spaces, device, &mut rows.references);

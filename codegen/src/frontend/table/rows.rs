@@ -5,7 +5,7 @@ use compact_str::CompactString;
 use super::at::{At, Entries, Literal, OneOrMany, TextOr};
 use super::bindings::{read_only_table, words_without_register};
 use super::definitions::{unfilled, Definitions, Kind};
-use super::format::{FlagOrText, NumberOrText, Row};
+use super::format::{ConversionTable, FlagOrText, NumberOrText, Row};
 use super::numbered::Numbered;
 use super::references::{References, ITEM};
 use super::spaces::{Buses, Space};
@@ -13,8 +13,8 @@ use super::tree::{cited, Reader};
 use super::{given, place, scale, types, value};
 use crate::diagnostics::{codes, Code, Diagnostic};
 use crate::ir::{
-    Access, Availability, Behaviour, Extension, Item, Mappable, ModbusTable, Quantity, Shape, Storage, Type, TypeDef,
-    TypeId,
+    Access, Availability, Behaviour, Conversion, Extension, Item, Mappable, ModbusTable, Quantity, Shape, Storage,
+    Type, TypeDef, TypeId,
 };
 use crate::source::Span;
 use crate::text::brief;
@@ -331,7 +331,7 @@ impl Rows {
     fn quantity(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {
         let says_nothing =
             row.unit.is_none() && row.scale.is_none() && row.offset.is_none() && row.na.is_none() && row.step.is_none();
-        if says_nothing {
+        if says_nothing && row.conversions.is_empty() {
             return;
         }
         let base = self.underlying(item.ty);
@@ -373,7 +373,29 @@ impl Rows {
             quantity.sentinels.push((value::value(reader, &literal, base), meaning.value.as_str().into()));
         }
         quantity.step = row.step.as_ref().map(|step| value::value(reader, step, base)).or(quantity.step);
+        quantity.conversions.extend(row.conversions.iter().map(|own| self.conversion(reader, own)));
         item.quantity = Some(Box::new(quantity));
+    }
+
+    /// A number that the manual converts as an example.
+    fn conversion(&mut self, reader: &mut Reader<'_, '_>, given: &At<ConversionTable>) -> Conversion {
+        let own = &given.value;
+        if own.raw.is_none() || own.value.is_none() {
+            let message = "a conversion has a `raw` number and a `value`";
+            reader.report(&codes::TABLE_VALUE, reader.span(given), message);
+        }
+        self.references.extend(own.model.iter().map(|name| (name.clone(), "model")));
+        self.references.extend(own.given.iter().map(|(name, _)| (name.clone(), "given number")));
+        Conversion {
+            raw: own.raw.map(Into::into),
+            value: own.value,
+            unit: own.unit.as_ref().map(|unit| unit.value.as_str().into()),
+            given: own.given.iter().map(|(name, number)| (name.value.as_str().into(), number.value)).collect(),
+            model: own.model.as_ref().map(|model| model.value.as_str().into()),
+            by: own.by,
+            documentation: reader.documentation(own.doc.as_deref(), own.cite.as_ref().map(cited)),
+            at: reader.span(given),
+        }
     }
 
     fn behaviour(&mut self, reader: &mut Reader<'_, '_>, item: &mut Item, row: &Row) {

@@ -1,0 +1,97 @@
+//! After this pass the numbers that a register table converts as the manual's examples were held against the scales: each is within
+//! a count of what the raw number stands for.
+
+use super::owner::Owner;
+use crate::diagnostics::{codes, Diagnostic, Diagnostics};
+use crate::ir::{CompactString, Conversion, Device, Item, MachineUnit, Quantity, Scale, Variant};
+use crate::text::brief;
+
+pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
+    let groups = [device.groups.as_slice()];
+    let owner = Owner { types: &device.types, groups: &groups };
+    let fields = device.messages.iter().flat_map(|message| message.values().map(|value| &value.item));
+    for item in owner.items().chain(fields) {
+        let Some(quantity) = &item.quantity else { continue };
+        for own in &quantity.conversions {
+            if let Some(text) = problem(device, item, quantity, own) {
+                let found = Diagnostic::new(&codes::CONVERSION_DIFFERS, own.at, text);
+                diagnostics.push(found.help("keep the numbers that fit each other, with a `doubt`"));
+            }
+        }
+    }
+}
+
+/// What is wrong with a conversion; a number beyond a count from what the raw one stands for, or one that can't be computed.
+fn problem(device: &Device, item: &Item, quantity: &Quantity, own: &Conversion) -> Option<String> {
+    let (raw, value) = (own.raw? as f64, own.value?);
+    let name = brief(&item.name);
+    let unit = own.unit.as_ref().unwrap_or(&quantity.unit);
+    let convert =
+        |raw: f64| physical(device, quantity, own, raw).and_then(|number| in_unit(device, quantity, own, number));
+    let (below, exact, above) = match (convert(raw - 1.0), convert(raw), convert(raw + 1.0)) {
+        (Ok(below), Ok(exact), Ok(above)) => (below, exact, above),
+        (Err(why), ..) | (_, Err(why), _) | (.., Err(why)) => return Some(format!("`{name}`: {why}")),
+    };
+    let (low, high) = (below.min(above), below.max(above));
+    let is_within = low <= value && value <= high || low.is_nan() || high.is_nan();
+    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    (!is_within).then(|| format!("`{name}`: {raw} stands for {}{unit}, and not for {value}", rounded(exact)))
+}
+
+/// The physical number that a raw one stands for.
+fn physical(device: &Device, quantity: &Quantity, own: &Conversion, raw: f64) -> Result<f64, String> {
+    let other = |name: &CompactString| own.by.ok_or(format!("say `by`, the value of `{}`", brief(name)));
+    Ok(match &quantity.scale {
+        None => raw,
+        Some(Scale::Linear { factor, offset }) => raw * factor + offset,
+        Some(Scale::Reciprocal { numerator }) => numerator / raw,
+        Some(Scale::Fraction { bits, base }) => {
+            let constants = model(device, own).into_iter().flat_map(|own| &own.constants);
+            let known = constants.filter(|(name, _)| name == base).find_map(|(_, value)| value.as_real());
+            raw / 2f64.powi((*bits).into()) * known.map_or_else(|| other(base), Ok)?
+        }
+        Some(Scale::Exponent { exponent, base, fraction }) => {
+            raw / 2f64.powi((*fraction).into()) * f64::from(*base).powf(other(exponent)?)
+        }
+        Some(Scale::ByItem { item, factor }) => raw * factor / other(item)?,
+        Some(Scale::TimesItem { item, factor }) => raw * factor * other(item)?,
+    })
+}
+
+/// The number in the unit that the example has.
+fn in_unit(device: &Device, quantity: &Quantity, own: &Conversion, number: f64) -> Result<f64, String> {
+    let Some(unit) = own.unit.as_ref().filter(|unit| **unit != quantity.unit) else { return Ok(number) };
+    match quantity.machine.as_deref().filter(|machine| machine.unit == *unit) {
+        Some(machine) => Ok(number * ratio(device, machine, own)?),
+        None => Err(format!("`{}` is neither the item's unit nor the machine's", brief(unit))),
+    }
+}
+
+/// What a number of the machine is multiplied with.
+fn ratio(device: &Device, unit: &MachineUnit, own: &Conversion) -> Result<f64, String> {
+    let number = |name: &CompactString| {
+        let given = own.given.iter().find(|(own, _)| own == name).map(|(_, number)| *number);
+        let of_model = || {
+            let number = device.given.iter().find(|own| own.name == *name)?;
+            let (_, value) = number.models.iter().find(|(model, _)| Some(model) == own.model.as_ref())?;
+            value.as_real()
+        };
+        given.or_else(of_model).ok_or(format!("say what `{}` is, in `given`", brief(name)))
+    };
+    let product = |list: &[CompactString]| list.iter().map(number).product::<Result<f64, String>>();
+    Ok(product(&unit.times)? / product(&unit.over)?)
+}
+
+fn model<'d>(device: &'d Device, own: &Conversion) -> Option<&'d Variant> {
+    device.variants.iter().find(|variant| Some(&variant.name) == own.model.as_ref())
+}
+
+/// As many digits as show a count of 16 bits.
+fn rounded(number: f64) -> f64 {
+    const DIGITS: f64 = 6.0;
+    let factor = 10f64.powf((DIGITS - number.abs().log10().floor()).clamp(-300.0, 300.0));
+    match (number * factor).round() / factor {
+        rounded if rounded.is_finite() => rounded,
+        _ => number,
+    }
+}
