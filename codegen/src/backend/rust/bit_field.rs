@@ -5,7 +5,7 @@ use super::enumeration::EnumerationModel;
 use super::ethercat::beside;
 use super::literal;
 use super::manual;
-use super::model::method_allow;
+use super::method_names::method_allow;
 use super::options::{Presence, RustOptions};
 use super::scope::Scope;
 use super::value_type::{native, ValueType};

@@ -1,7 +1,8 @@
 //! All devices and modules of a file in one Rust module.
 
+use super::device_names::module_name;
 use super::ethercat::ModulePaths;
-use super::model::{self, Model, Place};
+use super::model::{Model, Place};
 use super::nested::{self, STEP};
 use super::options::RustOptions;
 use super::{docs, header, layout, render};
@@ -77,7 +78,7 @@ fn module_names(modules: &[(ModuleId, &Module)]) -> Vec<String> {
 
 /// Devices go by their order code, which is shorter than their name; revisions are told apart by their number.
 fn device_names(devices: &[Device], file: &FileInfo) -> Vec<String> {
-    let names: Vec<String> = devices.iter().map(|device| model::module_name(device, file)).collect();
+    let names: Vec<String> = devices.iter().map(|device| module_name(device, file)).collect();
     let wishes: Vec<Wish<'_>> = devices
         .iter()
         .zip(&names)

@@ -7,8 +7,8 @@ use super::ethercat::{beside, depends_on};
 use super::field_type::{field_type, FieldType};
 use super::layout;
 use super::manual;
-use super::model::addressable;
 use super::options::RustOptions;
+use super::reachable::addressable;
 use super::scope::{ObjectBus, Scope};
 use crate::ir::{Direction, Group, ObjectBuses, Pdo, PdoCommunication, PdoEntry, PdoEntryKind, Value};
 use crate::passes::names_unique::{self, Case, Wish};
@@ -305,7 +305,7 @@ impl PdoModel {
 
     /// The attribute that the names of a view's methods need.
     pub(super) fn view_allow(&self) -> Option<String> {
-        super::model::method_allow(self.fields.iter().map(|field| field.getter.as_str()))
+        super::method_names::method_allow(self.fields.iter().map(|field| field.getter.as_str()))
     }
 
     /// The statements that pack more than a word. What takes whole bytes is stored byte by byte, which is what a processor

@@ -3,8 +3,9 @@
 use std::collections::HashMap;
 
 use super::field_type;
-use super::model::{addressable, ObjectModel};
+use super::objects::ObjectModel;
 use super::pdo;
+use super::reachable::addressable;
 use super::scope::{ObjectBus, Scope};
 use crate::ir::{Device, Direction, Item, Mappable, Pdo, PdoEntryKind, Type};
 

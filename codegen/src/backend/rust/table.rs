@@ -1,8 +1,9 @@
 //! The static table of all items that a client can reach.
 
+use super::constructor::flags;
 use super::literal;
-use super::model::{addressable, flags, is_module, registers};
 use super::place::{ObjectAddress, Place};
+use super::reachable::{addressable, is_module, registers};
 use super::scope::Scope;
 use super::value_type::ValueType;
 use super::variant;

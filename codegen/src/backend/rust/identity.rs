@@ -1,0 +1,32 @@
+//! Who made a device, as the template writes it.
+
+use super::literal;
+use crate::ir::Device;
+
+/// Numbers and names, as literals.
+pub(super) struct IdentityModel {
+    pub vendor_id: String,
+    pub product_code: String,
+    pub revision_number: String,
+    pub vendor_name: String,
+    pub product_name: String,
+    pub order_code: String,
+}
+
+impl IdentityModel {
+    pub(super) fn new(device: &Device) -> Self {
+        let identity = &device.identity;
+        let number = |value: Option<u32>| match value {
+            Some(value) => format!("Some({value:#010X})").replace("0X", "0x"),
+            None => "None".to_owned(),
+        };
+        IdentityModel {
+            vendor_id: number(identity.vendor_id),
+            product_code: number(identity.product_code),
+            revision_number: number(identity.revision_number),
+            vendor_name: literal::string(&identity.vendor_name),
+            product_name: literal::string(&identity.product_name),
+            order_code: literal::string(&identity.order_code),
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! An entry or a register, ready to be written as a handle.
+
+use super::constructor::Arguments;
+use super::docs;
+use super::handle::alias;
+use super::locations::Locations;
+use super::place::Place;
+use super::quantity::{self, QuantityType};
+use super::scope::Scope;
+use super::value_type::ValueType;
+use crate::ir::Item;
+use crate::passes::names_unique;
+
+/// An entry.
+pub(super) struct ItemModel {
+    pub constant: String,
+    pub method: String,
+    pub docs: Vec<String>,
+    pub heading: String,
+    pub access: &'static str,
+    /// The type of the value and, where there are others, that of the location, as the handle's place names them, and as
+    /// the device's does.
+    pub arguments: String,
+    pub arguments_at_top: String,
+    /// The private name of the handle's type: one without parameters, so that `rustc` has nothing to infer.
+    pub alias: String,
+    /// The call that makes the handle, without its type.
+    pub constructor: String,
+    /// Whether a literal may resemble a mathematical constant.
+    pub real: bool,
+    /// The object on the bus of the PDOs.
+    pub object: Option<(u16, u8)>,
+    /// The arguments of the type that says how it is mapped into PDOs.
+    pub mappable: Option<String>,
+}
+
+impl ItemModel {
+    /// The name under which `lexibus::pdo!` finds it: that of the method, unless that would hide a type.
+    pub(super) fn mappable_name(&self) -> String {
+        const PRIMITIVES: [&str; 15] = [
+            "bool", "char", "str", "u8", "u16", "u32", "u64", "u128", "usize", "i8", "i16", "i32", "i64", "f32", "f64",
+        ];
+        let hides = PRIMITIVES.contains(&self.method.as_str());
+        format!("{}{}", self.method, if hides { "_" } else { "" })
+    }
+
+    /// The expression that joins a handle to the device's client. A long name would break the chain of calls.
+    pub(super) fn at_client(&self) -> String {
+        const LONG: usize = 48;
+        match self.constant.len() > LONG {
+            true => format!("rt::Item::at(«objects::{}¦ &mut self.client»)", self.constant),
+            false => format!("objects::{}.at(&mut self.client)", self.constant),
+        }
+    }
+}
+
+/// The handle that is called `name` in Rust and `original` in the source; `outer` leads from its place to the device's.
+pub(super) fn model(
+    scope: &Scope<'_>,
+    locations: &Locations,
+    item: &Item,
+    name: &str,
+    original: &str,
+    outer: &str,
+) -> ItemModel {
+    let place = Place::of(scope, item);
+    let ty = ItemType::of(scope, item);
+    let location = |outer: &str| locations.argument(place.buses(), outer);
+    let on = if location("").is_empty() { String::new() } else { place.buses().word() };
+    let arguments = Arguments::of(item, original, &ty, outer);
+    ItemModel {
+        constant: name.to_ascii_uppercase(),
+        method: names_unique::escaped(name),
+        docs: docs::item(item, original, None, scope),
+        heading: heading(original, &place.heading()),
+        access: alias(item.access),
+        arguments: format!("{}{}", ty.path(outer), location(outer)),
+        arguments_at_top: format!("{}{}", ty.path(""), location("")),
+        alias: format!("{}{}{on}", alias(item.access), ty.word()),
+        constructor: arguments.constructor(&place, || locations.code(scope, &place, outer)),
+        real: ty.basic.is_real() && (item.default.is_some() || !item.limits.is_empty()),
+        object: place.object_on(scope.bus),
+        mappable: None,
+    }
+}
+
+/// What the entry is called, and where it is.
+pub(super) fn heading(name: &str, address: &str) -> String {
+    match name.trim() {
+        "" => format!("{address}."),
+        name => format!("{}: {address}.", docs::escape(name).trim_end_matches('.')),
+    }
+}
+
+/// The type of an item's value: an enumeration or a bit field, a quantity, or nothing but the basic type.
+pub(super) struct ItemType<'s> {
+    pub basic: ValueType,
+    /// The name of the enumeration or the bit field.
+    pub named: Option<&'s str>,
+    quantity: Option<QuantityType>,
+}
+
+impl<'s> ItemType<'s> {
+    fn of(scope: &'s Scope<'_>, item: &Item) -> Self {
+        let named = scope.enumeration(item.ty);
+        ItemType {
+            // The number below an enumeration may be a truth value, which its code writes as one bit.
+            basic: named.map_or_else(|| scope.value_type(item.ty), |named| ValueType::of(named.ty)),
+            named: named.map(|named| named.name.as_str()),
+            quantity: if named.is_none() { quantity::of(scope, item) } else { None },
+        }
+    }
+
+    /// Its path; `outer` leads from where it stands to the device's place.
+    pub fn path(&self, outer: &str) -> String {
+        match (self.named, &self.quantity) {
+            (Some(name), _) => format!("{outer}types::{name}"),
+            (None, Some(quantity)) => quantity.path.clone(),
+            (None, None) => self.basic.path().to_owned(),
+        }
+    }
+
+    /// Its name as a part of another one.
+    fn word(&self) -> String {
+        match (self.named, &self.quantity) {
+            (Some(name), _) => format!("Named{name}"),
+            (None, Some(quantity)) => quantity.word.clone(),
+            (None, None) => self.basic.word(),
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! The buses of a location, which are its type.
+
+use crate::backend::rust::route::{Kind, Leg, Net, Route};
+
+/// The buses of a location, and what the route is on each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::backend::rust) struct Buses([Kind; 6]);
+
+impl Buses {
+    pub fn of(routes: &[Route<'_>; 6]) -> Self {
+        Buses(std::array::from_fn(|at| routes[at].kind()))
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(self) -> bool {
+        self == Buses::default()
+    }
+
+    /// Whether every route is an address.
+    pub fn is_direct(self) -> bool {
+        self.0.iter().all(|kind| matches!(kind, Kind::Absent | Kind::One(Leg::Direct)))
+    }
+
+    /// The buses of both.
+    pub fn union(self, other: Buses) -> Buses {
+        Buses(std::array::from_fn(|at| self.0[at].max(other.0[at])))
+    }
+
+    /// The runtime's name of the location, where it has one.
+    pub fn path(self) -> Option<&'static str> {
+        let [canopen, coe, modbus, serial, image, esc] = self.0.map(|kind| kind != Kind::Absent);
+        if !self.is_direct() {
+            return None;
+        }
+        Some(match (canopen, coe, modbus, serial, image, esc) {
+            (true, false, false, false, false, false) => "rt::OnCanOpen",
+            (false, true, false, false, false, false) => "rt::OnCoE",
+            (true, true, false, false, false, false) => "rt::OnCanOpenAndCoE",
+            (false, false, true, false, false, false) => "rt::OnModbus",
+            (true, false, true, false, false, false) => "rt::OnCanOpenAndModbus",
+            (false, true, true, false, false, false) => "rt::OnCoEAndModbus",
+            (true, true, true, false, false, false) => "rt::OnCanOpenCoEAndModbus",
+            (false, false, false, true, false, false) => "rt::OnSerial",
+            (false, false, false, false, true, false) => "rt::OnImage",
+            (false, false, false, false, false, true) => "rt::OnEsc",
+            _ => return None,
+        })
+    }
+
+    /// The type of the location, written out.
+    pub fn written_out(self) -> String {
+        let [canopen, coe, modbus, serial, image, esc] = self.types();
+        format!("rt::Location<«{canopen}¦ {coe}¦ {modbus}¦ rt::Absent¦ {serial}¦ {image}¦ {esc}»>")
+    }
+
+    fn types(self) -> [String; 6] {
+        std::array::from_fn(|at| self.0[at].ty(Net::ALL[at]))
+    }
+
+    /// Its name as a part of another one.
+    pub fn word(self) -> String {
+        let words: String = Net::ALL.iter().zip(self.0).map(|(net, kind)| kind.word(*net)).collect();
+        format!("On{words}")
+    }
+
+    /// The buses, for a sentence.
+    pub fn titles(self) -> String {
+        let present = Net::ALL.iter().zip(self.0).filter(|(_, kind)| *kind != Kind::Absent);
+        present.map(|(net, _)| net.title()).collect::<Vec<_>>().join(", ")
+    }
+}

@@ -1,0 +1,135 @@
+//! The code that makes the location of an item.
+
+use super::Place;
+use crate::backend::rust::route::{Net, Route};
+use crate::backend::rust::scope::Scope;
+
+/// What makes a location.
+pub(in crate::backend::rust) struct Maker {
+    pub parameters: String,
+    pub arguments: String,
+    pub body: String,
+}
+
+impl Place<'_> {
+    /// What the constructors of objects are called here, and the object, where the item is nothing else.
+    pub fn only_object(&self) -> Option<(&'static str, u16, u8)> {
+        if !self.is_simple() {
+            return None;
+        }
+        match (self.canopen, self.coe, self.modbus, self.serial) {
+            (Some((index, sub)), None, None, None) => Some(("object", index, sub)),
+            (None, Some((index, sub)), None, None) => Some(("coe_object", index, sub)),
+            (Some((index, sub)), Some(coe), None, None) if coe == (index, sub) => Some(("shared_object", index, sub)),
+            _ => None,
+        }
+    }
+
+    /// The arguments that the constructors of registers begin with, where the item is a register, and at most one object
+    /// beside.
+    pub fn with_register(&self) -> Option<String> {
+        let register = self.register(self.modbus.filter(|_| self.serial.is_none() && self.is_simple())?);
+        match (self.canopen, self.coe) {
+            (None, None) => Some(register),
+            (Some(canopen), Some(coe)) if canopen != coe => None,
+            (canopen, coe) => {
+                let (index, sub) = canopen.or(coe)?;
+                Some(format!("0x{index:04X}¦ 0x{sub:02X}¦ {register}"))
+            }
+        }
+    }
+
+    /// Whether every route is an address, and none is in an image or in a slave controller.
+    fn is_simple(&self) -> bool {
+        self.image.is_none() && self.esc.is_none() && self.buses().is_direct()
+    }
+
+    /// The call that makes the location. `windows` leads to the windows of the device.
+    pub fn code(&self, scope: &Scope<'_>, windows: &str) -> String {
+        let Some(path) = self.buses().path() else { return self.new_location(scope, windows) };
+        let object = |(index, sub): (u16, u8)| format!("0x{index:04X}¦ 0x{sub:02X}");
+        let same = self.canopen.is_none() || self.coe.is_none() || self.canopen == self.coe;
+        match (self.canopen.or(self.coe), self.modbus, self.serial) {
+            (Some((index, sub)), None, None) if same => {
+                let method = match (self.canopen, self.coe) {
+                    (Some(_), None) => "canopen",
+                    (None, _) => "coe",
+                    _ => "object",
+                };
+                format!("{path}::{method}(0x{index:04X}, 0x{sub:02X})")
+            }
+            (Some(place), Some(register), None) if same => {
+                format!("{path}::register(«{}¦ {}»)", object(place), self.register(register))
+            }
+            (None, Some(register), None) => format!("{path}::modbus(«{}»)", self.register(register)),
+            (None, None, Some(code)) => format!("{path}::serial({code})"),
+            (None, None, None) => match (self.image, self.esc) {
+                (Some(field), _) => format!("{path}::field(«{}»)", field.code(self.is_bytes)),
+                (None, Some((address, length))) => format!("{path}::memory(0x{address:04X}, {length})"),
+                (None, None) => self.new_location(scope, windows),
+            },
+            // Addresses that differ between the buses, and routes that are too rare for a name.
+            _ => self.new_location(scope, windows),
+        }
+    }
+
+    fn new_location(&self, scope: &Scope<'_>, windows: &str) -> String {
+        self.location_of(scope, windows, |net| self.address(net).unwrap_or_default(), None)
+    }
+
+    /// The code of a location whose addresses are `address`, and whose numbers behind windows `number`.
+    fn location_of(
+        &self,
+        scope: &Scope<'_>,
+        windows: &str,
+        address: impl Fn(Net) -> String,
+        number: Option<&str>,
+    ) -> String {
+        let window = |at: usize| format!("{windows}{}", scope.windows.get(at).map_or("", |own| own.name.as_str()));
+        let [canopen, coe, modbus, serial, image, esc] =
+            Net::ALL.map(|net| self.routes[net as usize].code(&address(net), window, number));
+        format!("rt::Location::new(«{canopen}¦ {coe}¦ {modbus}¦ rt::Absent¦ {serial}¦ {image}¦ {esc}»)")
+    }
+
+    /// The location as a function of what items differ in, for one that the runtime has no name for: `rustc` takes a third of
+    /// the time for a call of such a function. `windows` leads to the windows of the device.
+    pub fn maker(&self, scope: &Scope<'_>, windows: &str) -> Option<Maker> {
+        let buses = self.buses();
+        if buses.is_empty() || buses.path().is_some() {
+            return None;
+        }
+        let ways = || self.routes.iter().flat_map(Route::ways);
+        let mut numbers = ways().filter_map(|way| Some(way.window?.1));
+        let number = numbers.next();
+        if numbers.any(|other| Some(other) != number) {
+            return None;
+        }
+        let is_addressed = |net: &Net| self.routes[*net as usize].ways().any(|way| way.window.is_none());
+        let addressed = || Net::ALL.into_iter().filter(is_addressed);
+        let mut parameters: Vec<String> =
+            addressed().map(|net| format!("{}: {}", net.word().to_lowercase(), net.address())).collect();
+        let mut arguments: Vec<String> = addressed().filter_map(|net| self.address(net)).collect();
+        if let Some(number) = number {
+            parameters.push("number: u32".to_owned());
+            arguments.push(format!("0x{number:04X}"));
+        }
+        Some(Maker {
+            parameters: parameters.join("¦ "),
+            arguments: arguments.join("¦ "),
+            body: self.location_of(scope, windows, |net| net.word().to_lowercase(), Some("number")),
+        })
+    }
+
+    /// The code that makes the item's address on a bus.
+    pub(super) fn address(&self, net: Net) -> Option<String> {
+        let object = |(index, sub): (u16, u8)| format!("rt::Object::new(0x{index:04X}, 0x{sub:02X})");
+        match net {
+            Net::CanOpen => self.canopen.map(object),
+            Net::CoE => self.coe.map(object),
+            Net::Modbus => self.register_code(),
+            Net::Serial => self.serial.map(|code| format!("rt::Parameter({code})")),
+            Net::Image => self.image.map(|field| field.code(self.is_bytes)),
+            Net::Esc => self.esc.map(|(address, length)| format!("rt::EscMemory::new(0x{address:04X}, {length})")),
+        }
+    }
+}
