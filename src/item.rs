@@ -81,6 +81,15 @@ impl<V: Value, A, L> Item<V, A, L> {
         self.flags
     }
 
+    /// The item with the values that one model of the device accepts, and has after power-on.
+    #[must_use]
+    pub const fn of_model(self, range: Range<V::Native>, initial: Initial<V::Native>) -> Self
+    where
+        L: Copy,
+    {
+        Self { range, initial, ..self }
+    }
+
     /// Joins the item to a client of one device.
     #[inline]
     pub fn at<C>(self, client: &mut C) -> Accessor<'_, C, V, A, L> {

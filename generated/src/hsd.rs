@@ -1180,7 +1180,7 @@ impl<C, S> HsdMotor<C, S> {
         objects::TIMEOUTMAXTORQUE.at(&mut self.client)
     }
 }
-/// Numbers that belong to the models of the device.
+/// What the models of the device have of their own: numbers, and items with their range and initial value.
 pub mod models {
     /// SM137 rev. B.
     ///
@@ -1199,6 +1199,197 @@ pub mod models {
         pub const ACCELERATION_BASE: f64 = 9411.0;
         /// counts per turn, in count/rev.
         pub const COUNTS_PER_TURN: f64 = 800.0;
+        /// Handles of items in whose values models differ.
+        pub mod objects {
+            use ::lexibus as rt;
+            use super::super::super::objects;
+            /// KP\_I: range 0 to 32767, default 30.
+            pub const KP_I: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::KP_I,
+                rt::Range::From(0),
+                rt::Initial::Value(30),
+            );
+            /// KI\_I: range 0 to 32767, default 12.
+            pub const KI_I: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::KI_I,
+                rt::Range::From(0),
+                rt::Initial::Value(12),
+            );
+            /// PIMIN\_I: range \-32767 to 0, default \-194.
+            pub const PIMIN_I: objects::ReadWrite<rt::Scaled<i16, 1, 10>> = rt::Item::of_model(
+                objects::PIMIN_I,
+                rt::Range::Between(-32767, 0),
+                rt::Initial::Value(-194),
+            );
+            /// PIMAX\_I: range 0 to 32767, default 194.
+            pub const PIMAX_I: objects::ReadWrite<rt::Scaled<i16, 1, 10>> = rt::Item::of_model(
+                objects::PIMAX_I,
+                rt::Range::From(0),
+                rt::Initial::Value(194),
+            );
+            /// KP\_VEL: range 0 to 32767, default 150.
+            pub const KP_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::KP_VEL,
+                rt::Range::From(0),
+                rt::Initial::Value(150),
+            );
+            /// KI\_VEL: range 0 to 32767, default 10.
+            pub const KI_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::KI_VEL,
+                rt::Range::From(0),
+                rt::Initial::Value(10),
+            );
+            /// PIMIN\_VEL: range \-900 to 0, default \-500.
+            pub const PIMIN_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::PIMIN_VEL,
+                rt::Range::Between(-900, 0),
+                rt::Initial::Value(-500),
+            );
+            /// PIMAX\_VEL: range 0 to 900, default 500.
+            pub const PIMAX_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::PIMAX_VEL,
+                rt::Range::Between(0, 900),
+                rt::Initial::Value(500),
+            );
+            /// MAXTORQ: range 0 to 32767, default 250.
+            pub const MAXTORQ: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::MAXTORQ,
+                rt::Range::From(0),
+                rt::Initial::Value(250),
+            );
+            /// VMAXAZZ: range \-32767 to 32767, default 0.
+            pub const VMAXAZZ: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::VMAXAZZ,
+                rt::Range::From(-32767),
+                rt::Initial::Value(0),
+            );
+            /// AMAX: range 0 to 32767, default 48.
+            pub const AMAX: objects::ReadWrite<rt::Scaled<i16, 10000>> = rt::Item::of_model(
+                objects::AMAX,
+                rt::Range::From(0),
+                rt::Initial::Value(48),
+            );
+            /// AMAXPOS: range 0 to 32767, default 32.
+            pub const AMAXPOS: objects::ReadWrite<rt::Scaled<i16, 10000>> = rt::Item::of_model(
+                objects::AMAXPOS,
+                rt::Range::From(0),
+                rt::Initial::Value(32),
+            );
+            /// ANGELETTRTACCA: range 0 to 799, default 676.
+            pub const ANGELETTRTACCA: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::ANGELETTRTACCA,
+                rt::Range::Between(0, 799),
+                rt::Initial::Value(676),
+            );
+            /// RESERVED1: default 600.
+            pub const RESERVED1: objects::ReadWrite<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::RESERVED1,
+                rt::Range::Full,
+                rt::Initial::Value(600),
+            );
+            /// RESERVED2: default 1400.
+            pub const RESERVED2: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::RESERVED2,
+                rt::Range::Full,
+                rt::Initial::Value(1400),
+            );
+            /// RESERVED3: default 2600.
+            pub const RESERVED3: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::RESERVED3,
+                rt::Range::Full,
+                rt::Initial::Value(2600),
+            );
+            /// RESERVED4: default 6.
+            pub const RESERVED4: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::RESERVED4,
+                rt::Range::Full,
+                rt::Initial::Value(6),
+            );
+            /// KIQDPIMANT: range 0 to 32767, default 13762.
+            pub const KIQDPIMANT: objects::WriteOnly<rt::Exponential<i16, 2, 15>> = rt::Item::of_model(
+                objects::KIQDPIMANT,
+                rt::Range::From(0),
+                rt::Initial::Value(13762),
+            );
+            /// KIQDKCOR: range 0 to 32767, default 9362.
+            pub const KIQDKCOR: objects::WriteOnly<rt::Scaled<i16, 1, 32768>> = rt::Item::of_model(
+                objects::KIQDKCOR,
+                rt::Range::From(0),
+                rt::Initial::Value(9362),
+            );
+            /// KVELPIMANT: range 0 to 32767, default 26214.
+            pub const KVELPIMANT: objects::WriteOnly<rt::Exponential<i16, 2, 15>> = rt::Item::of_model(
+                objects::KVELPIMANT,
+                rt::Range::From(0),
+                rt::Initial::Value(26214),
+            );
+            /// KVELPIEXP: range 0 to 6, default 1.
+            pub const KVELPIEXP: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::KVELPIEXP,
+                rt::Range::Between(0, 6),
+                rt::Initial::Value(1),
+            );
+            /// KVELKCOR: range 0 to 32767, default 2047.
+            pub const KVELKCOR: objects::WriteOnly<rt::Scaled<i16, 1, 32768>> = rt::Item::of_model(
+                objects::KVELKCOR,
+                rt::Range::From(0),
+                rt::Initial::Value(2047),
+            );
+            /// KVELLIMIN: range \-26067 to 0, default \-14486.
+            pub const KVELLIMIN: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::KVELLIMIN,
+                rt::Range::Between(-26067, 0),
+                rt::Initial::Value(-14486),
+            );
+            /// KVELLIMAX: range 0 to 26067, default 14486.
+            pub const KVELLIMAX: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::KVELLIMAX,
+                rt::Range::Between(0, 26067),
+                rt::Initial::Value(14486),
+            );
+            /// AMAXHOLD: range 1 to 32767, default 2089.
+            pub const AMAXHOLD: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::AMAXHOLD,
+                rt::Range::From(1),
+                rt::Initial::Value(2089),
+            );
+            /// AMAXTRAJ: range 1 to 32767, default 1392.
+            pub const AMAXTRAJ: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::AMAXTRAJ,
+                rt::Range::From(1),
+                rt::Initial::Value(1392),
+            );
+            /// MAXTORQUE: range 0 to 32767, default 7243.
+            pub const MAXTORQUE: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::MAXTORQUE,
+                rt::Range::From(0),
+                rt::Initial::Value(7243),
+            );
+            /// RESERVED1\_LOW: range 0 to 32767, default 600.
+            pub const RESERVED1_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::RESERVED1_LOW,
+                rt::Range::From(0),
+                rt::Initial::Value(600),
+            );
+            /// RESERVED2\_LOW: range 0 to 32767, default 1400.
+            pub const RESERVED2_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::RESERVED2_LOW,
+                rt::Range::From(0),
+                rt::Initial::Value(1400),
+            );
+            /// RESERVED3\_LOW: range 0 to 32767, default 2600.
+            pub const RESERVED3_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::RESERVED3_LOW,
+                rt::Range::From(0),
+                rt::Initial::Value(2600),
+            );
+            /// RESERVED4\_LOW: range 0 to 32767, default 6.
+            pub const RESERVED4_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::RESERVED4_LOW,
+                rt::Range::From(0),
+                rt::Initial::Value(6),
+            );
+        }
     }
     /// SM137 rev. C.
     ///
@@ -1217,6 +1408,197 @@ pub mod models {
         pub const ACCELERATION_BASE: f64 = 9411.0;
         /// counts per turn, in count/rev.
         pub const COUNTS_PER_TURN: f64 = 800.0;
+        /// Handles of items in whose values models differ.
+        pub mod objects {
+            use ::lexibus as rt;
+            use super::super::super::objects;
+            /// KP\_I: range 0 to 32767, default 30.
+            pub const KP_I: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::KP_I,
+                rt::Range::From(0),
+                rt::Initial::Value(30),
+            );
+            /// KI\_I: range 0 to 32767, default 12.
+            pub const KI_I: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::KI_I,
+                rt::Range::From(0),
+                rt::Initial::Value(12),
+            );
+            /// PIMIN\_I: range \-32767 to 0, default \-194.
+            pub const PIMIN_I: objects::ReadWrite<rt::Scaled<i16, 1, 10>> = rt::Item::of_model(
+                objects::PIMIN_I,
+                rt::Range::Between(-32767, 0),
+                rt::Initial::Value(-194),
+            );
+            /// PIMAX\_I: range 0 to 32767, default 194.
+            pub const PIMAX_I: objects::ReadWrite<rt::Scaled<i16, 1, 10>> = rt::Item::of_model(
+                objects::PIMAX_I,
+                rt::Range::From(0),
+                rt::Initial::Value(194),
+            );
+            /// KP\_VEL: range 0 to 32767, default 150.
+            pub const KP_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::KP_VEL,
+                rt::Range::From(0),
+                rt::Initial::Value(150),
+            );
+            /// KI\_VEL: range 0 to 32767, default 10.
+            pub const KI_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::KI_VEL,
+                rt::Range::From(0),
+                rt::Initial::Value(10),
+            );
+            /// PIMIN\_VEL: range \-900 to 0, default \-500.
+            pub const PIMIN_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::PIMIN_VEL,
+                rt::Range::Between(-900, 0),
+                rt::Initial::Value(-500),
+            );
+            /// PIMAX\_VEL: range 0 to 900, default 500.
+            pub const PIMAX_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::PIMAX_VEL,
+                rt::Range::Between(0, 900),
+                rt::Initial::Value(500),
+            );
+            /// MAXTORQ: range 0 to 32767, default 250.
+            pub const MAXTORQ: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::MAXTORQ,
+                rt::Range::From(0),
+                rt::Initial::Value(250),
+            );
+            /// VMAXAZZ: range \-32767 to 32767, default 0.
+            pub const VMAXAZZ: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::VMAXAZZ,
+                rt::Range::From(-32767),
+                rt::Initial::Value(0),
+            );
+            /// AMAX: range 0 to 32767, default 48.
+            pub const AMAX: objects::ReadWrite<rt::Scaled<i16, 10000>> = rt::Item::of_model(
+                objects::AMAX,
+                rt::Range::From(0),
+                rt::Initial::Value(48),
+            );
+            /// AMAXPOS: range 0 to 32767, default 32.
+            pub const AMAXPOS: objects::ReadWrite<rt::Scaled<i16, 10000>> = rt::Item::of_model(
+                objects::AMAXPOS,
+                rt::Range::From(0),
+                rt::Initial::Value(32),
+            );
+            /// ANGELETTRTACCA: range 0 to 799, default 676.
+            pub const ANGELETTRTACCA: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::ANGELETTRTACCA,
+                rt::Range::Between(0, 799),
+                rt::Initial::Value(676),
+            );
+            /// RESERVED1: default 600.
+            pub const RESERVED1: objects::ReadWrite<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::RESERVED1,
+                rt::Range::Full,
+                rt::Initial::Value(600),
+            );
+            /// RESERVED2: default 1400.
+            pub const RESERVED2: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::RESERVED2,
+                rt::Range::Full,
+                rt::Initial::Value(1400),
+            );
+            /// RESERVED3: default 2600.
+            pub const RESERVED3: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::RESERVED3,
+                rt::Range::Full,
+                rt::Initial::Value(2600),
+            );
+            /// RESERVED4: default 6.
+            pub const RESERVED4: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::RESERVED4,
+                rt::Range::Full,
+                rt::Initial::Value(6),
+            );
+            /// KIQDPIMANT: range 0 to 32767, default 13762.
+            pub const KIQDPIMANT: objects::WriteOnly<rt::Exponential<i16, 2, 15>> = rt::Item::of_model(
+                objects::KIQDPIMANT,
+                rt::Range::From(0),
+                rt::Initial::Value(13762),
+            );
+            /// KIQDKCOR: range 0 to 32767, default 9362.
+            pub const KIQDKCOR: objects::WriteOnly<rt::Scaled<i16, 1, 32768>> = rt::Item::of_model(
+                objects::KIQDKCOR,
+                rt::Range::From(0),
+                rt::Initial::Value(9362),
+            );
+            /// KVELPIMANT: range 0 to 32767, default 26214.
+            pub const KVELPIMANT: objects::WriteOnly<rt::Exponential<i16, 2, 15>> = rt::Item::of_model(
+                objects::KVELPIMANT,
+                rt::Range::From(0),
+                rt::Initial::Value(26214),
+            );
+            /// KVELPIEXP: range 0 to 6, default 1.
+            pub const KVELPIEXP: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::KVELPIEXP,
+                rt::Range::Between(0, 6),
+                rt::Initial::Value(1),
+            );
+            /// KVELKCOR: range 0 to 32767, default 2047.
+            pub const KVELKCOR: objects::WriteOnly<rt::Scaled<i16, 1, 32768>> = rt::Item::of_model(
+                objects::KVELKCOR,
+                rt::Range::From(0),
+                rt::Initial::Value(2047),
+            );
+            /// KVELLIMIN: range \-26067 to 0, default \-14486.
+            pub const KVELLIMIN: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::KVELLIMIN,
+                rt::Range::Between(-26067, 0),
+                rt::Initial::Value(-14486),
+            );
+            /// KVELLIMAX: range 0 to 26067, default 14486.
+            pub const KVELLIMAX: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::KVELLIMAX,
+                rt::Range::Between(0, 26067),
+                rt::Initial::Value(14486),
+            );
+            /// AMAXHOLD: range 1 to 32767, default 2089.
+            pub const AMAXHOLD: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::AMAXHOLD,
+                rt::Range::From(1),
+                rt::Initial::Value(2089),
+            );
+            /// AMAXTRAJ: range 1 to 32767, default 1392.
+            pub const AMAXTRAJ: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::AMAXTRAJ,
+                rt::Range::From(1),
+                rt::Initial::Value(1392),
+            );
+            /// MAXTORQUE: range 0 to 32767, default 7243.
+            pub const MAXTORQUE: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::MAXTORQUE,
+                rt::Range::From(0),
+                rt::Initial::Value(7243),
+            );
+            /// RESERVED1\_LOW: range 0 to 32767, default 600.
+            pub const RESERVED1_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::RESERVED1_LOW,
+                rt::Range::From(0),
+                rt::Initial::Value(600),
+            );
+            /// RESERVED2\_LOW: range 0 to 32767, default 1400.
+            pub const RESERVED2_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::RESERVED2_LOW,
+                rt::Range::From(0),
+                rt::Initial::Value(1400),
+            );
+            /// RESERVED3\_LOW: range 0 to 32767, default 2600.
+            pub const RESERVED3_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::RESERVED3_LOW,
+                rt::Range::From(0),
+                rt::Initial::Value(2600),
+            );
+            /// RESERVED4\_LOW: range 0 to 32767, default 6.
+            pub const RESERVED4_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::RESERVED4_LOW,
+                rt::Range::From(0),
+                rt::Initial::Value(6),
+            );
+        }
     }
     /// SM140.
     ///
@@ -1235,6 +1617,197 @@ pub mod models {
         pub const ACCELERATION_BASE: f64 = 9411.0;
         /// counts per turn, in count/rev.
         pub const COUNTS_PER_TURN: f64 = 2000.0;
+        /// Handles of items in whose values models differ.
+        pub mod objects {
+            use ::lexibus as rt;
+            use super::super::super::objects;
+            /// KP\_I: range 0 to 32767, default 40.
+            pub const KP_I: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::KP_I,
+                rt::Range::From(0),
+                rt::Initial::Value(40),
+            );
+            /// KI\_I: range 0 to 32767, default 10.
+            pub const KI_I: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::KI_I,
+                rt::Range::From(0),
+                rt::Initial::Value(10),
+            );
+            /// PIMIN\_I: range \-32767 to 0, default \-195.
+            pub const PIMIN_I: objects::ReadWrite<rt::Scaled<i16, 1, 10>> = rt::Item::of_model(
+                objects::PIMIN_I,
+                rt::Range::Between(-32767, 0),
+                rt::Initial::Value(-195),
+            );
+            /// PIMAX\_I: range 0 to 32767, default 195.
+            pub const PIMAX_I: objects::ReadWrite<rt::Scaled<i16, 1, 10>> = rt::Item::of_model(
+                objects::PIMAX_I,
+                rt::Range::From(0),
+                rt::Initial::Value(195),
+            );
+            /// KP\_VEL: range 0 to 32767, default 600.
+            pub const KP_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::KP_VEL,
+                rt::Range::From(0),
+                rt::Initial::Value(600),
+            );
+            /// KI\_VEL: range 0 to 32767, default 50.
+            pub const KI_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::KI_VEL,
+                rt::Range::From(0),
+                rt::Initial::Value(50),
+            );
+            /// PIMIN\_VEL: range \-3500 to 0, default \-1800.
+            pub const PIMIN_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::PIMIN_VEL,
+                rt::Range::Between(-3500, 0),
+                rt::Initial::Value(-1800),
+            );
+            /// PIMAX\_VEL: range 0 to 3500, default 1800.
+            pub const PIMAX_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::PIMAX_VEL,
+                rt::Range::Between(0, 3500),
+                rt::Initial::Value(1800),
+            );
+            /// MAXTORQ: range 0 to 32767, default 900.
+            pub const MAXTORQ: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
+                objects::MAXTORQ,
+                rt::Range::From(0),
+                rt::Initial::Value(900),
+            );
+            /// VMAXAZZ: range \-32767 to 32767, default 500.
+            pub const VMAXAZZ: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::VMAXAZZ,
+                rt::Range::From(-32767),
+                rt::Initial::Value(500),
+            );
+            /// AMAX: range 0 to 32767, default 40.
+            pub const AMAX: objects::ReadWrite<rt::Scaled<i16, 10000>> = rt::Item::of_model(
+                objects::AMAX,
+                rt::Range::From(0),
+                rt::Initial::Value(40),
+            );
+            /// AMAXPOS: range 0 to 32767, default 20.
+            pub const AMAXPOS: objects::ReadWrite<rt::Scaled<i16, 10000>> = rt::Item::of_model(
+                objects::AMAXPOS,
+                rt::Range::From(0),
+                rt::Initial::Value(20),
+            );
+            /// ANGELETTRTACCA: range 0 to 1999, default 676.
+            pub const ANGELETTRTACCA: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::ANGELETTRTACCA,
+                rt::Range::Between(0, 1999),
+                rt::Initial::Value(676),
+            );
+            /// RESERVED1: default 300.
+            pub const RESERVED1: objects::ReadWrite<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::RESERVED1,
+                rt::Range::Full,
+                rt::Initial::Value(300),
+            );
+            /// RESERVED2: default 600.
+            pub const RESERVED2: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::RESERVED2,
+                rt::Range::Full,
+                rt::Initial::Value(600),
+            );
+            /// RESERVED3: default 2200.
+            pub const RESERVED3: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::RESERVED3,
+                rt::Range::Full,
+                rt::Initial::Value(2200),
+            );
+            /// RESERVED4: default 16.
+            pub const RESERVED4: objects::ReadWrite<i16> = rt::Item::of_model(
+                objects::RESERVED4,
+                rt::Range::Full,
+                rt::Initial::Value(16),
+            );
+            /// KIQDPIMANT: range 0 to 32767, default 16383.
+            pub const KIQDPIMANT: objects::WriteOnly<rt::Exponential<i16, 2, 15>> = rt::Item::of_model(
+                objects::KIQDPIMANT,
+                rt::Range::From(0),
+                rt::Initial::Value(16383),
+            );
+            /// KIQDKCOR: range 0 to 32767, default 6552.
+            pub const KIQDKCOR: objects::WriteOnly<rt::Scaled<i16, 1, 32768>> = rt::Item::of_model(
+                objects::KIQDKCOR,
+                rt::Range::From(0),
+                rt::Initial::Value(6552),
+            );
+            /// KVELPIMANT: range 0 to 32767, default 26624.
+            pub const KVELPIMANT: objects::WriteOnly<rt::Exponential<i16, 2, 15>> = rt::Item::of_model(
+                objects::KVELPIMANT,
+                rt::Range::From(0),
+                rt::Initial::Value(26624),
+            );
+            /// KVELPIEXP: range 0 to 6, default 3.
+            pub const KVELPIEXP: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::KVELPIEXP,
+                rt::Range::Between(0, 6),
+                rt::Initial::Value(3),
+            );
+            /// KVELKCOR: range 0 to 32767, default 2520.
+            pub const KVELKCOR: objects::WriteOnly<rt::Scaled<i16, 1, 32768>> = rt::Item::of_model(
+                objects::KVELKCOR,
+                rt::Range::From(0),
+                rt::Initial::Value(2520),
+            );
+            /// KVELLIMIN: range \-25342 to 0, default \-13034.
+            pub const KVELLIMIN: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::KVELLIMIN,
+                rt::Range::Between(-25342, 0),
+                rt::Initial::Value(-13034),
+            );
+            /// KVELLIMAX: range 0 to 25342, default 13034.
+            pub const KVELLIMAX: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::KVELLIMAX,
+                rt::Range::Between(0, 25342),
+                rt::Initial::Value(13034),
+            );
+            /// AMAXHOLD: range 1 to 32767, default 696.
+            pub const AMAXHOLD: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::AMAXHOLD,
+                rt::Range::From(1),
+                rt::Initial::Value(696),
+            );
+            /// AMAXTRAJ: range 1 to 32767, default 348.
+            pub const AMAXTRAJ: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::AMAXTRAJ,
+                rt::Range::From(1),
+                rt::Initial::Value(348),
+            );
+            /// MAXTORQUE: range 0 to 32767, default 6517.
+            pub const MAXTORQUE: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
+                objects::MAXTORQUE,
+                rt::Range::From(0),
+                rt::Initial::Value(6517),
+            );
+            /// RESERVED1\_LOW: range 0 to 32767, default 300.
+            pub const RESERVED1_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::RESERVED1_LOW,
+                rt::Range::From(0),
+                rt::Initial::Value(300),
+            );
+            /// RESERVED2\_LOW: range 0 to 32767, default 600.
+            pub const RESERVED2_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::RESERVED2_LOW,
+                rt::Range::From(0),
+                rt::Initial::Value(600),
+            );
+            /// RESERVED3\_LOW: range 0 to 32767, default 2200.
+            pub const RESERVED3_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::RESERVED3_LOW,
+                rt::Range::From(0),
+                rt::Initial::Value(2200),
+            );
+            /// RESERVED4\_LOW: range 0 to 32767, default 16.
+            pub const RESERVED4_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
+                objects::RESERVED4_LOW,
+                rt::Range::From(0),
+                rt::Initial::Value(16),
+            );
+        }
     }
 }
 /// What only whoever builds the machine knows, and units that depend on it.

@@ -53,6 +53,11 @@ impl<'i> Arguments<'i> {
         })
     }
 
+    /// The arguments in which models of a device differ: range and initial value.
+    pub fn of_model(&self) -> [&str; 2] {
+        [&self.range, &self.initial]
+    }
+
     /// Whether every value of the type is one of the item's, and it has no unit.
     fn is_plain(&self) -> bool {
         self.range == FULL && self.unit.is_empty()

@@ -1,11 +1,10 @@
-//! Numbers that no device holds: constants of its models, and what only whoever builds the machine knows.
+//! Numbers that no device holds and only whoever builds the machine knows.
 
 use super::docs;
-use super::literal;
 use super::manual;
 use super::options::RustOptions;
 use super::scope::Scope;
-use crate::ir::{Device, Item, MachineUnit, Value};
+use crate::ir::{Device, Item, MachineUnit};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// A type with the numbers that are given, and what units become by them.
@@ -28,15 +27,7 @@ pub(super) struct UnitModel {
     pub symbols: [String; 2],
 }
 
-/// A model of the device that has constants.
-pub(super) struct ConstantsModel {
-    pub name: String,
-    pub docs: Vec<String>,
-    /// Names, documentation, values.
-    pub constants: Vec<(String, String, String)>,
-}
-
-fn wish(name: &str) -> Wish<'_> {
+pub(super) fn wish(name: &str) -> Wish<'_> {
     Wish { name, fallback: "number".to_owned(), suffix: "other".to_owned() }
 }
 
@@ -102,7 +93,7 @@ fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitMod
 }
 
 /// The unit behind a name.
-fn in_unit(unit: &str) -> String {
+pub(super) fn in_unit(unit: &str) -> String {
     if unit.is_empty() {
         return String::new();
     }
@@ -112,41 +103,4 @@ fn in_unit(unit: &str) -> String {
 /// A symbol as words: `mm/s²` is `mm per s2`.
 fn words(symbol: &str) -> String {
     symbol.replace('/', " per ").replace('²', "2").replace('%', "percent").replace('°', "deg")
-}
-
-/// The constants of the models.
-pub(super) fn constants(scope: &Scope<'_>, device: &Device) -> Vec<ConstantsModel> {
-    let models: Vec<_> =
-        device.variants.iter().map(|own| (own, constants_of(device, &own.name, &own.constants))).collect();
-    let with: Vec<_> = models.into_iter().filter(|(_, constants)| !constants.is_empty()).collect();
-    let wishes: Vec<Wish<'_>> = with.iter().map(|(own, _)| wish(&own.name)).collect();
-    let names = names_unique::unique(&wishes, &["self", "super", "crate"], Case::Snake);
-    let model = |((own, constants), name): ((&_, _), String)| {
-        let own: &crate::ir::Variant = own;
-        let mut lines = vec![docs::sentence(&docs::escape(&own.name))];
-        let mut sentences = Vec::new();
-        docs::words(own.documentation.as_deref(), &mut sentences);
-        sentences.extend(scope.manual.place(own.documentation.as_deref(), &[]));
-        lines.extend(sentences.into_iter().flat_map(|sentence| [String::new(), sentence]));
-        ConstantsModel { name: names_unique::escaped(&name), docs: lines, constants }
-    };
-    with.into_iter().zip(names).map(model).collect()
-}
-
-fn constants_of(
-    device: &Device,
-    model: &str,
-    own: &[(crate::ir::CompactString, Value)],
-) -> Vec<(String, String, String)> {
-    let given = device.given.iter().flat_map(|own| own.models.iter().map(move |(name, value)| (own, name, value)));
-    let given = given.filter(|(_, name, _)| *name == model);
-    let given = given.map(|(own, _, value)| (&own.name, value, in_unit(&own.unit)));
-    let all: Vec<_> = own.iter().map(|(name, value)| (name, value, String::new())).chain(given).collect();
-    let wishes: Vec<Wish<'_>> = all.iter().map(|(name, ..)| wish(name)).collect();
-    let names = names_unique::unique(&wishes, &[], Case::Snake);
-    let constant = |((name, value, unit), constant): ((&crate::ir::CompactString, &Value, String), String)| {
-        let real = literal::real(value.as_real()?, 64)?;
-        Some((constant.to_ascii_uppercase(), docs::sentence(&(docs::escape(name) + &unit)), real))
-    };
-    all.into_iter().zip(names).filter_map(constant).collect()
 }

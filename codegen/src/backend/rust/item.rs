@@ -101,7 +101,7 @@ pub(super) struct ItemType<'s> {
 }
 
 impl<'s> ItemType<'s> {
-    fn of(scope: &'s Scope<'_>, item: &Item) -> Self {
+    pub fn of(scope: &'s Scope<'_>, item: &Item) -> Self {
         let named = scope.enumeration(item.ty);
         ItemType {
             // The number below an enumeration may be a truth value, which its code writes as one bit.

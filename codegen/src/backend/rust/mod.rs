@@ -13,6 +13,7 @@ mod code_type;
 mod composite;
 mod constructor;
 mod data;
+mod device_models;
 mod device_names;
 mod docs;
 mod enumeration;

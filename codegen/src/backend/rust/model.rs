@@ -4,10 +4,11 @@ use super::axes::{self, AxesModel};
 use super::bus_facts::{self, FactModel};
 use super::code_table::{self, CodeTableModel};
 use super::composite;
+use super::device_models::{self, DeviceModel};
 use super::device_names;
 use super::docs;
 use super::ethercat::{self, EtherCatModel, ModulePaths};
-use super::given::{self, ConstantsModel, GivenModel};
+use super::given::{self, GivenModel};
 use super::handle::{self, Alias};
 use super::identity::IdentityModel;
 use super::literal;
@@ -66,8 +67,8 @@ pub(super) struct Model<'a> {
     /// Procedures that are nothing but writes of objects.
     pub procedures: Vec<ProcedureModel>,
     pub axes: Option<AxesModel>,
-    /// Constants of the device's models.
-    pub models: Vec<ConstantsModel>,
+    /// What models of the device have of their own.
+    pub models: Vec<DeviceModel>,
     /// What only whoever builds the machine knows.
     pub given: Option<GivenModel>,
     /// Requests and replies.
@@ -108,7 +109,7 @@ impl<'a> Model<'a> {
         model.title = docs::escape(&device_names::title(device));
         model.identity = (!device.dictionary_only).then(|| IdentityModel::new(device));
         model.procedures = procedure::models(&scope, device);
-        model.models = given::constants(&scope, device);
+        model.models = device_models::models(&scope, device, &model.objects);
         model.given = given::model(&scope, device, options);
         model.ethercat = EtherCatModel::new(device, &model.pdos, &place.modules, place.nest);
         model.code_tables = code_table::models(&device.code_tables, &Manual::of(device), options);

@@ -1,6 +1,33 @@
-//! The limits that hold on all models and buses on which an item differs.
+//! Items that differ on models and buses: the limits that hold on all of them, and what an item is on one model.
 
 use crate::ir::{Item, Limits, Value};
+use crate::selection::glob;
+
+/// The item as it is on a model, where models differ in its values; `None` where they don't, or the model hasn't got it.
+pub(super) fn on_model(item: &Item, model: &str) -> Option<Item> {
+    let differs = |own: &&crate::ir::ItemVariant| {
+        !own.models.is_empty() && own.buses.is_empty() && (own.default.is_some() || !own.limits.is_empty())
+    };
+    let mut variants = item.variants.iter().filter(differs).peekable();
+    variants.peek()?;
+    let has = item
+        .availability
+        .as_ref()
+        .is_none_or(|own| own.models.is_empty() || own.models.iter().any(|name| glob(name, model)));
+    if !has {
+        return None;
+    }
+    let mut own = Item { variants: Vec::new(), ..item.clone() };
+    for variant in variants.filter(|own| own.models.iter().any(|name| glob(name, model))) {
+        own.default = variant.default.clone().or(own.default);
+        own.limits.low = variant.limits.low.clone().or(own.limits.low);
+        own.limits.high = variant.limits.high.clone().or(own.limits.high);
+        if !variant.limits.allowed.is_empty() {
+            own.limits.allowed.clone_from(&variant.limits.allowed);
+        }
+    }
+    Some(own)
+}
 
 /// The limits that hold whatever the model and the bus: the widest of all.
 pub(super) fn widest(item: &Item) -> Limits {

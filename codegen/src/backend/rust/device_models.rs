@@ -1,0 +1,99 @@
+//! The models of a device: their constants, and the items in whose values they differ, each with those of its model.
+
+use super::constructor::Arguments;
+use super::docs;
+use super::given::{in_unit, wish};
+use super::item::ItemType;
+use super::literal;
+use super::objects::ObjectModel;
+use super::reachable::{addressable, is_module, registers};
+use super::scope::Scope;
+use super::variant;
+use crate::ir::{Device, Item, Value, Variant};
+use crate::passes::names_unique::{self, Case, Wish};
+
+/// A model of the device that has something of its own.
+pub(super) struct DeviceModel {
+    pub name: String,
+    pub docs: Vec<String>,
+    /// Names, documentation, values.
+    pub constants: Vec<(String, String, String)>,
+    pub items: Vec<OwnItem>,
+}
+
+impl DeviceModel {
+    /// Whether its handles name types of the device.
+    pub(super) fn names_types(&self) -> bool {
+        self.items.iter().any(|own| [&own.ty, &own.range, &own.initial].iter().any(|text| text.contains("types::")))
+    }
+}
+
+/// A handle, ready to be written.
+pub(super) struct OwnItem {
+    pub name: String,
+    pub docs: String,
+    /// Its type, as the device's place names it.
+    pub ty: String,
+    pub range: String,
+    pub initial: String,
+}
+
+/// The models that have constants or items of their own. `objects` are the handles of all models.
+pub(super) fn models(scope: &Scope<'_>, device: &Device, objects: &[ObjectModel]) -> Vec<DeviceModel> {
+    let registers = registers(scope).into_iter().map(|(_, item)| Some(item));
+    let single = addressable(scope).map(|group| group.items.first().filter(|_| !is_module(group)));
+    let items: Vec<Option<&Item>> = registers.chain(single).collect();
+    let all = device.variants.iter().map(|own| {
+        let with = items.iter().zip(objects).filter_map(|(item, object)| Some(((*item)?, object)));
+        let items: Vec<OwnItem> = with.filter_map(|(item, object)| self::own(scope, item, object, &own.name)).collect();
+        (own, constants(device, &own.name, &own.constants), items)
+    });
+    let with: Vec<_> = all.filter(|(_, constants, items)| !constants.is_empty() || !items.is_empty()).collect();
+    let wishes: Vec<Wish<'_>> = with.iter().map(|(own, ..)| wish(&own.name)).collect();
+    let names = names_unique::unique(&wishes, &["self", "super", "crate"], Case::Snake);
+    let model = |((own, constants, items), name): ((&Variant, _, _), String)| {
+        let name = names_unique::escaped(&name);
+        DeviceModel { name, docs: documentation(scope, own), constants, items }
+    };
+    with.into_iter().zip(names).map(model).collect()
+}
+
+fn documentation(scope: &Scope<'_>, own: &Variant) -> Vec<String> {
+    let mut lines = vec![docs::sentence(&docs::escape(&own.name))];
+    let mut sentences = Vec::new();
+    docs::words(own.documentation.as_deref(), &mut sentences);
+    sentences.extend(scope.manual.place(own.documentation.as_deref(), &[]));
+    lines.extend(sentences.into_iter().flat_map(|sentence| [String::new(), sentence]));
+    lines
+}
+
+fn own(scope: &Scope<'_>, item: &Item, object: &ObjectModel, model: &str) -> Option<OwnItem> {
+    let handle = object.items.first()?;
+    let on_model = variant::on_model(item, model)?;
+    let arguments = Arguments::of(&on_model, "", &ItemType::of(scope, item), "");
+    let [range, initial] = arguments.of_model();
+    let mut facts = Vec::new();
+    facts.extend(docs::limits(&on_model.limits));
+    facts.extend(on_model.default.as_ref().map(|value| format!("default {}", docs::value(value))));
+    Some(OwnItem {
+        name: handle.constant.clone(),
+        docs: format!("{}: {}.", docs::escape(&item.name), facts.join(", ")),
+        ty: format!("objects::{}<«{}»>", handle.access, handle.arguments_at_top),
+        range: range.to_owned(),
+        initial: initial.to_owned(),
+    })
+}
+
+fn constants(device: &Device, model: &str, own: &[(crate::ir::CompactString, Value)]) -> Vec<(String, String, String)> {
+    let given = device.given.iter().flat_map(|own| own.models.iter().map(move |(name, value)| (own, name, value)));
+    let given = given.filter(|(_, name, _)| *name == model);
+    let given = given.map(|(own, _, value)| (&own.name, value, in_unit(&own.unit)));
+    let all: Vec<_> = own.iter().map(|(name, value)| (name, value, String::new())).chain(given).collect();
+    let wishes: Vec<Wish<'_>> = all.iter().map(|(name, ..)| wish(name)).collect();
+    let names = names_unique::unique(&wishes, &[], Case::Snake);
+    let constant = |((name, value, unit), constant): ((&crate::ir::CompactString, &Value, String), String)| {
+        let real = literal::real(value.as_real()?, 64)?;
+        Some((constant.to_ascii_uppercase(), docs::sentence(&(docs::escape(name) + &unit)), real))
+    };
+    all.into_iter().zip(names).filter_map(constant).collect()
+}
