@@ -5,11 +5,14 @@
 mod can_script;
 
 use std::convert::Infallible;
+use std::time::Duration;
 
 use can_script::{node, Script};
-use lexibus::clients::canopen::Node;
+use lexibus::clients::canopen::{CanPort, Node};
 use lexibus::codes::Cell;
-use lexibus::{CanOpen, Error, Fixed, Item, On, Pdo, ReadRoute, Readable, Rw, Writable, WriteRoute};
+use lexibus::{
+    CanOpen, Error, Fixed, Item, On, OutOfRange, Pdo, ReadRoute, Readable, Rw, SdoWrite, Timed, Writable, WriteRoute,
+};
 use lexibus_drives::eco::objects::{self, feed_constant, homing_speeds, interpolation_time_period};
 use lexibus_drives::eco::objects::{
     drive_parameters_settings, drive_variable_read, drive_variable_write, store_parameter_field,
@@ -21,15 +24,21 @@ use lexibus_drives::eco::objects::{
     transmit_pdo_1_communication_parameter as tpdo, transmit_pdo_1_mapping_parameter as tpdo_map,
 };
 use lexibus_drives::eco::types::{
-    Controlword, HomingMethod, MappedObject, Mode, Statusword, StoreParameters, TransmissionType,
+    Command, Controlword, DriveCommand, HomingMethod, MappedObject, Mode, ReceivePdoIdentifier, Statusword,
+    StoreParameters, TransmissionType,
 };
-use lexibus_drives::eco::{self, codes, pdo};
+use lexibus_drives::eco::{self, codes, pdo, procedures};
 
 type Answer<T> = Result<T, Error<Infallible>>;
 
 /// What is confirmed with nothing but the object.
 fn confirmed(request: [u8; 8]) -> ([u8; 8], [u8; 8]) {
     (request, [0x60, request[1], request[2], request[3], 0, 0, 0, 0])
+}
+
+/// Whether the node got all that it expects.
+fn is_done(own: &mut Node<Script>) -> bool {
+    matches!(own.port().receive(Duration::ZERO, &mut |_| true), Ok(None))
 }
 
 /// Holds what writing sends against the bytes that follow from a line of the manual.
@@ -117,6 +126,10 @@ fn saving_and_guarding() {
 fn interpolator() {
     // L4414 to L4443. The state is at sub-index 2, not 1.
     writes(interpolation_time_period::IP_TIME_UNITS, 1, [0x2F, 0xC2, 0x60, 1, 1, 0, 0, 0]);
+    // The identifier of node 1, for several nodes (L4432).
+    let of_node_1 = ReceivePdoIdentifier::from_raw(513);
+    writes(rpdo::COB_ID_OF_RPDO_1, of_node_1, [0x23, 0x00, 0x14, 1, 0x01, 0x02, 0, 0]);
+    assert_eq!((of_node_1.identifier(), of_node_1.valid(), of_node_1.extended()), (0x201, true, false));
     writes(objects::MODES_OF_OPERATION, Mode::Interpolator, [0x2F, 0x60, 0x60, 0, 7, 0, 0, 0]);
     let each_sync = TransmissionType::from_raw(1);
     writes(rpdo::TRANSMISSION_TYPE_OF_RPDO_1, each_sync, [0x2F, 0x00, 0x14, 2, 1, 0, 0, 0]);
@@ -127,10 +140,100 @@ fn interpolator() {
     writes(rpdo_map::MAPPED_OBJECT_2_OF_RPDO_1, word, [0x23, 0x00, 0x16, 2, 0x10, 0x00, 0x40, 0x60]);
     writes(rpdo_map::NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1, 2, [0x2F, 0x00, 0x16, 0, 2, 0, 0, 0]);
     writes(tpdo::TRANSMISSION_TYPE_OF_TPDO_1, each_sync, [0x2F, 0x00, 0x18, 2, 1, 0, 0, 0]);
+    writes(tpdo_map::NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1, 0, [0x2F, 0x00, 0x1A, 0, 0, 0, 0, 0]);
     let position = MappedObject::new().with_index(0x6064).with_length(32);
     writes(tpdo_map::MAPPED_OBJECT_1_OF_TPDO_1, position, [0x23, 0x00, 0x1A, 1, 0x20, 0x00, 0x64, 0x60]);
     let state = MappedObject::new().with_index(0x6041).with_length(16);
     writes(tpdo_map::MAPPED_OBJECT_2_OF_TPDO_1, state, [0x23, 0x00, 0x1A, 2, 0x10, 0x00, 0x41, 0x60]);
+    writes(tpdo_map::NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1, 2, [0x2F, 0x00, 0x1A, 0, 2, 0, 0, 0]);
+}
+
+/// An SDO that writes so many bits.
+fn sdo(index: u16, sub_index: u8, bits: u8, value: u32) -> [u8; 8] {
+    let [low, high] = index.to_le_bytes();
+    let [a, b, c, d] = value.to_le_bytes();
+    [
+        if bits == 8 {
+            0x2F
+        } else if bits == 16 {
+            0x2B
+        } else {
+            0x23
+        },
+        low,
+        high,
+        sub_index,
+        a,
+        b,
+        c,
+        d,
+    ]
+}
+
+/// A list of writes: index, sub-index, bits, value.
+type Listed<'l> = &'l [(u16, u8, u8, u32)];
+
+/// Sends a procedure to a node that expects what the manual lists.
+#[track_caller]
+fn sends(procedure: &[SdoWrite], listed: Listed<'_>) {
+    let script: Vec<_> = listed.iter().map(|own| confirmed(sdo(own.0, own.1, own.2, own.3))).collect();
+    let mut own = node(&script);
+    for write in procedure {
+        write.send(&mut own).expect("confirmed");
+    }
+    assert!(is_done(&mut own), "all of them are sent");
+}
+
+#[test]
+fn procedures_send_what_the_manual_lists() {
+    let words = |all: &[u32]| all.iter().map(|word| (0x6040, 0, 16, *word)).collect::<Vec<_>>();
+    // L4284 to L4289, and the same in the other examples.
+    sends(&procedures::ENABLE, &words(&[0, 0x80, 0, 6, 7, 0xF]));
+    // L4252, L4383.
+    sends(&procedures::DISABLE, &words(&[2]));
+    // L4239 to L4246.
+    sends(&procedures::GUARD, &[(0x100C, 0, 16, 500), (0x100D, 0, 8, 2)]);
+    sends(&procedures::STOP_GUARDING, &[(0x100C, 0, 16, 0), (0x100D, 0, 8, 0)]);
+    // L4303 to L4348.
+    let settings = [(0x6092, 1, 32, 6000), (0x6081, 0, 32, 20_000), (0x6083, 0, 32, 200), (0x6084, 0, 32, 200)];
+    let target = [(0x6060, 0, 8, 1), (0x607A, 0, 32, 60_000)];
+    sends(&procedures::POSITION_BY_402, &[&settings[..], &target, &words(&[0x4F, 0x5F])].concat());
+    // L4353 to L4377.
+    let settings = [(0x6092, 1, 32, 60), (0x6083, 0, 32, 5), (0x6084, 0, 32, 5)];
+    sends(&procedures::VELOCITY_BY_402, &[&settings[..], &[(0x6060, 0, 8, 3), (0x60FF, 0, 32, 1000)]].concat());
+    // L4423 to L4443, with the state at sub-index 2.
+    let out = [(0x1400, 2, 8, 1), (0x1600, 0, 8, 0), (0x1600, 1, 32, 0x60C1_0120), (0x1600, 2, 32, 0x6040_0010)];
+    let back = [(0x1800, 2, 8, 1), (0x1A00, 0, 8, 0), (0x1A00, 1, 32, 0x6064_0020), (0x1A00, 2, 32, 0x6041_0010)];
+    let all = [&out[..], &[(0x1600, 0, 8, 2)], &back, &[(0x1A00, 0, 8, 2)]].concat();
+    sends(&procedures::MAP_INTERPOLATOR, &all);
+    // L4410 to L4417, L4462.
+    let settings = [(0x6092, 1, 32, 6000), (0x60C2, 1, 8, 1), (0x6060, 0, 8, 7), (0x6040, 0, 16, 0x1F)];
+    sends(&procedures::INTERPOLATE, &settings);
+    // L1401 to L1432 and L6374 to L6387 have the values and the registers; these are the same items as objects.
+    let motion = [(0x6092, 1, 32, 60), (0x6083, 0, 32, 100), (0x6084, 0, 32, 100), (0x6081, 0, 32, 1000)];
+    let homing =
+        [(0x6086, 0, 16, 0), (0x6098, 0, 8, 33), (0x607C, 0, 32, 0), (0x6099, 2, 32, 10), (0x609A, 0, 32, 100)];
+    sends(&procedures::CONFIGURE_POSITIONER, &[&motion[..], &homing].concat());
+}
+
+/// L4379 to L4403: torque off, the key, and the state until bit 0 is set.
+#[test]
+fn saving_on_canopen() -> Answer<()> {
+    let state = |low| ([0x40, 0x41, 0x60, 0, 0, 0, 0, 0], [0x4B, 0x41, 0x60, 0, low, 0x02, 0, 0]);
+    let mut own = node(&[
+        confirmed([0x2B, 0x40, 0x60, 0, 0x02, 0, 0, 0]),
+        confirmed([0x23, 0x10, 0x10, 1, 0x73, 0x61, 0x76, 0x65]),
+        confirmed([0x2B, 0x40, 0x60, 0, 0x06, 0, 0, 0]),
+        state(0x50),
+        state(0x50),
+        state(0x31),
+    ]);
+    objects::CONTROLWORD.at(&mut own).write(control(0x0002))?;
+    store_parameter_field::SAVE_ALL_PARAMETERS.at(&mut own).write(StoreParameters::Save)?;
+    objects::CONTROLWORD.at(&mut own).write(control(0).with_command(Command::Shutdown))?;
+    while !objects::STATUSWORD.at(&mut own).read()?.ready_to_switch_on() {}
+    assert!(is_done(&mut own));
+    Ok(())
 }
 
 /// Reads from a node that answers with these bytes.
@@ -165,6 +268,61 @@ fn parameters_by_the_window_of_eight_bits() {
         drive_parameters_settings::PARAMETER_WRITE_VALUE.at(&mut own).write(value).expect("written");
         drive_parameters_settings::PARAMETER_WRITE_ADDRESS.at(&mut own).write(address).expect("written");
     }
+}
+
+/// L4038 to L4057: parameters by their numbers, registers from 0x8000 on, by 0x2005 and 0x2006. A read takes 3 ms instead of
+/// the acknowledgement, and so does a write.
+#[test]
+fn parameters_and_registers_by_the_window_of_32_bits() -> Answer<()> {
+    let mut waited = Vec::new();
+    let mut own = Timed::new(
+        node(&[
+            confirmed([0x2B, 0x05, 0x20, 1, 0x01, 0x00, 0, 0]),
+            ([0x40, 0x05, 0x20, 2, 0, 0, 0, 0], [0x43, 0x05, 0x20, 2, 80, 0, 0, 0]),
+            confirmed([0x23, 0x06, 0x20, 2, 40, 0, 0, 0]),
+            confirmed([0x2B, 0x06, 0x20, 1, 0x02, 0x00, 0, 0]),
+            confirmed([0x2B, 0x05, 0x20, 1, 0x01, 0x80, 0, 0]),
+            ([0x40, 0x05, 0x20, 2, 0, 0, 0, 0], [0x43, 0x05, 0x20, 2, 0xFE, 0xFF, 0xFF, 0xFF]),
+            confirmed([0x23, 0x06, 0x20, 2, 0x03, 0, 0, 0]),
+            confirmed([0x2B, 0x06, 0x20, 1, 0x00, 0x80, 0, 0]),
+        ]),
+        |time| waited.push(time),
+    );
+    assert_eq!(objects::D1.at(&mut own).read()?, 80);
+    objects::D2.at(&mut own).write(40)?;
+    // R01 and R00; the sign is that of the register.
+    assert_eq!(objects::MODES_OF_OPERATION.at(&mut own).read()?, Mode::ElectricAxis);
+    let enabled = DriveCommand::new().with_torque_enable(true).with_motion_enable(true);
+    objects::CONTROL_WORD.at(&mut own).write(enabled)?;
+    assert!(is_done(own.client()));
+    // What d2 doesn't take isn't sent.
+    assert_eq!(objects::D2.at(&mut own).write(100), Err(Error::OutOfRange(OutOfRange)));
+    assert_eq!(waited, [Duration::from_millis(3); 4]);
+    Ok(())
+}
+
+/// L4043 to L4046, L4054 to L4057: the same with the acknowledgement, by the objects themselves.
+#[test]
+fn the_window_of_32_bits_with_its_acknowledgement() -> Answer<()> {
+    let address = |index, number| ([0x40, index, 0x20, 1, 0, 0, 0, 0], [0x4B, index, 0x20, 1, number, 0, 0, 0]);
+    let mut own = node(&[
+        confirmed([0x2B, 0x05, 0x20, 1, 0x01, 0x00, 0, 0]),
+        address(0x05, 1),
+        address(0x05, 0),
+        ([0x40, 0x05, 0x20, 2, 0, 0, 0, 0], [0x43, 0x05, 0x20, 2, 80, 0, 0, 0]),
+        confirmed([0x23, 0x06, 0x20, 2, 40, 0, 0, 0]),
+        confirmed([0x2B, 0x06, 0x20, 1, 0x02, 0x00, 0, 0]),
+        address(0x06, 2),
+        address(0x06, 0),
+    ]);
+    drive_variable_read::VARIABLE_READ_ADDRESS.at(&mut own).write(1)?;
+    while drive_variable_read::VARIABLE_READ_ADDRESS.at(&mut own).read()? != 0 {}
+    assert_eq!(drive_variable_read::VARIABLE_READ_VALUE.at(&mut own).read()?, 80);
+    drive_variable_write::VARIABLE_WRITE_VALUE.at(&mut own).write(40)?;
+    drive_variable_write::VARIABLE_WRITE_ADDRESS.at(&mut own).write(2)?;
+    while drive_variable_write::VARIABLE_WRITE_ADDRESS.at(&mut own).read()? != 0 {}
+    assert!(is_done(&mut own));
+    Ok(())
 }
 
 #[test]

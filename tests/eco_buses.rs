@@ -5,7 +5,7 @@ use std::convert::Infallible;
 use std::time::Duration;
 
 use lexibus::profinet::{Cyclic, ImageClient, IoPlace, IoSpan, IoStatus};
-use lexibus::{Client, Error, Modbus, Register};
+use lexibus::{Client, Error, Modbus, OutOfRange, Register};
 use lexibus_drives::eco::objects::{self, feed_constant, homing_speeds};
 use lexibus_drives::eco::types::{DriveCommand, HomingMethod, Mode, MotionProfile};
 
@@ -115,12 +115,57 @@ fn on_modbus() -> Outcome<()> {
     Ok(())
 }
 
+/// Saving by registers, for which the torque has to be off.
+macro_rules! save {
+    ($client:expr) => {{
+        let client = $client;
+        objects::CONTROL_WORD.at(&mut *client).write(DriveCommand::new())?;
+        objects::MODES_OF_OPERATION.at(&mut *client).write(Mode::SaveAndLoad)?;
+        let save = DriveCommand::new().in_save_and_load().with_save(true).drive_command();
+        objects::CONTROL_WORD.at(&mut *client).write(save)?;
+    }};
+}
+
+/// L1482 to L1495, with a step for the torque (L1051).
+#[test]
+fn saving_by_registers_on_modbus() -> Outcome<()> {
+    let mut drive = Serial::default();
+    save!(&mut drive);
+    let printed =
+        ["01 10 80 00 00 02 04 00 00 00 00", "01 10 80 01 00 02 04 FF FF FF CE", "01 10 80 00 00 02 04 00 00 00 20"];
+    assert_eq!(drive.frames, printed);
+    Ok(())
+}
+
+/// The other way of Modbus, with one register or two (L1532, L1610); nothing else is taken there.
+#[test]
+fn saving_by_an_address_on_modbus() -> Outcome<()> {
+    let mut drive = Serial::default();
+    objects::CONTROL_WORD.at(&mut drive).write(DriveCommand::new())?;
+    objects::SAVE_TO_FLASH.at(&mut drive).write(0x0011)?;
+    objects::SAVE_TO_FLASH_32.at(&mut drive).write(0x0000_0011)?;
+    let refused = Err(Error::OutOfRange(OutOfRange));
+    assert_eq!(objects::SAVE_TO_FLASH.at(&mut drive).write(0x0012), refused);
+    assert_eq!(objects::SAVE_TO_FLASH_32.at(&mut drive).write(0), refused);
+    // The frame of one register by function 16; `frames` has that of function 6.
+    let printed =
+        ["01 10 80 00 00 02 04 00 00 00 00", "01 10 38 02 00 01 02 00 11", "01 10 38 02 00 02 04 00 00 00 11"];
+    assert_eq!(drive.frames, printed);
+    Ok(())
+}
+
 /// A drive on PROFINET that keeps what changes in the bytes that it gets: the field's first byte, and the field.
 struct Cyclically {
     before: [u8; 32],
     changes: Vec<(usize, String)>,
     /// What a window wrote: the number and the value of each cycle that changed one of them.
     pairs: Vec<String>,
+}
+
+/// Where the 32 bytes and their status are, in both directions.
+fn place() -> IoPlace {
+    let span = Some(IoSpan { offset: 0, length: 33 });
+    IoPlace { slot: 1, subslot: 1, inputs: span, outputs: span, inputs_consumer: None, outputs_consumer: None }
 }
 
 /// First byte and length of each field that the drive gets (L6077 to L6098).
@@ -154,15 +199,30 @@ impl ImageClient for Cyclically {
     }
 }
 
-#[test]
-fn on_profinet() -> Outcome<()> {
-    let span = Some(IoSpan { offset: 0, length: 33 });
-    let place =
-        IoPlace { slot: 1, subslot: 1, inputs: span, outputs: span, inputs_consumer: None, outputs_consumer: None };
+/// A drive on PROFINET that has got nothing yet.
+fn cyclically() -> Cyclic<Cyclically, [u8; 33], [u8; 33]> {
     let drive = Cyclically { before: [0; 32], changes: Vec::new(), pairs: Vec::new() };
     let mut outputs = [0; 33];
     IoStatus::GOOD.write(&mut outputs[32..]);
-    let mut drive = Cyclic::new(drive, place, outputs, [0; 33]);
+    Cyclic::new(drive, place(), outputs, [0; 33])
+}
+
+/// Saving by registers is in the image, too: the manual has the mode for every bus (L79), and prints no example.
+#[test]
+fn saving_by_registers_on_profinet() -> Outcome<()> {
+    let mut drive = cyclically();
+    objects::CONTROL_WORD.at(&mut drive).write(ENABLED)?;
+    save!(&mut drive);
+    let expected = [(0, "00 03"), (0, "00 00"), (2, "CE"), (0, "00 20")];
+    let changes = &drive.image().changes;
+    assert_eq!(changes.iter().map(|(at, field)| (*at, field.as_str())).collect::<Vec<_>>(), expected);
+    assert!(drive.image().pairs.is_empty(), "no window is needed");
+    Ok(())
+}
+
+#[test]
+fn on_profinet() -> Outcome<()> {
+    let mut drive = cyclically();
     let position = configure_home_position!(&mut drive);
     assert_eq!(position, 6000);
     // L6375 to L6427. What the image lacks goes through its window.
@@ -231,10 +291,7 @@ fn what_the_image_lacks_is_read_through_its_window() -> Outcome<()> {
         }
     }
 
-    let span = Some(IoSpan { offset: 0, length: 33 });
-    let place =
-        IoPlace { slot: 1, subslot: 1, inputs: span, outputs: span, inputs_consumer: None, outputs_consumer: None };
-    let mut drive = Cyclic::new(Window, place, [0; 33], [0; 33]);
+    let mut drive = Cyclic::new(Window, place(), [0; 33], [0; 33]);
     assert_eq!(objects::D1.at(&mut drive).read()?, 80);
     assert_eq!(objects::MOTION_PROFILE_TYPE.at(&mut drive).read()?, MotionProfile::SineRamp);
     Ok(())

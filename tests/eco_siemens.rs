@@ -3,6 +3,7 @@
 
 use std::convert::Infallible;
 
+use lexibus::modbus::{Limits, RegisterClient};
 use lexibus::{Client, Error, Modbus, Register};
 
 lexibus::dictionary! {
@@ -11,11 +12,21 @@ lexibus::dictionary! {
     pub mod siemens = "dictionaries/eco.toml" { option: "register_base=siemens_plc", option: "parameter_base=siemens_plc" };
 }
 
+use siemens::{objects, types};
+
 /// Keeps what is asked for: the address, the number of registers, and what is written to them.
 #[derive(Default)]
 struct Probe {
     asked: Vec<(u16, u16)>,
     words: Vec<u16>,
+    /// What is answered.
+    registers: Vec<u16>,
+}
+
+impl RegisterClient for Probe {
+    fn limits(&self) -> &Limits {
+        &siemens::MODBUS
+    }
 }
 
 impl Client for Probe {
@@ -24,7 +35,8 @@ impl Client for Probe {
 
     fn read(&mut self, register: Register, buffer: &mut [u8]) -> Result<usize, Error<Infallible>> {
         self.asked.push((register.address, register.count));
-        Ok(register.decode(&vec![0; register.count.into()], buffer)?)
+        self.registers.resize(register.count.into(), 0);
+        Ok(register.decode(&self.registers, buffer)?)
     }
 
     fn write(&mut self, register: Register, data: &[u8]) -> Result<(), Error<Infallible>> {
@@ -49,5 +61,18 @@ fn the_second_map() -> Result<(), Error<Infallible>> {
     // The command that saves stays where it is.
     drive.save_to_flash().write(0x0011)?;
     assert_eq!(drive.client().asked.last(), Some(&(0x3802, 1)));
+    Ok(())
+}
+
+/// One request each: quantity 3 from 0x9C42 on (L1630 to L1634), quantity 4 from 0xAC41 on, the upper word first (L1636 to L1648).
+#[test]
+fn blocks_of_the_second_map() -> Result<(), Error<Infallible>> {
+    // What the node of the first map answers (L1162).
+    let mut drive = Probe { registers: vec![0x0014, 0x0032, 0x0032], ..Probe::default() };
+    assert_eq!(drive.read_block((objects::D1, objects::D2, objects::D3))?, (20, 50, 50));
+    drive.registers = vec![0x0000, 0x0023, 0xFFFF, 0xFFFE];
+    let values = drive.read_block((objects::CONTROL_WORD, objects::MODES_OF_OPERATION))?;
+    assert_eq!(values, (types::DriveCommand::from_raw(0x23), types::Mode::ElectricAxis));
+    assert_eq!(drive.asked, [(0x9C42, 3), (0xAC41, 4)]);
     Ok(())
 }

@@ -26,8 +26,13 @@ fn framed(data: &[u8]) -> Vec<u8> {
 
 /// What a decoder finds in a stream that comes byte by byte.
 fn found(stream: &[u8]) -> Vec<Result<Vec<u8>, FrameError>> {
+    found_in_pieces(&[stream])
+}
+
+/// The same in pieces, after each of which nothing is kept but the decoder and the data.
+fn found_in_pieces(pieces: &[&[u8]]) -> Vec<Result<Vec<u8>, FrameError>> {
     let (mut decoder, mut data, mut all) = (FRAMING.decoder(), [0; 80], Vec::new());
-    for byte in stream {
+    for byte in pieces.iter().copied().flatten() {
         let frame = FRAMING.decode(&mut decoder, *byte, &mut data);
         all.extend(frame.transpose().map(|frame| frame.map(|length| data[..length].to_vec())));
     }

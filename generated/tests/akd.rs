@@ -7,13 +7,15 @@ use std::collections::HashMap;
 use lexibus::codes::CodeTable;
 use lexibus::ethercat::{Assignment, AssignmentError, Transition};
 use lexibus::message::{Message, Reader, Reply, Request, Writer};
-use lexibus::{Client, CoE, Error, Object, Pdo, SdoWrite, Step};
+use lexibus::{
+    Client, CoE, Error, Esc, EscMemory, Item, LengthError, Object, OnEsc, Pdo, Ro, Rw, SdoWrite, Step, Value,
+};
 use lexibus_drives::akd::types::{
     AlCommand, AlControl, AlEventRequest, AlState, AlStatus, AlStatusCode, CommunicationState, ControlWord,
     DriveCommand, DriveState, InterruptEnable, LatchControl, LatchControlRead, LatchStatus, LatchStatusAcquired,
     MailboxRouting, MailboxType, MailboxTypeProtocol, ModesOfOperation, SdoCommand, SdoResult, StatusWord,
 };
-use lexibus_drives::akd::{codes, messages, pdo, procedures, Akd, DEVICE, STARTUP};
+use lexibus_drives::akd::{codes, messages, objects, pdo, procedures, Akd, DEVICE, STARTUP};
 
 /// Objects that have any value; writes in their order.
 #[derive(Default)]
@@ -311,6 +313,105 @@ fn states_of_the_communication() {
     let row = codes::AlStatus::from_raw(0x0017).row().expect("a row");
     assert_eq!(row.name, "invalid sync manager configuration");
     assert_eq!(codes::Faults::from_raw(125), codes::Faults::SynchronisationLost);
+}
+
+/// The memory of the slave controller, of which a master reads and writes whole items, as the client of EtherCAT does.
+struct Memory(Vec<u8>);
+
+impl Client for Memory {
+    type Bus = Esc;
+    type Error = LengthError;
+
+    fn read(&mut self, memory: EscMemory, buffer: &mut [u8]) -> Result<usize, Error<LengthError>> {
+        let own = &self.0[usize::from(memory.address)..][..usize::from(memory.length)];
+        buffer.iter_mut().zip(own).for_each(|(to, from)| *to = *from);
+        Ok(own.len())
+    }
+
+    fn write(&mut self, memory: EscMemory, data: &[u8]) -> Result<(), Error<LengthError>> {
+        let length = usize::from(memory.length);
+        if data.len() != length {
+            return Err(Error::Client(LengthError::new(length, data.len())));
+        }
+        self.0[usize::from(memory.address)..][..length].copy_from_slice(data);
+        Ok(())
+    }
+}
+
+/// Where items are that a master only reads: their type is that of read-only ones.
+fn read_only<V: Value>(item: Item<V, Ro, OnEsc>) -> (u16, u16) {
+    (item.location().esc.address, item.location().esc.length)
+}
+
+fn writable<V: Value>(item: Item<V, Rw, OnEsc>) -> (u16, u16) {
+    (item.location().esc.address, item.location().esc.length)
+}
+
+/// L531-550, as the master has them.
+#[test]
+fn registers_of_the_slave_controller() {
+    let read = [
+        read_only(objects::AL_STATUS),
+        read_only(objects::AL_STATUS_CODE),
+        read_only(objects::INTERRUPT_ENABLE),
+        read_only(objects::PROC_IN_BUFFER),
+        read_only(objects::MAILBOX_IN_BUFFER),
+    ];
+    assert_eq!(read, [(0x0130, 2), (0x0134, 2), (0x0204, 2), (0x1140, 64), (0x1C00, 512)]);
+    let written = [
+        writable(objects::AL_CONTROL),
+        writable(objects::AL_EVENT_REQUEST),
+        writable(objects::PROC_OUT_BUFFER),
+        writable(objects::MAILBOX_OUT_BUFFER),
+    ];
+    assert_eq!(written, [(0x0120, 2), (0x0220, 2), (0x1100, 64), (0x1800, 512)]);
+    let sync_managers = [
+        objects::SYNC_MANAGER_0,
+        objects::SYNC_MANAGER_1,
+        objects::SYNC_MANAGER_2,
+        objects::SYNC_MANAGER_3,
+        objects::SYNC_MANAGER_4,
+        objects::SYNC_MANAGER_5,
+        objects::SYNC_MANAGER_6,
+        objects::SYNC_MANAGER_7,
+        objects::SYNC_MANAGER_8,
+    ];
+    for (item, address) in sync_managers.into_iter().zip((0x0800..).step_by(8)) {
+        assert_eq!(writable(item), (address, 8), "{}", item.name());
+    }
+}
+
+#[test]
+fn the_memory_of_the_slave_controller_is_a_bus() {
+    let mut drive = Akd::new(Memory(vec![0; 0x2000]));
+    // L607-616: both ways.
+    let request = AlControl::new().with_al_command(AlCommand::RequestOperational).with_acknowledge(true);
+    drive.al_control().write(request).expect("two bytes");
+    assert_eq!(drive.client().0[0x0120..0x0122], [0x18, 0x00]);
+    assert_eq!(drive.al_control().read(), Ok(request));
+    // L619-641: what the drive has there.
+    drive.client().0[0x0130..0x0136].copy_from_slice(&[0x12, 0x00, 0, 0, 0x11, 0x00]);
+    let status = drive.al_status().read().expect("two bytes");
+    assert_eq!((status.al_state(), status.error()), (Some(AlState::PreOperational), true));
+    assert_eq!(drive.al_status_code().read(), Ok(AlStatusCode::InvalidRequestedStateChange));
+    drive.client().0[0x0204..0x0206].copy_from_slice(&[0x20, 0x04]);
+    let enabled = drive.interrupt_enable().read().expect("two bytes");
+    assert!(enabled.eeprom_emulation() && enabled.sync_manager_2());
+    drive.al_event_request().write(AlEventRequest::from_raw(0x0401)).expect("two bytes");
+    assert_eq!(drive.client().0[0x0220..0x0222], [0x01, 0x04]);
+    // A sync manager, and the mailbox of L1211-1245.
+    let process_data = [0x00, 0x11, 0x06, 0x00, 0x24, 0x00, 0x01, 0x00];
+    drive.sync_manager_2().write(&process_data).expect("eight bytes");
+    assert_eq!(drive.client().0[0x0810..0x0818], process_data);
+    let mut buffer = [0; 512];
+    assert_eq!(drive.sync_manager_2().read_into(&mut buffer), Ok(&process_data[..]));
+    let mut mailbox = [0; 512];
+    mailbox[..REQUEST.len()].copy_from_slice(&REQUEST);
+    drive.mailbox_out_buffer().write(&mailbox).expect("the whole buffer");
+    assert_eq!(drive.client().0[0x1800..0x1810], REQUEST);
+    drive.client().0[0x1C00..0x1C10].copy_from_slice(&REPLY);
+    let reply = drive.mailbox_in_buffer().read_into(&mut buffer).expect("the whole buffer");
+    assert_eq!((reply.len(), &reply[..REPLY.len()]), (512, &REPLY[..]));
 }
 
 #[test]

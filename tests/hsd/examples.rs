@@ -1,10 +1,11 @@
 //! The worked examples of the manual, through the bindings. The lines are those of the manual's text.
 
+use lexibus::codes::CodeTable;
 use lexibus::message::{Message, Reader, Reply, Writer};
 use lexibus::{Client, Error, OutOfRange, Parameter, Serial};
 use lexibus_drives::hsd::machine::Machine;
 use lexibus_drives::hsd::messages::*;
-use lexibus_drives::hsd::{models, objects, types};
+use lexibus_drives::hsd::{codes, models, objects, types};
 
 /// The machine of the examples; those of positioning have 500 counts a turn.
 const MACHINE: Machine = Machine { screw_pitch: 0.32, counts_per_turn: 800.0 };
@@ -28,15 +29,47 @@ fn positions() {
     let machine = Machine { counts_per_turn: 500.0, ..MACHINE };
     let target = machine.mm_to_count(1150.75) as i32;
     assert_eq!((target, sent(&CmdTraj { target })), (1_798_046, vec![1, 0x02, 0x6F, 0x9E, 0x00, 0x1B]));
-    // L617-623: 468.75 rpm, truncated.
+    // L572-584, L605-623: the same target, and 468.75 rpm, truncated.
     let speed = machine.mm_per_min_to_rpm(150.0) as u16;
     let data = sent(&CmdTrajVel { target, speed });
-    assert_eq!((speed, &data[data.len() - 2..]), (0x01D4, &[0x01, 0xD4][..]));
+    assert_eq!((speed, data), (0x01D4, vec![1, 0x00, 0xC8, 0x00, 0x6F, 0x9E, 0x00, 0x1B, 0x01, 0xD4]));
     // L662-672: the theoretical position.
     let poll = sent(&PollTheoreticalPosition);
     let reply = PollTheoreticalPositionReply::read(&poll, &mut Reader::new(&ANSWER)).expect("a reply");
     assert_eq!(reply.theoretical_position, 163_647_659);
     assert!((MACHINE.count_to_mm(reply.theoretical_position.into()) - 65_459.063_6).abs() < 1e-4);
+}
+
+/// L531-532, L592-593: from 1000 on, targets may be -67107863 to 67109863. Only the motor knows where it is: both messages carry any
+/// target, and what the motor says of one that is too far has its name.
+#[test]
+fn the_limit_of_a_way_is_the_motors() {
+    let ends = [1000 - 0x03FF_FFFF, 1000 + 0x03FF_FFFF];
+    assert_eq!(ends, [-67_107_863, 67_109_863]);
+    let expected = [vec![1, 0x02, 0x03, 0xE9, 0xFC, 0x00], vec![1, 0x02, 0x03, 0xE7, 0x04, 0x00]];
+    assert_eq!(ends.map(|target| sent(&CmdTraj { target })), expected);
+    let beyond = [ends[0] - 1, ends[1] + 1, i32::MIN, i32::MAX];
+    for target in ends.into_iter().chain(beyond) {
+        let both = [sent(&CmdTraj { target }), sent(&CmdTrajVel { target, speed: 1 })];
+        let parsed = both.each_ref().map(|data| Request::parse(data).map(|(_, own)| own));
+        let [Some(Request::CmdTraj(one)), Some(Request::CmdTrajVel(two))] = parsed else { panic!("{both:02X?}") };
+        assert_eq!((one.target, two.target), (target, target));
+    }
+    let request = sent(&CmdGetAlarm);
+    let reply =
+        CmdGetAlarmReply::read(&request, &mut Reader::new(&[1, 0x02, 0x60, 0x00, 0x40, 0x0B])).expect("a reply");
+    assert_eq!(codes::Warning::from_raw(reply.message), codes::Warning::MotionTooLong);
+    assert_eq!(codes::Warning::MotionTooLong.row().map(|row| row.first), Some(0x400B));
+}
+
+#[test]
+fn acceleration_in_steps() {
+    // L1949: 430 mm/s² are 1343.75 turns/s², of which the steps of 78.125 leave 17, 425 mm/s².
+    let wanted = MACHINE.mm_per_s2_to_rev_per_s2(430.0);
+    let steps = (wanted / 78.125).trunc();
+    assert!((wanted - 1343.75).abs() < 1e-9);
+    assert_eq!(steps, 17.0);
+    assert!((MACHINE.rev_per_s2_to_mm_per_s2(steps * 78.125) - 425.0).abs() < 1e-9);
 }
 
 #[test]
@@ -105,7 +138,29 @@ fn mantissa_and_exponent() {
     assert_eq!(objects::KPOSPIMANT.physical_by(20_480, 3.0), 5.0);
     assert_eq!(objects::KPOSPIMANT.mantissa_and_exponent(5.0, 0..=6), Ok((20_480, 3)));
     assert_eq!(objects::KPOSPIMANT.mantissa_and_exponent(64.0, 0..=6), Err(OutOfRange));
+    // L1892-1896: 15.5 in two ways.
+    assert_eq!(
+        [(31_744, 4.0), (15_872, 5.0)].map(|(own, power)| objects::KVELPIMANT.physical_by(own, power)),
+        [15.5; 2]
+    );
+    assert_eq!(objects::KVELPIMANT.mantissa_and_exponent(15.5, 0..=6), Ok((31_744, 4)));
+    assert_eq!(objects::KVELPIMANT.mantissa_and_exponent(15.5, 5..=6), Ok((15_872, 5)));
     let mut client = Last(Vec::new());
     objects::KPOSPIMANT.at(&mut client).write_scaled_by(5.0, 3.0).expect("in range");
     assert_eq!(client.0, 20_480_i16.to_le_bytes());
+}
+
+#[test]
+fn gains_of_a_controller() {
+    // L1919-1929: Kp 0.5, Ki 0.08, 15 %. The other two controllers have the same notation.
+    let (sum, correction) = (0.5 + 0.08, 0.08 / (0.5 + 0.08));
+    for mantissa in [objects::KIQDPIMANT, objects::KVELPIMANT, objects::KPOSPIMANT] {
+        assert_eq!(mantissa.mantissa_and_exponent(sum, 0..=6), Ok((19_005, 0)), "{}", mantissa.name());
+    }
+    for gain in [objects::KIQDKCOR, objects::KVELKCOR, objects::KPOSKCOR] {
+        assert_eq!(gain.raw(correction), Ok(4520), "{}", gain.name());
+    }
+    for percentage in [objects::KVELKFF, objects::KPOSKFF] {
+        assert_eq!(percentage.raw(15.0), Ok(4915), "{}", percentage.name());
+    }
 }

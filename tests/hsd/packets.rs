@@ -3,14 +3,19 @@
 use std::collections::BTreeSet;
 use std::convert::Infallible;
 use std::fmt::Debug;
+use std::future::{poll_fn, Future};
+use std::pin::pin;
+use std::sync::Arc;
+use std::task::{Context, Poll, Wake};
 
+use lexibus::clients::serial::{embedded_io_async, SerialLine};
 use lexibus::framing::FrameError;
-use lexibus::message::{List, Message, Reader, Reply, Request as Received, Setting, Settings, Writer};
-use lexibus::Parameter;
+use lexibus::message::{List, Message, Reader, Reply, Request as Received, Setting, Settings, WriteError, Writer};
+use lexibus::{AsyncExchange, LengthError, OutOfRange, Parameter};
 use lexibus_drives::hsd::messages::*;
 use lexibus_drives::hsd::types::{BitStato, HomingState, MotorType, State};
 
-use super::{found, framed};
+use super::{found, found_in_pieces, framed};
 
 const NODE: u32 = 5;
 
@@ -29,17 +34,87 @@ fn answered<'r>(reply: &impl Reply<'r>, request: &[u8]) -> Vec<u8> {
     to.written().to_vec()
 }
 
-/// Holds a packet against itself: as bytes and back, and as a frame that comes in two pieces, broken anywhere, and after noise.
+/// Holds a packet against itself: as bytes and back, in two pieces, after noise, and with what has to be escaped anywhere in it.
 fn framing_holds(data: &[u8]) {
     let frame = framed(data);
-    for at in 0..=frame.len() {
+    let whole = [Ok(data.to_vec())];
+    for at in 0..frame.len() {
         let (first, second) = frame.split_at(at);
-        assert_eq!(found(&[first, second].concat()), [Ok(data.to_vec())]);
+        assert_eq!(found_in_pieces(&[first, second]), whole, "broken at {at}");
+        assert_eq!(answer_in_pieces(first, second), data, "broken at {at}");
         // The end of the packet before, of which nobody saw the start.
-        let mut stream = frame[at..].to_vec();
-        stream.extend(&frame);
-        assert_eq!(found(&stream).last(), Some(&Ok(data.to_vec())), "from {at} on");
+        assert_eq!(found(&[second, &frame].concat()).last(), Some(&Ok(data.to_vec())), "from {at} on");
     }
+    for (place, special) in (0..data.len()).flat_map(|place| SPECIAL.map(|special| (place, special))) {
+        let mut own = data.to_vec();
+        own[place] = special;
+        assert_eq!(found(&framed(&own)), [Ok(own)], "{special:#04X} at {place}");
+    }
+}
+
+/// What is escaped, and what it becomes.
+const SPECIAL: [u8; 6] = [0x02, 0x03, 0x1B, 0xFD, 0xFC, 0xE4];
+
+/// A line that has the answer in two pieces, with a wait between them.
+struct Pieces<'a> {
+    now: &'a [u8],
+    later: Option<&'a [u8]>,
+}
+
+impl embedded_io_async::ErrorType for Pieces<'_> {
+    type Error = Infallible;
+}
+
+impl embedded_io_async::Read for Pieces<'_> {
+    async fn read(&mut self, buffer: &mut [u8]) -> Result<usize, Infallible> {
+        if self.now.is_empty() {
+            // The task waits once.
+            poll_fn(|_| match self.later.take() {
+                Some(later) => {
+                    self.now = later;
+                    Poll::Pending
+                }
+                None => Poll::Ready(()),
+            })
+            .await;
+        }
+        embedded_io_async::Read::read(&mut self.now, buffer).await
+    }
+}
+
+impl embedded_io_async::Write for Pieces<'_> {
+    async fn write(&mut self, data: &[u8]) -> Result<usize, Infallible> {
+        Ok(data.len())
+    }
+
+    async fn flush(&mut self) -> Result<(), Infallible> {
+        Ok(())
+    }
+}
+
+/// Nobody has to be woken: both polls are the test's.
+struct Silent;
+
+impl Wake for Silent {
+    fn wake(self: Arc<Self>) {}
+}
+
+/// What a client gets that has to wait between two pieces of the answer.
+fn answer_in_pieces(first: &[u8], second: &[u8]) -> Vec<u8> {
+    let pieces = Pieces { now: first, later: Some(second) };
+    let mut line = SerialLine::<_, _, 140>::new(pieces, FRAMING);
+    let mut reply = [0; MAX_DATA];
+    let length = {
+        let mut exchange = pin!(AsyncExchange::exchange(&mut line, &[NODE as u8, 8, 0], &mut reply));
+        let waker = Arc::new(Silent).into();
+        let mut context = Context::from_waker(&waker);
+        assert!(exchange.as_mut().poll(&mut context).is_pending());
+        match exchange.as_mut().poll(&mut context) {
+            Poll::Ready(length) => length.expect("a reply"),
+            Poll::Pending => panic!("the whole frame is there"),
+        }
+    };
+    reply[..length].to_vec()
 }
 
 /// One bit is wrong: the packet is lost or found as it was, never as another one, and the next one is found.
@@ -174,8 +249,8 @@ fn refusals() {
 #[test]
 fn special_bytes_anywhere() {
     for length in 1..=MAX_DATA {
-        for special in [0x02, 0x03, 0x1B, 0xFD, 0xFC, 0xE4] {
-            for place in (0..length).step_by(1 + length / 16) {
+        for special in SPECIAL {
+            for place in 0..length {
                 let mut data = vec![0x41; length];
                 data[place] = special;
                 assert_eq!(found(&framed(&data)), [Ok(data)]);
@@ -183,4 +258,80 @@ fn special_bytes_anywhere() {
             assert_eq!(found(&framed(&vec![special; length])), [Ok(vec![special; length])]);
         }
     }
+}
+
+/// 68 bytes of data (L185) have room for 16 parameters of 16 bits, 10 of 32 bits, and 15 samples.
+#[test]
+fn the_longest_packets() {
+    let (short, long) = (setting(0x0105, &[2, 3]), setting(0x011C, &[0x1B, 2, 3, 0x1B]));
+    let too_many = WriteError::OutOfRange(OutOfRange);
+    let too_long = WriteError::Length(LengthError::new(MAX_DATA, 70));
+    for (own, count, length, refusal) in [(short, 16, 68, too_many), (long, 10, 64, too_long)] {
+        let settings = vec![own; count];
+        let request = CmdChgParN { settings: Settings::sent(&settings, PARAMETER) };
+        let data = sent(&request);
+        assert_eq!(data.len(), length);
+        let Some((NODE, Request::CmdChgParN(received))) = Request::parse(&data) else { panic!("{data:02X?}") };
+        assert_eq!(received.settings.iter().collect::<Vec<_>>(), settings);
+        framing_holds(&data);
+        damage_is_found(&data);
+        let one_more = vec![own; count + 1];
+        let request = CmdChgParN { settings: Settings::sent(&one_more, PARAMETER) };
+        assert_eq!(request.write(NODE, &mut Writer::new(&mut [0; MAX_DATA])), Err(refusal));
+    }
+    let request = sent(&CmdGetSamp);
+    let entries = [CmdGetSampReplyEntry { variable_1: 0x0203, variable_2: 0x1B1B }; 16];
+    let reply = CmdGetSampReply { status: done(), entries: List::from(&entries[..15]) };
+    let data = answered(&reply, &request);
+    assert_eq!(data.len(), MAX_DATA);
+    assert_eq!(CmdGetSampReply::read(&request, &mut Reader::new(&data)), Some(reply));
+    framing_holds(&data);
+    damage_is_found(&data);
+    let reply = CmdGetSampReply { status: done(), entries: List::from(&entries) };
+    let refused = reply.write(&request, &mut Writer::new(&mut [0; 2 * MAX_DATA]));
+    assert_eq!(refused, Err(too_many));
+    // Nothing but bytes that are escaped: twice the data and the check, begin and end.
+    assert_eq!(framed(&[0x1B; MAX_DATA]).len(), 1 + 2 * MAX_DATA + 1 + 1);
+    assert_eq!(framed(&[[0x1B; MAX_DATA - 1].as_slice(), &[0xFF]].concat()).len(), 139);
+}
+
+/// Frames as they follow from the rules of L156 to L185; the manual prints none with its check.
+#[test]
+fn frames_on_the_wire() {
+    fn holds(data: &[u8], frame: &[u8]) {
+        assert_eq!(framed(data), frame);
+        assert_eq!(found(frame), [Ok(data.to_vec())]);
+    }
+    fn request<M>(node: u32, message: M, frame: &[u8]) -> Vec<u8>
+    where
+        M: Message + for<'q> Received<'q> + Debug + PartialEq,
+    {
+        let mut room = [0; MAX_DATA];
+        let mut to = Writer::new(&mut room);
+        message.write(node, &mut to).expect("a message of the protocol");
+        let data = to.written().to_vec();
+        holds(&data, frame);
+        let received = found(frame).remove(0).expect("a frame");
+        assert_eq!(M::parse(&mut Reader::new(&received)), Some((node, message)));
+        data
+    }
+    fn reply<R>(to_what: &[u8], message: R, frame: &[u8])
+    where
+        R: for<'q> Reply<'q> + Debug + PartialEq,
+    {
+        holds(&answered(&message, to_what), frame);
+        let received = found(frame).remove(0).expect("a frame");
+        assert_eq!(R::read(to_what, &mut Reader::new(&received)), Some(message));
+    }
+    request(5, CmdReset, &[0x02, 0x05, 0x08, 0x9C, 0x00, 0x00, 0x00, 0x6E, 0x03]);
+    let target = CmdTraj { target: 1_798_046 };
+    request(1, target, &[0x02, 0x01, 0x1B, 0xFD, 0x6F, 0x9E, 0x00, 0x1B, 0xE4, 0x16, 0x03]);
+    let position = CmdMazz { position: 0x0102_AB34 };
+    request(1, position, &[0x02, 0x01, 0x01, 0xAB, 0x34, 0x01, 0x1B, 0xFD, 0x63, 0x03]);
+    let jog = request(1, CmdJogN { speed: -578 }, &[0x02, 0x01, 0x08, 0xE0, 0x00, 0xFD, 0xBE, 0x55, 0x03]);
+    let poll = request(1, PollPosition, &[0x02, 0x01, 0x08, 0x00, 0xF6, 0x03]);
+    let position = PollPositionReply { status: done(), real_position: 0x09C1_10AB };
+    reply(&poll, position, &[0x02, 0x01, 0x1B, 0xFD, 0x10, 0xAB, 0x09, 0xC1, 0x8F, 0x03]);
+    let refusal = CmdNack { node: 1, status: done() };
+    reply(&jog, refusal, &[0x02, 0x01, 0x1B, 0xFD, 0xB0, 0x00, 0xFD, 0xBE, 0x0F, 0x03]);
 }
