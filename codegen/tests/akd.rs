@@ -85,6 +85,30 @@ fn the_table_has_no_findings() {
     assert_eq!(found, Vec::<String>::new());
 }
 
+/// The table of revisions of the hardware: each is a model, with the versions of its software.
+#[test]
+fn revisions_of_the_hardware() {
+    let Some(manual) = manual() else { return };
+    let compilation = table();
+    let printed = rows(&manual, 34, 36);
+    let models = &device(&compilation).variants;
+    assert_eq!((printed.len(), models.len()), (3, 3));
+    for ((line, cells), model) in printed.iter().zip(models) {
+        assert_eq!(model.name, format!("revision {}", cells[0]), "L{line}");
+        assert!(cited(model.documentation.as_deref()).contains(line), "L{line}");
+        let text = model.documentation.as_ref().map_or("", |own| own.text.as_str());
+        // `01.06.xx.yyy`, `1.6.0.zzzzz`: the letters stand for what isn't said.
+        let version =
+            |cell: &str| cell.split(".x").next().and_then(|own| own.split(".z").next()).unwrap_or_default().to_owned();
+        for (name, cell) in [("firmware", cells[2]), ("WorkBench", cells[3]), ("KAS IDE", cells[4])] {
+            let shown = format!("{name} {}", version(cell)).to_lowercase();
+            assert_eq!(text.to_lowercase().contains(&shown), cell != "-", "L{line} {shown}");
+        }
+        let is_pdmm = text.contains(&format!("AKD PDMM from its revision {} on", cells[1]));
+        assert_eq!(is_pdmm, cells[1] != "-", "L{line}");
+    }
+}
+
 #[test]
 fn registers_of_the_slave_controller() {
     let Some(manual) = manual() else { return };

@@ -283,6 +283,42 @@ fn every_parameter_is_there_at_its_line() {
     assert_eq!((kinds, found), ([38, 18, 2, 1], 57));
 }
 
+/// Numbers in several parameters: pairs of a more and a less significant part, and the offset with its sign and three parts.
+#[test]
+fn every_number_in_several_parameters_is_a_composite() {
+    let Some(manual) = manual() else { return };
+    let compilation = table();
+    let device = device(&compilation);
+    let printed = parameters(&manual);
+    let with = |words: &str| printed.iter().filter(|row| row.2.contains(words)).collect::<Vec<_>>();
+    let halves = with("significativa");
+    let mut expected: Vec<(Vec<&str>, Option<&str>)> = Vec::new();
+    for pair in halves.chunks(2) {
+        assert!(pair[0].2.contains("più") && pair[1].2.contains("meno"), "L{}", pair[0].1);
+        expected.push((pair.iter().map(|row| row.0.as_str()).collect(), None));
+    }
+    let offset = with("Offset di spazio in impulsi");
+    // What H6, H7 and H8 count.
+    let weights = ["decine di migliaia", "centinaia", "unità"];
+    assert!(offset.iter().zip(weights).all(|(row, weight)| row.2.contains(weight)));
+    let sign = with("Segno offset di spazio");
+    expected.push((offset.iter().map(|row| row.0.as_str()).collect(), Some(sign[0].0.as_str())));
+    let of_table =
+        |own: &lexibus_codegen::ir::Composite| (own.parts.clone(), own.sign.as_ref().map(|own| own.0.clone()));
+    let own: Vec<_> = device.composites.iter().map(of_table).collect();
+    let own: Vec<(Vec<&str>, Option<&str>)> =
+        own.iter().map(|(parts, sign)| (parts.iter().map(|own| own.as_str()).collect(), sign.as_deref())).collect();
+    assert_eq!((own.len(), own), (5, expected));
+    assert!(device.composites.iter().all(|own| own.base == 100));
+    for row in halves.iter().chain(&offset).chain(&sign) {
+        let own = device
+            .composites
+            .iter()
+            .find(|own| own.parts.iter().chain(own.sign.as_ref().map(|own| &own.0)).any(|part| *part == row.0));
+        assert!(cites(own.expect("a composite").documentation.as_deref(), row.1), "L{} {}", row.1, row.0);
+    }
+}
+
 #[test]
 fn the_command_that_saves_has_an_address_of_its_own() {
     let compilation = with_choices(&[("register_base", "siemens"), ("parameter_base", "siemens")]);

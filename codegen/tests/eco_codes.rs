@@ -5,10 +5,24 @@ mod eco_support;
 use std::collections::BTreeSet;
 
 use eco_support::*;
-use lexibus_codegen::ir::{CodeRow, CodeTable, Device, Shape, Value};
+use lexibus_codegen::ir::{
+    BitFieldEntry, BitMeaning, CodeRow, CodeTable, Device, EnumValue, Shape, Trigger, Value, Zone,
+};
 
 fn codes<'d>(device: &'d Device, name: &str) -> &'d CodeTable {
     device.code_tables.iter().find(|own| own.name == name).expect("a table of codes")
+}
+
+fn fields<'d>(device: &'d Device, name: &str) -> &'d [BitFieldEntry] {
+    let definition = device.types.iter().find(|own| own.name == name).expect("a type");
+    let Shape::BitField { fields, .. } = &definition.shape else { panic!("{name}") };
+    fields
+}
+
+fn values<'d>(device: &'d Device, name: &str) -> &'d [EnumValue] {
+    let definition = device.types.iter().find(|own| own.name == name).expect("a type");
+    let Shape::Enumeration { values, .. } = &definition.shape else { panic!("{name}") };
+    values
 }
 
 fn text(value: Option<&Value>) -> String {
@@ -97,11 +111,7 @@ fn modes_profiles_and_bit_rates_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
     let compilation = table();
     let device = device(&compilation);
-    let values = |name: &str| {
-        let definition = device.types.iter().find(|own| own.name == name).expect("a type");
-        let Shape::Enumeration { values, .. } = &definition.shape else { panic!("{name}") };
-        values.iter().map(|own| own.value).collect::<BTreeSet<i128>>()
-    };
+    let values = |name: &str| values(device, name).iter().map(|own| own.value).collect::<BTreeSet<i128>>();
     let of_lines = |first, last| -> BTreeSet<i128> {
         let numbers =
             lines(&manual, first, last).map(|(_, text)| text.split([' ', ':']).next().unwrap_or_default().to_owned());
@@ -138,11 +148,7 @@ fn inputs_and_outputs_are_the_printed_ones() {
     let Some(manual) = manual() else { return };
     let compilation = table();
     let device = device(&compilation);
-    let bits_of = |name: &str| {
-        let definition = device.types.iter().find(|own| own.name == name).expect("a type");
-        let Shape::BitField { fields, .. } = &definition.shape else { panic!("{name}") };
-        fields
-    };
+    let bits_of = |name: &str| fields(device, name);
     for (name, tables, count) in
         [("DigitalInputs", [(1812, 1827), (4621, 4636)], 12), ("DigitalOutputs", [(1924, 1927), (4720, 4723)], 4)]
     {
@@ -204,5 +210,180 @@ fn pins_of_cn2_are_the_printed_ones() {
         assert_eq!(words[0], row.code.to_string(), "L{line}");
         assert_eq!(words[1].to_lowercase(), text(row.cells.first()), "L{line}");
         assert_eq!(words.len() > 2, row.cells.len() > 1, "L{line}");
+    }
+}
+
+/// The values of c9 that choose a bus, and those of E3, wherever they are printed.
+#[test]
+fn values_of_c9_and_e3_are_the_printed_ones() {
+    let Some(manual) = manual() else { return };
+    let compilation = table();
+    for (parameter, name, count) in [("c9", "Network", 4), ("e3", "Exceptions", 2)] {
+        let printed = lines(&manual, 1, manual.len()).filter_map(|(line, text)| {
+            let text = text.to_lowercase();
+            let (_, behind) = text.split_once(&format!("{parameter} = "))?;
+            let digits: String = behind.chars().take_while(char::is_ascii_digit).collect();
+            Some((digits.parse::<i128>().expect("a value"), line))
+        });
+        let printed: Vec<(i128, usize)> = printed.collect();
+        let own = values(device(&compilation), name);
+        assert_eq!((printed.len(), own.len()), (count, count), "{parameter}");
+        for (value, line) in printed {
+            let own = own.iter().find(|own| own.value == value).unwrap_or_else(|| panic!("L{line}"));
+            assert!(cites(own.documentation.as_deref(), line), "L{line}");
+        }
+    }
+}
+
+/// The mode that a meaning of a bit is of, by the words of its line.
+const MODES: [(&str, i128); 6] = [
+    ("Posizionatore", 1),
+    ("Controllo Velocità", 3),
+    ("Zero ", 6),
+    ("Interpolatore", 7),
+    ("Asse elettrico", -2),
+    ("Save/load", -50),
+];
+
+/// Bits of the vendor's control word and status word: the bits, and their meanings by mode.
+#[test]
+fn bits_of_control_and_status_word_are_the_printed_ones() {
+    let Some(manual) = manual() else { return };
+    let compilation = table();
+    for (name, first, last, counts, edges) in
+        [("DriveCommand", 47, 67, (8, 13), 4), ("DriveStatus", 142, 162, (8, 15), 0)]
+    {
+        let own = fields(device(&compilation), name);
+        let (mut bit, mut bits, mut meanings, mut rising) = (0, BTreeSet::new(), 0, 0);
+        for (line, text) in lines(&manual, first, last) {
+            let mode = MODES.iter().find(|(word, _)| text.contains(word)).map(|own| own.1);
+            let begins = text.strip_prefix("bit ").and_then(|rest| rest.split(' ').next());
+            bit = begins.map_or(bit, |digits| digits.parse().expect("a bit"));
+            // The rest of the line above.
+            if begins.is_none() && mode.is_none() {
+                continue;
+            }
+            let found = own.iter().find(|own| own.offset == bit && cites(own.documentation.as_deref(), line));
+            let found = found.unwrap_or_else(|| panic!("L{line}: {name} has no bit {bit}"));
+            let when: Vec<i128> = found.when.iter().flat_map(|own| &own.values).filter_map(Value::as_int).collect();
+            assert_eq!(when, Vec::from_iter(mode), "L{line}");
+            let label = found.names.first().map_or("", |own| own.text.as_str()).replace(' ', "").to_lowercase();
+            assert!(text.replace(' ', "").to_lowercase().contains(&label), "L{line} {label}");
+            let is_edge = text.contains("0 \u{FFFD} 1") || text.contains("0\u{FFFD} 1");
+            assert_eq!(found.trigger == Some(Trigger::Rising), is_edge, "L{line}");
+            rising += usize::from(is_edge);
+            bits.insert(bit);
+            meanings += 1;
+        }
+        assert_eq!(((bits.len(), meanings), rising), (counts, edges), "{name}");
+        let named = own.iter().filter(|own| !matches!(own.meaning, BitMeaning::Reserved { .. }));
+        assert_eq!(named.count(), meanings, "{name}");
+    }
+}
+
+/// Bits of 0x6040 and 0x6041 that are the vendor's.
+#[test]
+fn bits_of_the_vendor_in_words_of_402_are_the_printed_ones() {
+    let Some(manual) = manual() else { return };
+    let compilation = table();
+    for (name, first, last, expected) in
+        [("Controlword", 3911, 3921, [11, 12, 14]), ("Statusword", 3923, 3939, [8, 14, 15])]
+    {
+        let printed = lines(&manual, first, last).filter_map(|(line, text)| {
+            let rest = text.strip_prefix("o bit ")?;
+            Some((line, rest.split(':').next()?.parse::<u8>().expect("a bit")))
+        });
+        let printed: Vec<(usize, u8)> = printed.collect();
+        assert_eq!(printed.iter().map(|own| own.1).collect::<Vec<_>>(), expected, "{name}");
+        for (line, bit) in printed {
+            let own = fields(device(&compilation), name).iter().find(|own| own.offset == bit).expect("a bit");
+            assert!(cites(own.documentation.as_deref(), line), "L{line}");
+            assert!(!matches!(own.meaning, BitMeaning::Reserved { .. }), "L{line}");
+            // A transition is printed of bit 14 only.
+            let is_edge = manual[line - 1].contains("transizione da 0 a 1") && name == "Controlword";
+            assert_eq!(own.trigger == Some(Trigger::Rising), is_edge, "L{line}");
+        }
+    }
+}
+
+#[test]
+fn bits_of_the_error_register_are_the_printed_ones() {
+    let Some(manual) = manual() else { return };
+    let compilation = table();
+    let mut printed: Vec<(u8, String, usize)> = Vec::new();
+    for (line, text) in lines(&manual, 2978, 2999).filter(|(_, text)| !text.is_empty()) {
+        let digits = text.split(' ').next().and_then(|own| own.parse().ok());
+        match (digits, printed.last_mut()) {
+            (Some(bit), _) => printed.push((bit, text[1..].trim().to_lowercase(), line)),
+            (None, Some(row)) => row.1 += &format!(" {}", text.to_lowercase()),
+            _ => panic!("L{line}"),
+        }
+    }
+    let own = fields(device(&compilation), "ErrorRegister");
+    assert_eq!((printed.len(), own.len()), (8, 8));
+    for ((bit, cause, line), own) in printed.iter().zip(own) {
+        assert!(own.offset == *bit && cites(own.documentation.as_deref(), *line), "L{line}");
+        match own.meaning {
+            BitMeaning::Reserved { write } => assert_eq!((cause.as_str(), write), ("reserved (always 0)", Some(false))),
+            _ => assert_eq!(own.name, cause.trim(), "L{line}"),
+        }
+    }
+}
+
+#[test]
+fn transmission_types_are_the_printed_ones() {
+    let Some(manual) = manual() else { return };
+    let compilation = table();
+    let mut printed: Vec<(usize, String)> = Vec::new();
+    for (line, text) in lines(&manual, 2749, 2767).filter(|(_, text)| !text.is_empty()) {
+        match printed.last_mut() {
+            Some(row) if !text.starts_with(|c: char| c.is_ascii_digit()) => row.1 += &format!(" {text}"),
+            _ => printed.push((line, text.to_owned())),
+        }
+    }
+    let own = values(device(&compilation), "TransmissionType");
+    assert_eq!((printed.len(), own.len()), (6, 6));
+    for ((line, text), own) in printed.iter().zip(own) {
+        let (numbers, kind) = text.split_once(' ').expect("numbers and a kind");
+        let ends: Vec<i128> = numbers.split("...").map(|number| number.parse().expect("a type")).collect();
+        assert_eq!((own.value, own.last), (ends[0], ends.get(1).copied()), "L{line}");
+        assert!(cites(own.documentation.as_deref(), *line), "L{line}");
+        match own.zone {
+            Some(zone) => assert_eq!((zone, kind), (Zone::Reserved, "reserved"), "L{line}"),
+            None => assert_eq!(own.name, kind.replace("RTR only", "on request"), "L{line}"),
+        }
+    }
+}
+
+/// Outputs of the miniECO (L1941-1944, again L4738-4741): two of the four have no function.
+#[test]
+fn outputs_of_the_mini_eco_are_the_printed_ones() {
+    let Some(manual) = manual() else { return };
+    let compilation = table();
+    let own = fields(device(&compilation), "DigitalOutputs");
+    for (first, last) in [(1941, 1944), (4738, 4741)] {
+        let mut without = 0;
+        for (line, text) in lines(&manual, first, last) {
+            let mut words = text.splitn(3, ' ');
+            let mut number = || words.next().and_then(|own| own.parse::<u8>().ok()).expect("a number");
+            let (pin, bit) = (number(), number());
+            let function = words.next().unwrap_or_default();
+            let of_model = |field: &&BitFieldEntry| {
+                let models = field.availability.as_ref().map_or(&[][..], |own| &own.models);
+                field.offset == bit && (models.is_empty() || models.iter().any(|own| own == "miniECO"))
+            };
+            let found: Vec<_> = own.iter().filter(of_model).collect();
+            assert_eq!(found.len(), 1, "L{line}");
+            let doc = found[0].documentation.as_ref().expect("a text");
+            assert!(cites(Some(doc), line) && doc.text.starts_with(&format!("Pin {pin}")), "L{line}");
+            assert_eq!(doc.text.contains("no function on the miniECO"), function.is_empty(), "L{line}");
+            let orig = found[0].names.first().map(|own| own.text.as_str());
+            match function {
+                "" => without += 1,
+                "Brake / Digital Out" => assert_eq!(found[0].name, "brake"),
+                function => assert_eq!(orig, Some(function)),
+            }
+        }
+        assert_eq!(without, 2, "L{first}");
     }
 }

@@ -216,6 +216,64 @@ fn pdos_of_ethercat_are_the_printed_ones() {
     assert_eq!(canopen.count(), 8);
 }
 
+/// A slot of the ESI as it is printed: its PDOs, with what they map.
+struct Slot {
+    name: String,
+    line: usize,
+    pdos: Vec<(u16, Vec<Mapped>)>,
+}
+
+/// The slots of the ESI (L5598-5649): a mode of operation, a PDO each way, and what these map.
+#[test]
+fn slots_of_ethercat_are_the_printed_ones() {
+    let Some(manual) = manual() else { return };
+    let compilation = table();
+    let device = device(&compilation);
+    let mut printed: Vec<Slot> = Vec::new();
+    let mut modes: BTreeMap<String, i128> = BTreeMap::new();
+    for (line, text) in lines(&manual, 5598, 5649) {
+        let indices = hex_numbers(text, 4);
+        if let Some((name, value)) = text.strip_prefix("- 0x6060 per ").and_then(|rest| rest.split_once('=')) {
+            modes.insert(name.trim().to_owned(), value.trim().parse().expect("a mode"));
+        } else if let Some((name, _)) = text.strip_prefix("- ").and_then(|rest| rest.split_once(':')) {
+            printed.push(Slot { name: name.to_owned(), line, pdos: Vec::new() });
+        } else if text.starts_with("oggetto 0x") {
+            printed.last_mut().expect("a slot").pdos.push((indices[0] as u16, Vec::new()));
+        } else if let Some((_, rest)) = text.split_once('(') {
+            let bytes: u32 = rest[..1].parse().expect("bytes");
+            let sub = text.rsplit("sub").next().and_then(|own| own[..1].parse().ok()).expect("a sub-index");
+            let pdo = printed.last_mut().and_then(|own| own.pdos.last_mut()).expect("a PDO");
+            pdo.1.push((indices[0] as u16, sub, bytes * 8));
+        }
+    }
+    assert_eq!((printed.len(), modes.len()), (3, 4));
+    let slots = device.procedures.iter().filter(|own| own.name.starts_with("slot_"));
+    assert_eq!(slots.clone().count(), 3);
+    for (slot, Slot { name, line, pdos }) in slots.zip(&printed) {
+        assert_eq!(slot.names.first().map(|own| own.text.as_str()), Some(name.as_str()), "L{line}");
+        assert!(cites(slot.documentation.as_deref(), *line), "L{line}");
+        let written = |item: &str| {
+            let write = |step: &Step| match step {
+                Step::Write(own, value) if own == item => value.as_int(),
+                _ => None,
+            };
+            slot.steps.iter().filter_map(write).collect::<Vec<_>>()
+        };
+        assert_eq!(written("modes_of_operation"), [modes[name]], "L{line}");
+        // The TxPDO is printed first.
+        assert_eq!(pdos.len(), 2, "L{line}");
+        for ((index, entries), assign) in pdos.iter().zip(["0x1C13", "0x1C12"]) {
+            assert_eq!(written(&format!("{assign}:0")), [0, 1], "L{line}");
+            assert_eq!(written(&format!("{assign}:1")), [i128::from(*index)], "L{line}");
+            let is_it =
+                |pdo: &&lexibus_codegen::ir::Pdo| pdo.mapping_index == *index && pdo.buses == Some(ObjectBuses::COE);
+            let pdo = device.process_data.pdos.iter().find(is_it).expect("a PDO");
+            let own: Vec<Mapped> = pdo.entries.iter().map(|own| (own.index, own.sub_index, own.bits)).collect();
+            assert_eq!(own, *entries, "L{line} 0x{index:04X}");
+        }
+    }
+}
+
 /// What the examples write by SDO is what procedures, or values of the items, can hold.
 #[test]
 fn what_the_examples_write_can_be_written() {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use lexibus_codegen::ir::{BitMeaning, EnumValue, Outcome, Shape, Value};
 
-use super::hsd_support::{cells, device, line, number, original, table, values, Manual};
+use super::hsd_support::{cells, chapter, device, doubts, line, number, original, table, values, Manual};
 
 #[test]
 fn alarms_and_warnings() {
@@ -97,6 +97,8 @@ fn bits_are_the_printed_ones() {
     let rows: Vec<_> = [(1618, 1631), (1633, 1635)].iter().flat_map(|(from, to)| manual.rows(*from, *to)).collect();
     let rows: Vec<_> = rows.into_iter().filter(|(_, cells)| number(&cells[0]).is_some()).collect();
     assert_eq!((rows.len(), fields("BitA").len()), (13, 13));
+    let items = &chapter(device, "Parameters").items;
+    let default = &items.iter().find(|own| own.name == "BIT_A").expect("the parameter").default;
     for (at, cells) in &rows {
         let own = fields("BitA").iter().find(|own| Some(i128::from(own.offset)) == number(&cells[0])).expect("a bit");
         let availability = own.availability.as_ref();
@@ -104,6 +106,9 @@ fn bits_are_the_printed_ones() {
             (availability.map_or(0, |own| own.models.len()), availability.and_then(|own| own.since.as_deref()));
         let text = &cells[2];
         assert_eq!(matches!(own.meaning, BitMeaning::Reserved { .. }), text.starts_with("Riservato."), "L{at}");
+        // The second column is the default.
+        let default = default.as_ref().and_then(Value::as_int).expect("a default");
+        assert_eq!(number(&cells[1]), Some(default >> own.offset & 1), "L{at}");
         let only = match () {
             () if text.starts_with("Solo per SM140 e SM137 rev. C") => 2,
             () if text.starts_with("Solo per SM140") => 1,
@@ -119,6 +124,62 @@ fn bits_are_the_printed_ones() {
             let bit = number(cells[0].trim_start_matches("Bit "));
             let own = fields(name).iter().find(|own| Some(i128::from(own.offset)) == bit).expect("a bit");
             assert!(name != "BitStato" || original(&own.names) == cells[1], "{cells:?}");
+        }
+    }
+}
+
+/// Levels of the digital inputs: a bit of INVDIN, a voltage, and what the signal is then.
+#[test]
+fn levels_of_inputs_are_the_printed_ones() {
+    let Some(manual) = Manual::read() else { return };
+    let compilation = table();
+    let device = device(&compilation);
+    let rows = manual.rows(2237, 2240);
+    assert_eq!(rows.len(), 4);
+    let definition = device.types.iter().find(|own| own.name == "InvertedInputs").expect("bits");
+    let doc = definition.documentation.as_ref().expect("a text");
+    assert!(doc.text.contains("A bit that is 1 inverts its input: 0 V is high then, 24 V low"));
+    assert_eq!(doc.cite.as_deref(), Some("2225-2262"));
+    for (at, cells) in rows {
+        let is_inverted = number(&cells[0]) == Some(1);
+        // 1 V is printed once, and is a doubt.
+        let is_odd = cells[1] == "1";
+        assert_eq!(is_odd, at == 2237, "L{at}");
+        assert!(!is_odd || doubts(device).iter().any(|own| own.contains("a voltage of 1 is low (L2237)")));
+        let has_voltage = number(&cells[1]) == Some(24);
+        assert_eq!(cells[2], if has_voltage != is_inverted { "Alto" } else { "Basso" }, "L{at}");
+    }
+}
+
+/// The patterns of interpolation, from the master and from the motor.
+#[test]
+fn patterns_of_interpolation_are_the_printed_ones() {
+    let Some(manual) = Manual::read() else { return };
+    let compilation = table();
+    let machine = device(&compilation).machines.iter().find(|own| own.name == "interpolation").expect("the machine");
+    let tables = [(2275, 2283, &machine.commands, 8), (2288, 2298, &machine.states, 10)];
+    for (from, to, own, count) in tables {
+        let rows = manual.rows(from, to);
+        // The head names the bits.
+        let over: Vec<u32> = manual.rows(from - 1, from - 1)[0].1[1..]
+            .iter()
+            .filter_map(|cell| cell.strip_prefix("Bit ").and_then(|bit| bit.parse().ok()))
+            .collect();
+        assert_eq!((rows.len(), own.len()), (count, count), "L{from}");
+        for ((at, cells), own) in rows.iter().zip(own) {
+            assert_eq!(line(own.documentation.as_ref().and_then(|own| own.cite.as_deref())), *at);
+            let (mut mask, mut value) = (0, 0);
+            for (bit, cell) in over.iter().zip(&cells[1..]) {
+                mask |= u32::from(cell != "x") << bit;
+                value |= u32::from(cell == "1") << bit;
+            }
+            // S6 leaves bit 2 open, which is the second S5: a doubt.
+            if *at == 2296 {
+                assert_eq!((mask, value), (0xF2, 0x82));
+                (mask, value) = (0xF6, 0x86);
+            }
+            assert_eq!((own.mask, own.value), (mask, value), "L{at} {}", own.name);
+            assert_eq!(original(&own.names), cells.last().expect("a cell"), "L{at}");
         }
     }
 }
