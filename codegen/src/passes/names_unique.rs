@@ -29,6 +29,19 @@ pub struct Wish<'a> {
     pub suffix: String,
 }
 
+impl<'a> Wish<'a> {
+    /// Of an element that `suffix` tells from others, and that goes by it and its kind where it has no usable name.
+    pub fn new(name: &'a str, kind: &str, suffix: impl ToString) -> Self {
+        let suffix = suffix.to_string();
+        Wish { name, fallback: format!("{kind} {suffix}"), suffix }
+    }
+}
+
+/// Wishes for elements of a kind that nothing but their position tells apart, which is counted from 0.
+pub fn numbered<'a>(names: impl IntoIterator<Item = &'a str>, kind: &str) -> Vec<Wish<'a>> {
+    names.into_iter().enumerate().map(|(position, name)| Wish::new(name, kind, position)).collect()
+}
+
 /// Identifiers for all of `wishes`, in their order; none of them is in `reserved`. Longer names are cut at a word.
 pub fn unique(wishes: &[Wish<'_>], reserved: &[&str], case: Case) -> Vec<String> {
     unique_up_to(wishes, reserved, case, MAX_LENGTH)
@@ -264,10 +277,7 @@ mod tests {
     }
 
     fn names(wanted: &[(&str, &str)]) -> Vec<String> {
-        let wishes: Vec<Wish<'_>> = wanted
-            .iter()
-            .map(|&(name, suffix)| Wish { name, fallback: format!("object {suffix}"), suffix: suffix.into() })
-            .collect();
+        let wishes: Vec<Wish<'_>> = wanted.iter().map(|&(name, suffix)| Wish::new(name, "object", suffix)).collect();
         unique(&wishes, &["new"], Case::Snake)
     }
 

@@ -237,11 +237,7 @@ pub(super) fn model(
 }
 
 fn view_methods(views: &[View], taken: &[&str]) -> Vec<String> {
-    let words = views.iter().map(|view| view.words.as_str());
-    let wishes: Vec<Wish<'_>> = words
-        .enumerate()
-        .map(|(number, name)| Wish { name, fallback: format!("view {number}"), suffix: number.to_string() })
-        .collect();
+    let wishes = names_unique::numbered(views.iter().map(|view| view.words.as_str()), "view");
     names_unique::unique(&wishes, taken, Case::Snake)
 }
 
@@ -328,8 +324,7 @@ impl Context<'_, '_> {
             .enumerate()
             .map(|(position, entry)| {
                 let place = if is_again(position, entry) { format!("_{position}") } else { String::new() };
-                let suffix = format!("{}{place}", entry.offset);
-                Wish { name: &entry.name, fallback: format!("bit {suffix}"), suffix }
+                Wish::new(&entry.name, "bit", format!("{}{place}", entry.offset))
             })
             .collect();
         let names = names_unique::unique(&wishes, reserved, Case::Snake);

@@ -69,8 +69,7 @@ fn module_names(modules: &[(ModuleId, &Module)]) -> Vec<String> {
             let name = if module.id.is_empty() { &module.name } else { &module.id };
             let twice = modules.iter().filter(|(_, other)| other.number == module.number).count() > 1;
             let place = if twice { format!("_{}", id.0) } else { String::new() };
-            let ident = format!("{:08X}{place}", module.number);
-            Wish { name, fallback: format!("module {ident}"), suffix: ident }
+            Wish::new(name, "module", format!("{:08X}{place}", module.number))
         })
         .collect();
     escaped(names_unique::unique(&wishes, &RESERVED, Case::Snake))
@@ -93,8 +92,7 @@ fn device_names(devices: &[Device], file: &FileInfo) -> Vec<String> {
             let product =
                 devices.iter().zip(&names).filter(|(other, own)| *own == name && same_name(other)).count() > 1;
             let product = if product { format!("{:08X}_", identity.product_code.unwrap_or(0)) } else { String::new() };
-            let suffix = format!("{product}{revision:08X}{place}");
-            Wish { name, fallback: format!("device {suffix}"), suffix }
+            Wish::new(name, "device", format!("{product}{revision:08X}{place}"))
         })
         .collect();
     escaped(names_unique::unique(&wishes, &RESERVED, Case::Snake))

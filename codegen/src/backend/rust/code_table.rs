@@ -7,7 +7,7 @@ use super::literal;
 use super::manual::{self, Manual};
 use super::options::RustOptions;
 use crate::ir::{CodeRow, CodeTable, Value};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::passes::names_unique::{self, Case};
 
 /// A table, ready to be written.
 pub(super) struct CodeTableModel {
@@ -20,11 +20,7 @@ pub(super) struct CodeTableModel {
 
 pub(super) fn models(tables: &[CodeTable], manual: &Manual, options: &RustOptions) -> Vec<CodeTableModel> {
     let tables: Vec<&CodeTable> = tables.iter().filter(|table| !table.rows.is_empty()).collect();
-    let wish = |(number, table)| {
-        let table: &&CodeTable = table;
-        Wish { name: &table.name, fallback: format!("codes {number}"), suffix: format!("{number}") }
-    };
-    let wishes: Vec<Wish<'_>> = tables.iter().enumerate().map(wish).collect();
+    let wishes = names_unique::numbered(tables.iter().map(|table| table.name.as_str()), "codes");
     let names = names_unique::unique(&wishes, &bus_facts::RESERVED, Case::Snake);
     let types = names_unique::unique(&wishes, &["Self"], Case::Pascal);
     let named = tables.iter().zip(names.iter().zip(types));

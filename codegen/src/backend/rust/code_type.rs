@@ -51,10 +51,8 @@ pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOpt
     let low = rows.iter().map(|(span, _)| span.0).min()?;
     let high = rows.iter().map(|(span, _)| span.1).max()?;
     let (native, first, last) = *NATIVES.iter().find(|native| native.1 <= low && high <= native.2)?;
-    let wish = |(span, row): &(Span, &'a CodeRow)| {
-        let number = span.0.to_string().replace('-', "Minus");
-        Wish { name: &row.name, fallback: format!("code {number}"), suffix: number }
-    };
+    let wish =
+        |(span, row): &(Span, &'a CodeRow)| Wish::new(&row.name, "code", span.0.to_string().replace('-', "Minus"));
     let wishes: Vec<Wish<'a>> = rows.iter().map(wish).collect();
     let names = names_unique::unique(&wishes, &RESERVED, Case::Pascal);
     let spans: Vec<Span> = rows.iter().map(|(span, _)| *span).collect();

@@ -4,21 +4,17 @@ use super::bus_facts::{self, FactModel};
 use super::data::Data;
 use super::docs;
 use crate::ir::Composite;
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::passes::names_unique::{self, Case};
 
 /// Names of constants that stand beside them.
 const BESIDE: [&str; 6] = ["device", "axes", "module", "entries", "identity", "node_id"];
 
 /// `nest` is how far the text is moved to the right afterwards.
 pub(super) fn models(composites: &[Composite], nest: usize) -> Vec<FactModel> {
-    let wishes: Vec<Wish<'_>> = composites.iter().enumerate().map(wish).collect();
+    let wishes = names_unique::numbered(composites.iter().map(|own| own.name.as_str()), "composite");
     let reserved: Vec<&str> = bus_facts::RESERVED.iter().chain(&BESIDE).copied().collect();
     let names = names_unique::unique(&wishes, &reserved, Case::Snake);
     composites.iter().zip(names).map(|(own, name)| model(own, &name.to_ascii_uppercase(), nest)).collect()
-}
-
-fn wish((number, own): (usize, &Composite)) -> Wish<'_> {
-    Wish { name: &own.name, fallback: format!("composite {number}"), suffix: number.to_string() }
 }
 
 fn model(own: &Composite, name: &str, nest: usize) -> FactModel {

@@ -87,10 +87,7 @@ pub(super) fn model(
 fn variants(values: &[&EnumValue], manual: &Manual) -> Vec<VariantModel> {
     let wishes: Vec<Wish<'_>> = values
         .iter()
-        .map(|value| {
-            let number = value.value.to_string().replace('-', "Minus");
-            Wish { name: &value.name, fallback: format!("value {number}"), suffix: number }
-        })
+        .map(|value| Wish::new(&value.name, "value", value.value.to_string().replace('-', "Minus")))
         .collect();
     let names = names_unique::unique(&wishes, &RESERVED, Case::Pascal);
     let variant = |(value, name): (&&EnumValue, String)| {

@@ -69,8 +69,7 @@ fn units(device: &Device, field: &dyn Fn(&str) -> Option<String>) -> Vec<UnitMod
     let texts: Vec<[String; 2]> = found.iter().map(|(from, to)| [words(from), words(&to.unit)]).collect();
     let texts: Vec<String> =
         texts.iter().flat_map(|[from, to]| [format!("{from} to {to}"), format!("{to} to {from}")]).collect();
-    let wishes: Vec<Wish<'_>> =
-        texts.iter().enumerate().map(|(at, name)| Wish { suffix: at.to_string(), ..wish(name) }).collect();
+    let wishes = names_unique::numbered(texts.iter().map(String::as_str), "conversion");
     let names = names_unique::unique(&wishes, &["self"], Case::Snake);
     let expression = |times: &[_], over: &[_]| -> Option<String> {
         let mut text = "value".to_owned();

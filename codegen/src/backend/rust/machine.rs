@@ -184,15 +184,7 @@ fn patterns(
     if list.is_empty() {
         return None;
     }
-    let wishes: Vec<Wish<'_>> = list
-        .iter()
-        .enumerate()
-        .map(|(number, own)| Wish {
-            name: &own.name,
-            fallback: format!("pattern {number}"),
-            suffix: number.to_string(),
-        })
-        .collect();
+    let wishes = names_unique::numbered(list.iter().map(|own| own.name.as_str()), "pattern");
     let names = names_unique::unique(&wishes, &["Self"], Case::Pascal);
     let hexadecimal =
         |number: u32| if number == 0 { "0".to_owned() } else { format!("{number:#X}").replacen("0X", "0x", 1) };

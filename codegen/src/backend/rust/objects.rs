@@ -50,14 +50,8 @@ pub(super) fn models(scope: &Scope<'_>, locations: &Locations) -> Vec<ObjectMode
 
 /// The names of the registers, and then those of the objects.
 fn names<'i>(scope: &Scope<'_>, registers: &[(&'i str, &'i Item)], groups: &[&'i Group]) -> Vec<String> {
-    let register = |(_, item): &(&'i str, &'i Item)| {
-        let suffix = Place::of(scope, item).suffix();
-        Wish { name: &item.name, fallback: format!("register {suffix}"), suffix }
-    };
-    let object = |group: &&'i Group| {
-        let index = group.index().unwrap_or(0);
-        Wish { name: &group.name, fallback: format!("object {index:04X}"), suffix: format!("{index:04X}") }
-    };
+    let register = |(_, item): &(&'i str, &'i Item)| Wish::new(&item.name, "register", Place::of(scope, item).suffix());
+    let object = |group: &&'i Group| Wish::new(&group.name, "object", format!("{:04X}", group.index().unwrap_or(0)));
     let wishes: Vec<Wish<'_>> = registers.iter().map(register).chain(groups.iter().map(object)).collect();
     let has_messages = scope.device.is_some_and(|device| !device.messages.is_empty());
     let beside = BESIDE_MESSAGES.into_iter().filter(|_| has_messages);
@@ -101,14 +95,8 @@ fn object(scope: &Scope<'_>, locations: &Locations, group: &Group, name: &str) -
 }
 
 fn sub_items(scope: &Scope<'_>, locations: &Locations, group: &Group) -> Vec<ItemModel> {
-    let wishes: Vec<Wish<'_>> = group
-        .items
-        .iter()
-        .map(|item| {
-            let sub = item.object().map_or(0, |(_, sub)| sub);
-            Wish { name: &item.name, fallback: format!("sub {sub}"), suffix: sub.to_string() }
-        })
-        .collect();
+    let wishes: Vec<Wish<'_>> =
+        group.items.iter().map(|item| Wish::new(&item.name, "sub", item.object().map_or(0, |(_, sub)| sub))).collect();
     let names = names_unique::unique(&wishes, &RESERVED_IN_OBJECT, Case::Snake);
     let items = group.items.iter().zip(names);
     items.map(|(sub, name)| item::model(scope, locations, sub, &name, &sub.name, "super::super::")).collect()

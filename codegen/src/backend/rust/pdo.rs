@@ -101,8 +101,7 @@ fn names_by_source(scope: &Scope<'_>, wanted: impl Fn(&Pdo) -> bool, taken: &[St
         .map(|pdo| {
             // One index twice, on two sync managers, is a fault of the description.
             let twice = if seen.insert(pdo.mapping_index) { String::new() } else { format!("_{}", pdo.origin.line) };
-            let index = format!("{:04X}{twice}", pdo.mapping_index);
-            Wish { name: &pdo.name, fallback: format!("{} {index}", prefix(pdo.direction)), suffix: index }
+            Wish::new(&pdo.name, prefix(pdo.direction), format!("{:04X}{twice}", pdo.mapping_index))
         })
         .collect();
     let reserved: Vec<&str> = RESERVED.iter().copied().chain(taken.iter().map(String::as_str)).collect();

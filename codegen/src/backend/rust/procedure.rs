@@ -3,7 +3,7 @@
 use super::docs;
 use super::scope::{ObjectBus, Scope};
 use crate::ir::{Binding, Device, Item, Procedure, Step, Type, Value};
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::passes::names_unique::{self, Case};
 
 /// A procedure, ready to be written.
 pub(super) struct ProcedureModel {
@@ -16,15 +16,7 @@ pub(super) struct ProcedureModel {
 pub(super) fn models(scope: &Scope<'_>, device: &Device) -> Vec<ProcedureModel> {
     let own = device.procedures.iter();
     let own: Vec<(&Procedure, Vec<String>)> = own.filter_map(|own| Some((own, writes(scope, own)?))).collect();
-    let wish = |(number, (own, _)): (usize, &(&Procedure, Vec<String>))| {
-        // Borrowed from the device, not from the list.
-        (own.name.to_string(), format!("procedure {number}"), number.to_string())
-    };
-    let words: Vec<(String, String, String)> = own.iter().enumerate().map(wish).collect();
-    let wishes: Vec<Wish<'_>> = words
-        .iter()
-        .map(|(name, fallback, suffix)| Wish { name, fallback: fallback.clone(), suffix: suffix.clone() })
-        .collect();
+    let wishes = names_unique::numbered(own.iter().map(|(own, _)| own.name.as_str()), "procedure");
     let names = names_unique::unique(&wishes, &["rt"], Case::Snake);
     own.into_iter()
         .zip(names)

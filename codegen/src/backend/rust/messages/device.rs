@@ -5,7 +5,7 @@ use super::MessageModel;
 use crate::backend::rust::literal;
 use crate::ir::Message;
 use crate::passes::messages_shaped::Shaped;
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::passes::names_unique::{self, Case};
 
 /// More arguments than clippy likes.
 const MAX_ARGUMENTS: usize = 6;
@@ -36,12 +36,10 @@ pub(in crate::backend::rust) struct DefaultModel {
 /// The methods for all requests.
 pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Rules, taken: &[&str]) -> Vec<CallModel> {
     let with = || shaped.iter().zip(messages).filter_map(|(own, model)| Some((own, model, model.request.as_ref()?)));
-    let wish = |(at, (own, ..)): (usize, (&Shaped<'_>, _, _))| (own.message.name.to_string(), at);
-    let names: Vec<(String, usize)> = with().enumerate().map(|(at, own)| wish((at, own))).collect();
-    let wishes: Vec<Wish<'_>> = names
-        .iter()
-        .map(|(name, at)| Wish { name, fallback: format!("message {at}"), suffix: format!("message_{at}") })
-        .collect();
+    let mut wishes = names_unique::numbered(with().map(|(own, ..)| own.message.name.as_str()), "message");
+    for wish in &mut wishes {
+        wish.suffix.insert_str(0, "message_");
+    }
     let names = names_unique::unique(&wishes, taken, Case::Snake);
     let mut calls = Vec::new();
     for ((own, model, request), name) in with().zip(names) {

@@ -10,7 +10,7 @@ use crate::backend::rust::value_type::{native, ValueType};
 use crate::backend::rust::variant;
 use crate::ir::{Item, MessageValue, Type};
 use crate::passes::messages_shaped::Step;
-use crate::passes::names_unique::{self, Case, Wish};
+use crate::passes::names_unique::{self, Case};
 
 /// The longest name of a field: the lines that write it have to stay below the margin.
 const MAX_NAME: usize = 24;
@@ -47,10 +47,7 @@ const SERDE_ARRAY: u32 = 32;
 /// The fields of these steps. `entry` is the name of the type of what is repeated, `lifetime` that of what is borrowed.
 pub(super) fn fields(scope: &Scope<'_>, steps: &[Step<'_>], entry: &str) -> Vec<Field> {
     let with: Vec<&Step<'_>> = steps.iter().filter(|step| name(step).is_some()).collect();
-    let wish = |(position, step): (usize, &&'_ Step<'_>)| (name(step).unwrap_or_default().to_owned(), position);
-    let names: Vec<(String, usize)> = with.iter().enumerate().map(wish).collect();
-    let wishes: Vec<Wish<'_>> =
-        names.iter().map(|(name, at)| Wish { name, fallback: format!("field {at}"), suffix: at.to_string() }).collect();
+    let wishes = names_unique::numbered(with.iter().map(|step| name(step).unwrap_or_default()), "field");
     let reserved = ["self", "super", "crate"];
     let names = names_unique::unique_up_to(&wishes, &reserved, Case::Snake, MAX_NAME);
     let all = with.iter().zip(&names).enumerate();

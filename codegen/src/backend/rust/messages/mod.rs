@@ -155,10 +155,7 @@ type Names = [String; 4];
 fn names(shapes: &[Shaped<'_>]) -> Vec<Names> {
     let wished = shapes.iter().enumerate().flat_map(|(at, own)| wished(own.message).map(|name| (name, at)));
     let wished: Vec<(String, usize)> = wished.collect();
-    let wishes: Vec<Wish<'_>> = wished
-        .iter()
-        .map(|(name, at)| Wish { name, fallback: format!("message {at}"), suffix: at.to_string() })
-        .collect();
+    let wishes: Vec<Wish<'_>> = wished.iter().map(|(name, at)| Wish::new(name, "message", at)).collect();
     let mut names = names_unique::unique(&wishes, &RESERVED, Case::Pascal).into_iter();
     shapes.iter().map(|_| std::array::from_fn(|_| names.next().unwrap_or_default())).collect()
 }

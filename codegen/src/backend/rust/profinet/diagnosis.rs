@@ -83,14 +83,8 @@ pub(super) struct UnitModel {
 /// User structures that have fields.
 pub(super) fn units(catalog: &Catalog, values: &Values<'_>, options: &RustOptions) -> Vec<UnitModel> {
     let units: Vec<&UnitDiagnosis> = catalog.unit_diagnoses.iter().filter(|unit| length(unit).is_some()).collect();
-    let wishes: Vec<Wish<'_>> = units
-        .iter()
-        .map(|unit| Wish {
-            name: &unit.name,
-            fallback: format!("structure {:04X}", unit.identifier),
-            suffix: format!("{:04X}", unit.identifier),
-        })
-        .collect();
+    let wishes: Vec<Wish<'_>> =
+        units.iter().map(|unit| Wish::new(&unit.name, "structure", format!("{:04X}", unit.identifier))).collect();
     let names = names_unique::unique_up_to(&wishes, &[], Case::Pascal, 40);
     let models = units.iter().zip(names).map(|(unit, name)| unit_model(unit, name, values, options));
     models.filter(|model| !model.fields.is_empty()).collect()

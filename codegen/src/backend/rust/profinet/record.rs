@@ -73,11 +73,7 @@ pub(super) fn models<'a>(groups: &'a [Group], values: &'a Values<'a>, options: &
     let records: Vec<(&Group, &Record)> = records.collect();
     let wishes: Vec<Wish<'_>> = records
         .iter()
-        .map(|(group, record)| Wish {
-            name: &group.name,
-            fallback: format!("parameter {:04X}", record.index),
-            suffix: format!("{:04X}", record.index),
-        })
+        .map(|(group, record)| Wish::new(&group.name, "parameter", format!("{:04X}", record.index)))
         .collect();
     let names = names_unique::unique_up_to(&wishes, &[], Case::Pascal, MAX_NAME);
     let all = records.into_iter().zip(names);
