@@ -42,6 +42,7 @@ pub(crate) mod texts;
 mod titles_are_no_names;
 pub(crate) mod values_checked;
 mod values_named_once;
+mod windows;
 mod windows_fit;
 mod windows_possible;
 
@@ -49,6 +50,7 @@ use crate::diagnostics::Diagnostics;
 use crate::ir::{Catalog, Device, Format, Module};
 pub(crate) use firmware_comparable::apart;
 use owner::Owner;
+use windows::Windows;
 
 /// Completes and checks every device of `catalog`.
 pub fn check(catalog: &mut Catalog, diagnostics: &mut Diagnostics) {
@@ -96,9 +98,16 @@ fn device(device: &mut Device, modules: &[Module], format: Option<Format>, diagn
         numbers_count_on::run(device, diagnostics);
         mentioned_objects_exist::run(device, diagnostics);
         names_in_texts_exist::run(device, diagnostics);
-        windows_fit::run(device, diagnostics);
-        windows_possible::run(device, diagnostics);
+        windows(device, diagnostics);
     }
+}
+
+/// The windows of a register table.
+fn windows(device: &Device, diagnostics: &mut Diagnostics) {
+    let groups = [device.groups.as_slice()];
+    let Some(windows) = Windows::of(Owner { types: &device.types, groups: &groups }) else { return };
+    windows_fit::run(&windows, &device.procedures, diagnostics);
+    windows_possible::run(&windows, diagnostics);
 }
 
 fn module(module: &mut Module, diagnostics: &mut Diagnostics) {

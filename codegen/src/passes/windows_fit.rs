@@ -3,51 +3,38 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use super::owner::{Index, Owner};
+use super::owner::Owner;
+use super::windows::{windows, Windows};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Binding, CompactString, Device, IndirectBinding, Item, Procedure, Step, Value, WindowSide};
+use crate::ir::{Binding, CompactString, Item, Procedure, Step, Value, WindowSide};
 use crate::text::brief;
 
-pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
-    let groups = [device.groups.as_slice()];
-    let owner = Owner { types: &device.types, groups: &groups };
-    if !owner.items().any(|item| windows(item).next().is_some()) {
-        return;
-    }
-    let index = Index::new(owner);
+pub(super) fn run(device: &Windows<'_>, procedures: &[Procedure], diagnostics: &mut Diagnostics) {
     let (mut narrow, mut seen) = (HashSet::new(), HashSet::new());
-    for item in owner.items() {
-        width(owner, &index, item, &mut narrow, diagnostics);
+    for item in &device.behind {
+        width(device, item, &mut narrow, diagnostics);
         for side in windows(item).filter_map(|window| window.write.as_ref()).filter(|side| seen.insert(*side)) {
-            let procedure = device.procedures.iter().find(|own| Some(&own.name) == side.procedure.as_ref());
-            order(&index, side, procedure, item, diagnostics);
+            let procedure = procedures.iter().find(|own| Some(&own.name) == side.procedure.as_ref());
+            order(device, side, procedure, item, diagnostics);
         }
     }
 }
 
-fn windows(item: &Item) -> impl Iterator<Item = &IndirectBinding> {
-    item.bindings.iter().filter_map(|binding| match binding {
-        Binding::Indirect(window) => Some(&**window),
-        _ => None,
-    })
-}
-
 /// Items with more bits than any of their windows has on a bus. One finding for each value stands for all its items.
 fn width<'d>(
-    owner: Owner<'d>,
-    index: &Index<'d>,
+    device: &Windows<'d>,
     item: &'d Item,
     told: &mut HashSet<&'d CompactString>,
     diagnostics: &mut Diagnostics,
 ) {
-    let bits_of = |item: &Item| owner.basic(item.ty).bits();
-    let Some(bits) = bits_of(item).map(|bits| bits.min(needed(owner, item))) else { return };
+    let bits_of = |item: &Item| device.owner.basic(item.ty).bits();
+    let Some(bits) = bits_of(item).map(|bits| bits.min(needed(device.owner, item))) else { return };
     // On each bus, the widest window counts.
     let mut widest: BTreeMap<(&str, &str), (u32, &CompactString)> = BTreeMap::new();
     for window in windows(item) {
         let sides = [("read", &window.read), ("written", &window.write)];
         for (verb, side) in sides.into_iter().filter_map(|(verb, side)| Some((verb, side.as_ref()?))) {
-            let Some(own) = index.find(&side.value).and_then(bits_of) else { continue };
+            let Some(own) = device.item(&side.value).and_then(bits_of) else { continue };
             for bus in &window.buses {
                 let entry = widest.entry((verb, bus)).or_insert((own, &side.value));
                 *entry = if own > entry.0 { (own, &side.value) } else { *entry };
@@ -67,16 +54,16 @@ fn width<'d>(
 /// A window, or its procedure, that writes the number first, where the device clears the number once it is done: it has begun
 /// before the value is there. The number and the value of a process image go together.
 fn order(
-    index: &Index<'_>,
+    device: &Windows<'_>,
     side: &WindowSide,
     procedure: Option<&Procedure>,
     item: &Item,
     diagnostics: &mut Diagnostics,
 ) {
-    let number = index.find(&side.number);
+    let number = device.item(&side.number);
     let is_cyclic = |own: &Item| own.bindings.iter().any(|binding| matches!(binding, Binding::Image { .. }));
     let by_row = number.and_then(|own| own.behaviour.as_ref()).is_some_and(|own| own.self_clearing);
-    if index.find(&side.value).is_some_and(is_cyclic) || !(by_row || side.clears == Some(true)) {
+    if device.item(&side.value).is_some_and(is_cyclic) || !(by_row || side.clears == Some(true)) {
         return;
     }
     let (address, value) = (brief(&side.number), brief(&side.value));

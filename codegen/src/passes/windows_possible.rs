@@ -1,44 +1,38 @@
 //! After this pass every window takes the numbers of the items that are behind it, and the values of those that are nowhere else.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 use super::owner::Owner;
+use super::windows::{windows, Windows};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Binding, Device, Item, Type};
+use crate::ir::{Binding, CompactString, Item, Type};
 use crate::text::brief;
 
-pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
-    let groups = [device.groups.as_slice()];
-    let owner = Owner { types: &device.types, groups: &groups };
-    let is_behind = |item: &&Item| item.bindings.iter().any(|binding| matches!(binding, Binding::Indirect(_)));
-    let behind: Vec<&Item> = owner.items().filter(is_behind).collect();
-    if behind.is_empty() {
-        return;
-    }
-    let mut items: HashMap<&str, &Item> = HashMap::new();
-    for item in owner.items() {
-        items.entry(item.name.as_str()).or_insert(item);
-    }
+pub(super) fn run(device: &Windows<'_>, diagnostics: &mut Diagnostics) {
+    // What a window names by an address or a path isn't looked at.
+    let by_name = |name: &CompactString| device.item(name);
     let mut told = HashSet::new();
-    for item in behind {
-        for binding in &item.bindings {
-            let Binding::Indirect(own) = binding else { continue };
-            for side in [&own.read, &own.write].into_iter().flatten() {
-                let parts = [(&side.number, "the number"), (&side.value, "the value")];
-                for (found, what) in parts.iter().filter_map(|(name, what)| Some((*items.get(name.as_str())?, *what))) {
-                    if integer(owner, found).is_none() && told.insert(found.name.as_str()) {
-                        let message = format!(
-                            "`{}` has {what} of a window, which is an integer of up to 64 bits",
-                            brief(&found.name)
-                        );
-                        diagnostics.push(Diagnostic::new(&codes::TABLE_VALUE, found.at.ty.or(found.at.name), message));
+    for item in &device.behind {
+        for window in windows(item) {
+            for side in [&window.read, &window.write].into_iter().flatten() {
+                let (taker, holder) = (by_name(&side.number), by_name(&side.value));
+                for (part, what) in [(taker, "the number"), (holder, "the value")] {
+                    let Some(part) = part.filter(|own| integer(device.owner, own).is_none()) else { continue };
+                    if told.insert(part.name.as_str()) {
+                        diagnostics.push(no_integer(part, what));
                     }
                 }
-                number(owner, item, own.number, items.get(side.number.as_str()).copied(), diagnostics);
+                number(device.owner, item, window.number, taker, diagnostics);
             }
         }
-        value(owner, item, diagnostics);
+        value(device.owner, item, diagnostics);
     }
+}
+
+/// A part of a window that is none.
+fn no_integer(part: &Item, what: &str) -> Diagnostic {
+    let message = format!("`{}` has {what} of a window, which is an integer of up to 64 bits", brief(&part.name));
+    Diagnostic::new(&codes::TABLE_VALUE, part.at.ty.or(part.at.name), message)
 }
 
 /// Bits of an integer.
