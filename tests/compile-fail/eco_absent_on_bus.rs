@@ -1,0 +1,24 @@
+//! What the Eco has on some of its buses only: the image's following error isn't a register, an error code of EtherCAT isn't on
+//! CANopen, and the address that saves on Modbus is no object.
+
+use lexibus::{CanOpen, Client, CoE, Modbus};
+use lexibus_drives::eco::{objects, Eco};
+
+fn on_modbus<C: Client<Bus = Modbus>>(mut client: C) {
+    let _ = objects::STATUS_WORD.at(&mut client).read();
+    let _ = objects::FOLLOWING_ERROR_ACTUAL_VALUE.at(&mut client).read();
+}
+
+fn on_canopen<C: Client<Bus = CanOpen>>(mut client: C) {
+    let _ = objects::STATUS_WORD.at(&mut client).read();
+    let _ = objects::ERROR_CODES.at(&mut client).read();
+}
+
+fn on_ethercat<C: Client<Bus = CoE>>(client: C) {
+    let mut drive = Eco::new(client);
+    let _ = drive.error_codes().read();
+    let _ = drive.save_parameters().write(0x11);
+    let _ = drive.save_to_flash().write(0x11);
+}
+
+fn main() {}
