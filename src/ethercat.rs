@@ -65,7 +65,8 @@ impl Device {
         self.sync_managers.iter().find(|own| own.number == number)
     }
 
-    /// The sync manager that a PDO goes to: the one that it names, else the first for data of its direction.
+    /// The sync manager that a PDO goes to: the one that it names, else the first for data of its direction. Where the description
+    /// has no list of sync managers, it is that of another PDO of its direction.
     #[must_use]
     pub fn sync_manager_of(&self, pdo: &PdoInfo) -> Option<u8> {
         let purpose = match pdo.direction {
@@ -74,8 +75,16 @@ impl Device {
         };
         pdo.sync_manager.or_else(|| {
             let free = |own: &&SyncManager| own.purpose == purpose && !pdo.excluded_sync_managers.contains(&own.number);
-            self.sync_managers.iter().find(free).map(|own| own.number)
+            let listed = self.sync_managers.iter().find(free).map(|own| own.number);
+            listed.or_else(|| self.named_by_others(pdo.direction).filter(|_| self.sync_managers.is_empty()))
         })
+    }
+}
+
+impl Device {
+    /// The sync manager that the first PDO of a direction names that names one.
+    fn named_by_others(&self, direction: Direction) -> Option<u8> {
+        self.pdos.iter().filter(|pdo| pdo.direction == direction).find_map(|pdo| pdo.sync_manager)
     }
 }
 

@@ -7,6 +7,8 @@
 mod examples;
 #[path = "hsd/line.rs"]
 mod line;
+#[path = "hsd/models.rs"]
+mod models;
 #[path = "hsd/motor.rs"]
 mod motor;
 #[path = "hsd/packets.rs"]

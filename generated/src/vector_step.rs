@@ -21770,11 +21770,15 @@ pub mod objects {
     /// Chapter Status flags of the drive. Manual, line 2162: Registro flag status.
     ///
     /// Note: RO in the notes, while the text under the bits accepts the value 0 in writing (both L2162). Chosen: rw with 0 as the only value (the text describes what the write does).
-    pub const RSTSFLG: ReadWrite<super::types::Status> = ReadWriteNamedStatus::register(
+    pub const RSTSFLG: ReadWrite<super::types::Status> = ReadWriteNamedStatus::register_within(
         0x20C7,
         0x01,
         rt::Register::holding(199),
         "Rstsflg",
+        rt::Range::OneOf(
+            &[(super::types::Status::from_raw(0), super::types::Status::from_raw(0))],
+        ),
+        "",
         rt::Flags::TPDO,
     );
     /// Rstsflg1.
@@ -22876,11 +22880,15 @@ pub mod objects {
     /// Note: no access, only MAP READ, while the text has 0 written to reset the alarms (both L2273). Chosen: rw with 0 as the only value (a reset by writing needs write access, and nothing else makes sense in a list of alarms).
     ///
     /// Note: closed loop, bit 4: the error has to last Rposalmtime (L2273), Rflwtim by the prose (L2356, L2382). Chosen: both in the bit's description (three tables say Rposalmtime (L2273, L2295, L2316), but only Rflwtim is described as the filter of this error (L2309)).
-    pub const RALARM: ReadWrite<super::types::Alarm> = ReadWriteNamedAlarm::register(
+    pub const RALARM: ReadWrite<super::types::Alarm> = ReadWriteNamedAlarm::register_within(
         0x20E3,
         0x01,
         rt::Register::holding(227),
         "Ralarm",
+        rt::Range::OneOf(
+            &[(super::types::Alarm::from_raw(0), super::types::Alarm::from_raw(0))],
+        ),
+        "",
         rt::Flags::TPDO,
     );
     /// Rwarning.
@@ -23371,7 +23379,7 @@ pub mod objects {
         0x01,
         rt::Register::low_first(259, 2),
         "Rflwdisp",
-        rt::Range::Full,
+        rt::Range::OneOf(&[(0, 0)]),
         "count",
         rt::Flags::TPDO,
     );
@@ -23393,7 +23401,7 @@ pub mod objects {
         0x01,
         rt::Register::low_first(261, 2),
         "Rflwmem",
-        rt::Range::Full,
+        rt::Range::OneOf(&[(0, 0)]),
         "count",
         rt::Flags::NONE,
     );
@@ -23435,7 +23443,7 @@ pub mod objects {
         0x01,
         rt::Register::holding(266),
         "Rflwmemp",
-        rt::Range::Full,
+        rt::Range::OneOf(&[(0, 0)]),
         "count",
         rt::Flags::NONE,
     );
@@ -23455,7 +23463,7 @@ pub mod objects {
         0x01,
         rt::Register::holding(267),
         "Rflwmemn",
-        rt::Range::Full,
+        rt::Range::OneOf(&[(0, 0)]),
         "count",
         rt::Flags::NONE,
     );
@@ -23517,7 +23525,9 @@ pub mod objects {
         0x01,
         rt::Register::low_first(559, 2),
         "Ralarm32",
-        rt::Range::To(super::types::Alarm32::from_raw(65536)),
+        rt::Range::OneOf(
+            &[(super::types::Alarm32::from_raw(0), super::types::Alarm32::from_raw(0))],
+        ),
         "",
         rt::Flags::TPDO,
     );
@@ -32115,7 +32125,7 @@ pub mod objects {
         pub const NUMBER_OF_ERRORS: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
             rt::OnCanOpenAndCoE::object(0x1003, 0x00),
             "Number of errors",
-            rt::Range::To(2),
+            rt::Range::OneOf(&[(0, 0)]),
             rt::Initial::Value(0),
             "",
             rt::Flags::NONE,

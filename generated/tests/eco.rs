@@ -8,7 +8,7 @@ use std::convert::Infallible;
 use std::time::Duration;
 
 use lexibus::ethercat::{Assignment, Direction};
-use lexibus::{Client, CoE, Error, Object, OutOfRange, Pdo, SdoWrite};
+use lexibus::{Client, CoE, Error, Object, OutOfRange, Pdo, Range, SdoWrite};
 use lexibus_drives::eco::objects::{rx_pdo_assign, tx_pdo_assign};
 use lexibus_drives::eco::types::{Controlword, DriveCommand, Mode};
 use lexibus_drives::eco::{image, objects, pdo, procedures, Eco, DEVICE};
@@ -115,12 +115,12 @@ fn slots() -> Answer<()> {
     assert_eq!(indices, [(0x1602, 0x1A02, 1), (0x1600, 0x1A02, 7), (0x1603, 0x1A03, 3)]);
     for (procedure, out, back, mode) in slots {
         let mut slave = Slave::default();
-        rx_pdo_assign::NUMBER_OF_RX_PD_OS.at(&mut slave).write(0)?;
+        rx_pdo_assign::NUMBER_OF_RX_PDOS.at(&mut slave).write(0)?;
         rx_pdo_assign::FIRST_RX_PDO.at(&mut slave).write(out)?;
-        rx_pdo_assign::NUMBER_OF_RX_PD_OS.at(&mut slave).write(1)?;
-        tx_pdo_assign::NUMBER_OF_TX_PD_OS.at(&mut slave).write(0)?;
+        rx_pdo_assign::NUMBER_OF_RX_PDOS.at(&mut slave).write(1)?;
+        tx_pdo_assign::NUMBER_OF_TX_PDOS.at(&mut slave).write(0)?;
         tx_pdo_assign::FIRST_TX_PDO.at(&mut slave).write(back)?;
-        tx_pdo_assign::NUMBER_OF_TX_PD_OS.at(&mut slave).write(1)?;
+        tx_pdo_assign::NUMBER_OF_TX_PDOS.at(&mut slave).write(1)?;
         objects::MODES_OF_OPERATION.at(&mut slave).write(mode)?;
         assert_eq!(logged(procedure), slave.log);
     }
@@ -164,4 +164,17 @@ fn the_mode_in_a_pdo() {
     assert_eq!(mode.pack(), [0x0F, 0, 8, 0]);
     let shown = pdo::ModeDisplay::unpack(&[0, 0, 7, 0]).expect("four bytes");
     assert_eq!(shown.modes_of_operation_display, Mode::Interpolator);
+}
+
+#[test]
+fn any_pdos_of_a_mode_are_assigned() {
+    // The manual has a sync manager for two PDOs; the others go to that of their direction.
+    let assigned: Result<Assignment, _> = Assignment::new(&DEVICE, &[0x1602, 0x1601, 0x1A02, 0x1A01]);
+    assert!(assigned.is_ok(), "{assigned:?}");
+    assert_eq!(DEVICE.pdos.len(), 8);
+}
+
+#[test]
+fn what_alone_may_be_written() {
+    assert_eq!(objects::SAVE_PARAMETERS.range(), &Range::OneOf(&[(0x11, 0x11)]));
 }

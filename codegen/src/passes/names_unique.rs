@@ -143,8 +143,8 @@ fn words(name: &str) -> Vec<String> {
         let starts = match (previous, kind) {
             (_, Kind::Other) => true,
             (Kind::Lower | Kind::Digit, Kind::Upper) => true,
-            // The last capital of an abbreviation starts the next word: `PDOMapping`.
-            (Kind::Upper, Kind::Upper) => next == Kind::Lower,
+            // The last capital of an abbreviation starts the next word: `PDOMapping`, but not `RxPDOs`.
+            (Kind::Upper, Kind::Upper) => next == Kind::Lower && !is_plural(letters.clone()),
             _ => false,
         };
         if starts && !word.is_empty() {
@@ -163,6 +163,11 @@ fn words(name: &str) -> Vec<String> {
         word.truncate(MAX_LENGTH);
     }
     words
+}
+
+/// Whether what is left of a word is the `s` of several.
+fn is_plural(mut rest: impl Iterator<Item = char>) -> bool {
+    rest.next() == Some('s') && rest.next().is_none_or(|behind| Kind::of(behind) != Kind::Lower)
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -265,6 +270,10 @@ mod tests {
         assert_eq!(snake("Target Position"), "target_position");
         assert_eq!(snake("PDOMapping"), "pdo_mapping");
         assert_eq!(snake("NrOfObjects"), "nr_of_objects");
+        assert_eq!(
+            (snake("NrOfRxPDOs"), snake("IDsOfIOs"), snake("PDOsize")),
+            ("nr_of_rx_pdos".into(), "ids_of_ios".into(), "pd_osize".into())
+        );
         assert_eq!(snake("RPDO1"), "rpdo1");
         assert_eq!(snake("Gerätetemperatur [°C] 50%"), "geraetetemperatur_deg_c_50_percent");
         assert_eq!(snake("2nd encoder"), "_2nd_encoder");

@@ -29,9 +29,11 @@ pub(super) fn on_model(item: &Item, model: &str) -> Option<Item> {
     Some(own)
 }
 
-/// The limits that hold whatever the model and the bus: the widest of all.
+/// The limits of what may be written, whatever the model and the bus: the widest of all.
 pub(super) fn widest(item: &Item) -> Limits {
     let mut limits = item.limits.clone();
+    let writable = item.behaviour.iter().flat_map(|own| &own.writable_values);
+    limits.allowed.extend(writable.map(|value| (value.clone(), value.clone())));
     let is_beyond = |one: &Value, other: &Value, sign: f64| match (one.as_real(), other.as_real()) {
         (Some(one), Some(other)) => one * sign > other * sign,
         _ => false,

@@ -89,7 +89,9 @@ fn sync_manager(own: &SyncManager) -> Data {
 
 /// Outputs first, as the runtime has them.
 fn pdo_list(pdos: &[Pdo], models: &[PdoModel]) -> Data {
-    let of = |direction| pdos.iter().filter(move |pdo| pdo.direction == direction && !pdo.is_virtual);
+    // Those of CANopen may have the same indices.
+    let is_own = |pdo: &&Pdo| !pdo.is_virtual && pdo.buses.is_none_or(|buses| buses.coe);
+    let of = |direction| pdos.iter().filter(move |pdo| pdo.direction == direction).filter(is_own);
     let all = of(Direction::Receive).chain(of(Direction::Transmit));
     Data::Slice(all.map(|pdo| pdo_info(pdo, models)).collect())
 }
