@@ -991,3 +991,20 @@ fn what_is_mentioned_of_one_value_is_told_once() {
 // - 56: read/write with 0 as the only value is what `writable` says. 58, 59: what is missing, and what a screenshot shows.
 // - 4.4, 4.5: lost figures and headings; what the manual leaves open is an option of the device, and where it states no
 //   access at all, TAB010 says so.
+
+#[test]
+fn a_window_whose_value_is_no_integer() {
+    let rows = |value: &str| {
+        format!(
+            "lexibus = 1\n[device]\nname = \"D\"\nbuses = [\"modbus\"]\n[spaces.a]\nmodbus = {{ table = \"holding\" }}\n\
+             [spaces.b]\nindirect = {{ write_address = \"Number\", read = \"{value}\" }}\n\
+             [[chapters]]\ntitle = \"Windows\"\nspace = \"a\"\n[chapters.registers]\n\
+             Number = {{ reg = 1, type = \"u16\", access = \"rw\" }}\nValue = {{ reg = \"2-3\", type = \"f32\", access = \"rw\" }}\n\
+             [[chapters]]\ntitle = \"Behind\"\nspace = \"b\"\n[chapters.registers]\nGain = {{ reg = 1, type = \"u16\", access = \"ro\" }}\n"
+        )
+    };
+    // By its name, and by chapter and name.
+    for value in ["Value", "Windows/Value"] {
+        flags(&rows(value), &[("TAB004", "\"f32\"")]);
+    }
+}

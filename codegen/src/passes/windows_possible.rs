@@ -5,17 +5,15 @@ use std::collections::HashSet;
 use super::owner::Owner;
 use super::windows::{windows, Windows};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Binding, CompactString, Item, Type};
+use crate::ir::{Binding, Item, Type};
 use crate::text::brief;
 
 pub(super) fn run(device: &Windows<'_>, diagnostics: &mut Diagnostics) {
-    // What a window names by an address or a path isn't looked at.
-    let by_name = |name: &CompactString| device.item(name);
     let mut told = HashSet::new();
     for item in &device.behind {
         for window in windows(item) {
             for side in [&window.read, &window.write].into_iter().flatten() {
-                let (taker, holder) = (by_name(&side.number), by_name(&side.value));
+                let (taker, holder) = (device.item(&side.number), device.item(&side.value));
                 for (part, what) in [(taker, "the number"), (holder, "the value")] {
                     let Some(part) = part.filter(|own| integer(device.owner, own).is_none()) else { continue };
                     if told.insert(part.name.as_str()) {
