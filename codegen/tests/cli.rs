@@ -413,3 +413,21 @@ fn the_eco_as_eds_esi_and_gsdml() {
         assert_eq!(schema.violations("eco", [("eco.xml", text.as_slice())]), Vec::<String>::new());
     }
 }
+
+#[test]
+fn a_site_of_documentation() {
+    let folder = folder("site");
+    let out = folder.join("pages");
+    let output = lexibus(&["docs", DEMO, COUPLER, "--out", &out.to_string_lossy()]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    let read = |path: &str| std::fs::read_to_string(out.join(path)).unwrap_or_else(|_| panic!("{path}"));
+    assert!(read("index.html").contains("href=\"demo-drive/index.html\""));
+    assert!(read("demo-drive/profile-objects.html").contains("id=\"0x6040\""));
+    for shared in ["site.css", "site.js", "search.js"] {
+        assert!(!read(shared).is_empty());
+    }
+    // What can't be written is told, and so is a call without a folder.
+    let file = file(&folder, "taken", "");
+    assert_eq!(code(&lexibus(&["docs", DEMO, "--out", &file])), 1);
+    assert_eq!(code(&lexibus(&["docs", DEMO])), 2);
+}

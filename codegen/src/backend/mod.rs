@@ -1,5 +1,6 @@
 //! Back ends: one folder an output. None of them looks at a source format.
 
+pub mod docs;
 pub mod eds;
 pub mod esi;
 pub mod gsdml;

@@ -27,6 +27,8 @@ pub(super) enum Command {
     Generate(Generate),
     /// Write device descriptions in another format.
     Export(Export),
+    /// Write a site of documentation: pages that open from disk, with a search.
+    Docs(Docs),
     /// Read and check device descriptions.
     Check(Check),
     /// Sum up device descriptions.
@@ -122,6 +124,15 @@ pub(super) enum Colour {
     Always,
     /// Never.
     Never,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Docs {
+    #[command(flatten)]
+    pub inputs: Inputs,
+    /// The folder to write to.
+    #[arg(short, long, value_name = "FOLDER")]
+    pub out: PathBuf,
 }
 
 #[derive(Debug, Args)]
@@ -323,6 +334,7 @@ impl Arguments {
         let inputs = match &mut arguments.command {
             Command::Generate(generate) => &mut generate.inputs,
             Command::Export(export) => &mut export.inputs,
+            Command::Docs(docs) => &mut docs.inputs,
             Command::Check(check) => &mut check.inputs,
             Command::Info(info) => &mut info.inputs,
             Command::Dump(dump) => &mut dump.inputs,

@@ -1,0 +1,75 @@
+//! Tables of codes: alarms, emergency codes, abort codes, with causes and remedies.
+
+use super::anchor::Names;
+use super::words::{self, PLAIN};
+use crate::backend::words::Manual;
+use crate::ir::{CodeTable, Value};
+
+/// A table.
+#[derive(Debug)]
+pub(super) struct Codes {
+    pub anchor: String,
+    pub title: String,
+    pub facts: Vec<String>,
+    pub columns: Vec<String>,
+    pub rows: Vec<Code>,
+}
+
+/// A code.
+#[derive(Debug)]
+pub(super) struct Code {
+    pub anchor: String,
+    pub number: String,
+    pub name: String,
+    pub names: Vec<(String, String)>,
+    pub facts: String,
+    pub cells: Vec<String>,
+}
+
+pub(super) fn tables(tables: &[CodeTable], manual: &Manual) -> Vec<Codes> {
+    let mut names = Names::default();
+    let with = tables.iter().filter(|table| !table.rows.is_empty());
+    with.map(|table| self::table(table, manual, &mut names)).collect()
+}
+
+fn table(table: &CodeTable, manual: &Manual, names: &mut Names) -> Codes {
+    let anchor = names.anchor(&table.name);
+    let mut facts = PLAIN.description(table.documentation.as_deref());
+    if !table.buses.is_empty() {
+        let buses: Vec<&str> = table.buses.iter().map(|bus| crate::backend::words::bus_name(bus)).collect();
+        facts.push(format!("On {}.", buses.join(", ")));
+    }
+    facts.extend(PLAIN.place(manual, table.documentation.as_deref(), &[]));
+    let rows = table.rows.iter().map(|row| {
+        let mut facts = PLAIN.description(row.documentation.as_deref());
+        facts.extend(row.availability.as_ref().map(|own| PLAIN.availability(own)));
+        facts.extend(PLAIN.place(manual, row.documentation.as_deref(), &row.names));
+        let last = row.last.filter(|last| *last != row.code).map(|last| format!(" to {}", code(last)));
+        let number = code(row.code) + &last.unwrap_or_default();
+        Code {
+            anchor: names.anchor(&format!("{}-{}", table.name, code(row.code))),
+            number,
+            name: row.name.to_string(),
+            names: words::names(&row.names),
+            facts: facts.join(" "),
+            cells: (0..table.columns.len()).map(|at| row.cells.get(at).map(cell).unwrap_or_default()).collect(),
+        }
+    });
+    let rows = rows.collect();
+    let columns = table.columns.iter().map(ToString::to_string).collect();
+    Codes { anchor, title: table.name.to_string(), facts, columns, rows }
+}
+
+fn cell(value: &Value) -> String {
+    match value {
+        Value::Text(text) => text.to_string(),
+        other => PLAIN.value(other),
+    }
+}
+
+fn code(code: i128) -> String {
+    match code {
+        10.. => format!("0x{code:04X}"),
+        _ => code.to_string(),
+    }
+}

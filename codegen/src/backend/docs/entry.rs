@@ -1,0 +1,157 @@
+//! Rows of tables: an item a row, and what there is no column for below it.
+
+use super::anchor::Names;
+use super::bits::{self, Bits, Label};
+use super::words::{self, PLAIN};
+use crate::backend::words::Manual;
+use crate::ir::{Item, Type, TypeDef};
+
+/// An item, ready to be written.
+#[derive(Debug)]
+pub(super) struct Row {
+    pub anchor: String,
+    /// By what it is looked up: `0x6040:00`, `register 12`.
+    pub number: String,
+    pub name: String,
+    pub names: Vec<(String, String)>,
+    pub ty: String,
+    pub access: &'static str,
+    pub default: String,
+    pub range: String,
+    pub unit: String,
+    /// Sentences.
+    pub facts: Vec<String>,
+    /// Further addresses, with their bus.
+    pub elsewhere: Vec<String>,
+    pub doubts: Vec<Doubt>,
+    pub bits: Option<Bits>,
+    pub labels: Vec<Label>,
+    /// The address of the row that has the bits or values, where another one on the page has the same type.
+    pub same_as: Option<(String, String)>,
+}
+
+/// A contradiction of the source.
+#[derive(Debug)]
+pub(super) struct Doubt {
+    pub says: String,
+    pub chosen: String,
+    pub why: String,
+    pub cite: String,
+}
+
+impl Row {
+    /// Whether anything stands below the row.
+    pub fn has_more(&self) -> bool {
+        !self.facts.is_empty()
+            || !self.elsewhere.is_empty()
+            || !self.doubts.is_empty()
+            || self.bits.is_some()
+            || !self.labels.is_empty()
+            || self.same_as.is_some()
+    }
+}
+
+/// What rows of one page have in common.
+pub(super) struct Rows<'p> {
+    pub types: &'p [TypeDef],
+    pub manual: &'p Manual,
+    pub names: &'p mut Names,
+    /// The types whose bits or values the page has already, with the address and name of the row.
+    pub shown: Vec<(Type, String, String)>,
+}
+
+impl Rows<'_> {
+    /// A row; `number` is by what it is looked up, and its address, where the name isn't.
+    pub fn row(&mut self, item: &Item, number: String, by_name: bool) -> Row {
+        let anchor = self.names.anchor(if by_name && !item.name.is_empty() { &item.name } else { &number });
+        let basic = words::basic(self.types, item.ty);
+        let (mut drawn, mut labels, mut same_as) = (None, Vec::new(), None);
+        match self.shown.iter().find(|(ty, ..)| *ty == item.ty) {
+            Some((_, anchor, name)) => same_as = Some((anchor.clone(), name.clone())),
+            None => {
+                (drawn, labels) = bits::of_type(self.types, item.ty);
+                if drawn.is_some() || !labels.is_empty() {
+                    let name = if item.name.is_empty() { number.clone() } else { item.name.to_string() };
+                    self.shown.push((item.ty, anchor.clone(), name));
+                }
+            }
+        }
+        let addresses = words::addresses(item).into_iter().filter(|own| own.place != number);
+        let elsewhere = addresses.map(|own| format!("{}: {}", own.bus, own.place)).collect();
+        Row {
+            anchor,
+            number,
+            name: item.name.to_string(),
+            names: words::names(&item.names),
+            ty: words::type_name(self.types, item.ty),
+            access: item.access.name(),
+            default: item.default.as_ref().map(|own| words::value(own, basic)).unwrap_or_default(),
+            range: range(item, basic),
+            unit: unit(item),
+            facts: self.facts(item),
+            elsewhere,
+            doubts: doubts(&item.doubts),
+            bits: drawn,
+            labels,
+            same_as,
+        }
+    }
+
+    fn facts(&self, item: &Item) -> Vec<String> {
+        let mut facts = PLAIN.description(item.documentation.as_deref());
+        facts.extend(match (item.mappable.rpdo, item.mappable.tpdo) {
+            (true, true) => Some("Mappable into any PDO.".to_owned()),
+            (true, false) => Some("Mappable into RPDOs.".to_owned()),
+            (false, true) => Some("Mappable into TPDOs.".to_owned()),
+            (false, false) => None,
+        });
+        if let Some(quantity) = &item.quantity {
+            let scale = quantity.scale.as_ref().map(|_| PLAIN.quantity(quantity));
+            facts.extend(scale.map(|own| match own.trim_start_matches([',', ' ']) {
+                own if own.starts_with("in ") => format!("Counts {own}."),
+                own => format!("The number {own}."),
+            }));
+            facts.extend(PLAIN.notes(quantity));
+        }
+        if let Some(behaviour) = &item.behaviour {
+            facts.extend(PLAIN.behaviour(behaviour));
+        }
+        let unit = item.quantity.as_ref().map_or("", |own| own.unit.as_str());
+        facts.extend(item.variants.iter().map(|own| PLAIN.variant(own, unit)));
+        facts.extend(item.availability.as_ref().map(|own| PLAIN.availability(own)));
+        facts.extend(PLAIN.place(self.manual, item.documentation.as_deref(), &item.names));
+        let configured = item.configured.as_ref().and_then(|own| own.value.as_ref());
+        facts.extend(configured.map(|value| format!("Configured to {}.", PLAIN.value(value))));
+        facts.retain(|fact| !fact.is_empty());
+        facts
+    }
+}
+
+/// Doubts, ready to be written.
+pub(super) fn doubts(doubts: &[crate::ir::Doubt]) -> Vec<Doubt> {
+    let doubt = |own: &crate::ir::Doubt| Doubt {
+        says: own.says.clone(),
+        chosen: own.chosen.clone(),
+        why: own.why.clone(),
+        cite: own.cite.as_ref().map(ToString::to_string).unwrap_or_default(),
+    };
+    doubts.iter().map(doubt).collect()
+}
+
+fn range(item: &Item, ty: Type) -> String {
+    let limits = &item.limits;
+    if !limits.allowed.is_empty() {
+        return PLAIN.limits(limits).unwrap_or_default().trim_start_matches("one of ").to_owned();
+    }
+    let show = |own: &Option<crate::ir::Value>| own.as_ref().map(|own| words::value(own, ty));
+    match (show(&limits.low), show(&limits.high)) {
+        (Some(low), Some(high)) => format!("{low} … {high}"),
+        (Some(low), None) => format!("≥ {low}"),
+        (None, Some(high)) => format!("≤ {high}"),
+        (None, None) => String::new(),
+    }
+}
+
+fn unit(item: &Item) -> String {
+    item.quantity.as_ref().map(|own| own.unit.to_string()).unwrap_or_default()
+}

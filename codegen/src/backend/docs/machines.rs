@@ -1,0 +1,286 @@
+//! State machines: a diagram, lists of states, commands and transitions, and what commands do in each state.
+
+use std::collections::VecDeque;
+
+use super::words::{self, PLAIN};
+use crate::backend::words::{sentence, Manual};
+use crate::ir::{Outcome, Pattern, Procedure, StateMachine, Step, Transition};
+
+/// Size of a state in the diagram, and the room between two.
+const WIDTH: u32 = 170;
+const HEIGHT: u32 = 36;
+const GAP: u32 = 30;
+const RISE: u32 = 70;
+
+/// The letters of a name that a state has room for.
+const LETTERS: usize = 22;
+
+/// A state machine, ready to be written.
+#[derive(Debug)]
+pub(super) struct Machine {
+    pub title: String,
+    pub facts: Vec<String>,
+    pub diagram: Option<Diagram>,
+    pub states: Vec<Named>,
+    pub commands: Vec<Named>,
+    pub transitions: Vec<Way>,
+    pub matrix: Option<Matrix>,
+}
+
+/// A state or a command.
+#[derive(Debug)]
+pub(super) struct Named {
+    pub name: String,
+    pub names: Vec<(String, String)>,
+    /// `0x27 of the bits 0x6F`; empty where a value tells it.
+    pub bits: String,
+    pub facts: String,
+}
+
+/// A transition.
+#[derive(Debug)]
+pub(super) struct Way {
+    pub number: String,
+    pub from: String,
+    pub to: String,
+    pub command: String,
+    pub facts: String,
+}
+
+/// What commands do in each state.
+#[derive(Debug)]
+pub(super) struct Matrix {
+    pub states: Vec<String>,
+    pub rows: Vec<(String, Vec<String>)>,
+    pub notes: Vec<String>,
+}
+
+/// States as boxes, transitions as arrows.
+#[derive(Debug)]
+pub(super) struct Diagram {
+    pub width: u32,
+    pub height: u32,
+    pub boxes: Vec<StateBox>,
+    pub arrows: Vec<Arrow>,
+}
+
+#[derive(Debug)]
+pub(super) struct StateBox {
+    pub left: u32,
+    pub top: u32,
+    pub middle: u32,
+    pub base: u32,
+    pub label: String,
+    pub is_initial: bool,
+}
+
+#[derive(Debug)]
+pub(super) struct Arrow {
+    pub path: String,
+    pub x: u32,
+    pub y: u32,
+    pub label: String,
+}
+
+/// A procedure: what to do, step by step.
+#[derive(Debug)]
+pub(super) struct Sequence {
+    pub name: String,
+    pub facts: Vec<String>,
+    pub steps: Vec<String>,
+}
+
+pub(super) fn machine(own: &StateMachine, manual: &Manual) -> Machine {
+    let mut facts = PLAIN.description(own.documentation.as_deref());
+    facts.extend((!own.status_item.is_empty()).then(|| format!("{} tells the state.", own.status_item)));
+    facts.extend((!own.control_item.is_empty()).then(|| format!("{} takes the commands.", own.control_item)));
+    facts.extend(own.initial.as_ref().map(|state| format!("After power-on: {state}.")));
+    facts.extend(PLAIN.place(manual, own.documentation.as_deref(), &[]));
+    Machine {
+        title: own.name.to_string(),
+        facts,
+        diagram: diagram(own),
+        states: own.states.iter().map(named).collect(),
+        commands: own.commands.iter().map(named).collect(),
+        transitions: own.transitions.iter().map(way).collect(),
+        matrix: matrix(own),
+    }
+}
+
+fn named(own: &Pattern) -> Named {
+    let bits = if own.mask == 0 { String::new() } else { format!("0x{:X} of the bits 0x{:X}", own.value, own.mask) };
+    Named {
+        name: own.name.to_string(),
+        names: words::names(&own.names),
+        bits,
+        facts: PLAIN.description(own.documentation.as_deref()).join(" "),
+    }
+}
+
+fn way(own: &Transition) -> Way {
+    Way {
+        number: own.number.map(|number| number.to_string()).unwrap_or_default(),
+        from: own.from.as_ref().map_or_else(|| "any state".to_owned(), ToString::to_string),
+        to: own.to.to_string(),
+        command: own.command.as_ref().map_or_else(|| "by itself".to_owned(), ToString::to_string),
+        facts: PLAIN.description(own.documentation.as_deref()).join(" "),
+    }
+}
+
+fn matrix(own: &StateMachine) -> Option<Matrix> {
+    let first = own.outcomes.first()?;
+    let states: Vec<String> = first.cells.iter().map(|cell| cell.state.to_string()).collect();
+    let mut notes = Vec::new();
+    let mut rows = Vec::new();
+    for row in &own.outcomes {
+        let mut cells = Vec::new();
+        for cell in &row.cells {
+            let outcomes: Vec<String> = cell.outcomes.iter().map(outcome).collect();
+            let text = PLAIN.description(cell.documentation.as_deref()).join(" ");
+            let mark = if text.is_empty() {
+                String::new()
+            } else {
+                let at = notes.iter().position(|own| *own == text).unwrap_or(notes.len());
+                if at == notes.len() {
+                    notes.push(text);
+                }
+                format!(" ({})", at + 1)
+            };
+            cells.push(outcomes.join(" or ") + &mark);
+        }
+        rows.push((row.name.to_string(), cells));
+    }
+    Some(Matrix { states, rows, notes })
+}
+
+fn outcome(own: &Outcome) -> String {
+    match own {
+        Outcome::Unchanged => "stays".to_owned(),
+        Outcome::Refused => "–".to_owned(),
+        Outcome::States(to) => format!("→ {}", to.join(" → ")),
+    }
+}
+
+/// The diagram; `None` where no transition has a state that it leaves.
+fn diagram(own: &StateMachine) -> Option<Diagram> {
+    let place = |name: &str| own.states.iter().position(|state| state.name == name);
+    let ways: Vec<(usize, usize, String)> = own
+        .transitions
+        .iter()
+        .enumerate()
+        .filter_map(|(at, way)| {
+            let label = way.number.map_or_else(|| (at + 1).to_string(), |number| number.to_string());
+            Some((place(way.from.as_ref()?)?, place(&way.to)?, label))
+        })
+        .collect();
+    if ways.is_empty() {
+        return None;
+    }
+    let first = own.initial.as_ref().and_then(|name| place(name)).unwrap_or(ways.first()?.0);
+    let ranks = ranks(own.states.len(), first, &ways);
+    let used = |at: usize| ways.iter().any(|(from, to, _)| *from == at || *to == at);
+    let mut rows: Vec<Vec<usize>> = Vec::new();
+    for (at, rank) in ranks.iter().enumerate().filter(|(at, _)| used(*at)) {
+        while rows.len() <= *rank {
+            rows.push(Vec::new());
+        }
+        rows[*rank].push(at);
+    }
+    let widest = rows.iter().map(Vec::len).max().unwrap_or(1) as u32;
+    let width = widest * (WIDTH + GAP) + 3 * GAP;
+    let mut boxes = vec![None; own.states.len()];
+    for (rank, row) in rows.iter().enumerate() {
+        let taken = row.len() as u32 * (WIDTH + GAP);
+        let start = GAP + (width.saturating_sub(3 * GAP).saturating_sub(taken)) / 2;
+        for (column, at) in row.iter().enumerate() {
+            boxes[*at] = Some((start + column as u32 * (WIDTH + GAP), 8 + rank as u32 * (HEIGHT + RISE)));
+        }
+    }
+    let arrows = ways
+        .iter()
+        .enumerate()
+        .filter_map(|(number, (from, to, label))| Some(arrow(boxes[*from]?, boxes[*to]?, number as u32, label)));
+    let arrows = arrows.collect();
+    let state_box = |(at, place): (usize, &Option<(u32, u32)>)| {
+        let (left, top) = (*place)?;
+        let label = words::cut(&own.states.get(at)?.name, LETTERS);
+        Some(StateBox { left, top, middle: left + WIDTH / 2, base: top + 23, label, is_initial: at == first })
+    };
+    let height = rows.len() as u32 * (HEIGHT + RISE) - RISE + 24;
+    Some(Diagram { width, height, boxes: boxes.iter().enumerate().filter_map(state_box).collect(), arrows })
+}
+
+/// How many transitions each state is from the first one; those that it doesn't lead to come behind.
+fn ranks(count: usize, first: usize, ways: &[(usize, usize, String)]) -> Vec<usize> {
+    let mut ranks = vec![None; count];
+    let mut queue = VecDeque::from([first]);
+    if let Some(rank) = ranks.get_mut(first) {
+        *rank = Some(0);
+    }
+    while let Some(at) = queue.pop_front() {
+        let next = ranks[at].unwrap_or(0) + 1;
+        for (_, to, _) in ways.iter().filter(|(from, ..)| *from == at) {
+            if ranks[*to].is_none() {
+                ranks[*to] = Some(next);
+                queue.push_back(*to);
+            }
+        }
+    }
+    let behind = ranks.iter().flatten().max().map_or(0, |last| last + 1);
+    ranks.into_iter().map(|rank| rank.unwrap_or(behind)).collect()
+}
+
+/// A curve from one state to another, its number beside it. Those that lead down leave at the bottom, the others at a side.
+fn arrow((x, y): (u32, u32), (to_x, to_y): (u32, u32), number: u32, label: &str) -> Arrow {
+    let shift = number % 5 * 12;
+    let (from_x, end_x) = (x + WIDTH / 2 - 24 + shift, to_x + WIDTH / 2 - 24 + shift);
+    let (path, x, y) = if to_y > y {
+        let (start, end) = (y + HEIGHT, to_y);
+        let middle = (start + end) / 2;
+        (
+            format!("M{from_x} {start}C{from_x} {middle} {end_x} {middle} {end_x} {end}"),
+            (from_x + end_x) / 2 + 4,
+            middle,
+        )
+    } else {
+        let (right, to_right) = (x + WIDTH, to_x + WIDTH);
+        let (start, end) = (y + 8 + shift / 3, to_y + 8 + shift / 3);
+        let out = right.max(to_right) + GAP + shift;
+        (
+            format!("M{right} {start}C{out} {start} {out} {end} {to_right} {end}"),
+            out.saturating_sub(GAP / 4),
+            (start + end) / 2,
+        )
+    };
+    Arrow { path, x, y, label: label.to_owned() }
+}
+
+pub(super) fn sequence(own: &Procedure, manual: &Manual) -> Sequence {
+    let mut facts = PLAIN.description(own.documentation.as_deref());
+    if !own.arguments.is_empty() {
+        let arguments: Vec<&str> = own.arguments.iter().map(|own| own.as_str()).collect();
+        facts.push(format!("Given: {}.", arguments.join(", ")));
+    }
+    facts.extend(PLAIN.place(manual, own.documentation.as_deref(), &own.names));
+    Sequence { name: own.name.to_string(), facts, steps: own.steps.iter().map(step).collect() }
+}
+
+fn step(own: &Step) -> String {
+    let value = |value| PLAIN.value(value);
+    match own {
+        Step::Write(item, to) => format!("Write {} to {item}.", value(to)),
+        Step::WriteBits(item, mask, to) => format!("Write {} to the bits 0x{mask:X} of {item}.", value(to)),
+        Step::WriteArgument(item, argument) => format!("Write {argument} to {item}."),
+        Step::Read(item) => format!("Read {item}."),
+        Step::WaitFor(item, mask, to, limit) => {
+            let bits = if *mask == u64::MAX { String::new() } else { format!(" & 0x{mask:X}") };
+            let limit = limit.map(|limit| format!(", at most {limit} ms")).unwrap_or_default();
+            format!("Wait until {item}{bits} is {}{limit}.", value(to))
+        }
+        Step::Delay(milliseconds) => format!("Wait {milliseconds} ms."),
+        Step::Send(message) => format!("Send {message}."),
+        Step::Exchange(crate::ir::Direction::Receive) => "Send the outputs once.".to_owned(),
+        Step::Exchange(crate::ir::Direction::Transmit) => "Take the inputs once.".to_owned(),
+        Step::Manual(text) => sentence(text),
+    }
+}

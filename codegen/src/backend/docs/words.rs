@@ -1,0 +1,160 @@
+//! Words of documentation pages. Templates escape them.
+
+use crate::backend::words::Words;
+use crate::ir::{Binding, Item, ObjectBuses, RegisterSpace, Shape, Texts, Type, TypeDef, Value};
+
+/// Sentences as they are.
+pub(super) const PLAIN: Words = Words { escape: one_line };
+
+/// The most steps from a type to the one below: a description may run in circles.
+const DEEPEST: usize = 16;
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// The type that a source defines and that a type names, perhaps through others.
+pub(super) fn definition(types: &[TypeDef], ty: Type) -> Option<&TypeDef> {
+    let mut ty = ty;
+    for _ in 0..DEEPEST {
+        let Type::Named(id) = ty else { return None };
+        let definition = types.get(id.0 as usize)?;
+        match definition.shape {
+            Shape::Alias(other) => ty = other,
+            _ => return Some(definition),
+        }
+    }
+    None
+}
+
+/// The basic type below.
+pub(super) fn basic(types: &[TypeDef], ty: Type) -> Type {
+    let mut ty = ty;
+    for _ in 0..DEEPEST {
+        let Type::Named(id) = ty else { return ty };
+        let Some(definition) = types.get(id.0 as usize) else { return Type::Opaque(None) };
+        ty = match &definition.shape {
+            Shape::Alias(other) => *other,
+            Shape::BitField { base, .. } | Shape::Enumeration { base, .. } | Shape::Scaled { base, .. } => *base,
+            Shape::Array { .. } | Shape::Record(_) => return Type::Opaque(None),
+        };
+    }
+    Type::Opaque(None)
+}
+
+/// A type as a table shows it: its length where it is a text, and what the source calls it where that says more.
+pub(super) fn type_name(types: &[TypeDef], ty: Type) -> String {
+    let text = |name: &str, length: Option<u32>| match length {
+        Some(length) => format!("{name}({length})"),
+        None => name.to_owned(),
+    };
+    match basic(types, ty) {
+        Type::VisibleString(length) => text("VISIBLE_STRING", length),
+        Type::OctetString(length) => text("OCTET_STRING", length),
+        Type::UnicodeString(length) => text("UNICODE_STRING", length),
+        other => other.to_string(),
+    }
+}
+
+/// A name in other languages.
+pub(super) fn names(names: &Texts) -> Vec<(String, String)> {
+    names.iter().map(|own| (own.language.to_string(), own.text.to_string())).collect()
+}
+
+/// `3`, `4 to 7`.
+pub(super) fn numbers(first: i128, last: Option<i128>) -> String {
+    match last.filter(|last| *last != first) {
+        Some(last) => format!("{} to {}", number(first), number(last)),
+        None => number(first),
+    }
+}
+
+/// A number; of large ones that are bit patterns more often than amounts, both forms.
+fn number(number: i128) -> String {
+    match number {
+        0..=255 => number.to_string(),
+        256.. => format!("{number} (0x{number:X})"),
+        _ => number.to_string(),
+    }
+}
+
+/// A value in a table: numbers of unsigned types that look like bit patterns in hexadecimal.
+pub(super) fn value(value: &Value, ty: Type) -> String {
+    match (value, ty) {
+        (Value::Int(number @ 0x1_0000..), Type::Unsigned(_)) => format!("0x{number:X}"),
+        _ => PLAIN.value(value),
+    }
+}
+
+/// An address of an item: the bus, and what stands there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Address {
+    pub bus: &'static str,
+    pub place: String,
+}
+
+/// Where an item is found, the bus that it is named by first.
+pub(super) fn addresses(item: &Item) -> Vec<Address> {
+    item.bindings.iter().map(address).collect()
+}
+
+fn address(binding: &Binding) -> Address {
+    let (bus, place) = match binding {
+        Binding::Object { buses, index, sub_index } => (object_bus(*buses), format!("0x{index:04X}:{sub_index:02X}")),
+        Binding::Register(own) => {
+            let table = match own.space {
+                RegisterSpace::Coil => "coil",
+                RegisterSpace::DiscreteInput => "discrete input",
+                RegisterSpace::Input => "input register",
+                RegisterSpace::Holding => "register",
+            };
+            let bit = own.bit_offset.map(|bit| format!(" from bit {bit}")).unwrap_or_default();
+            let last = if own.last() > own.address { format!("–{}", own.last()) } else { String::new() };
+            ("Modbus", format!("{table} {}{last}{bit}", own.address))
+        }
+        Binding::Record { index, bit_offset, bits } => {
+            ("PROFINET", format!("record 0x{index:04X}, {}", span(*bit_offset, *bits)))
+        }
+        Binding::Image { image, bit_offset, bits, .. } => {
+            ("Process image", format!("{image}, {}", span(*bit_offset, *bits)))
+        }
+        Binding::Parameter { space, code } => ("Serial", format!("{space} 0x{code:04X}")),
+        Binding::Ascii(name) => ("ASCII", name.to_string()),
+        Binding::EscMemory { address, length } => ("Slave controller", format!("0x{address:04X}, {length} bytes")),
+        Binding::Indirect(own) => {
+            let buses: Vec<&str> = own.buses.iter().map(|bus| crate::backend::words::bus_name(bus)).collect();
+            ("Window", format!("{} 0x{:04X} on {}", own.space, own.number, buses.join(", ")))
+        }
+    };
+    Address { bus, place }
+}
+
+fn object_bus(buses: ObjectBuses) -> &'static str {
+    match (buses.canopen, buses.coe) {
+        (true, true) => "CANopen, EtherCAT",
+        (false, true) => "EtherCAT",
+        _ => "CANopen",
+    }
+}
+
+/// `byte 3`, `byte 3 bit 4`, `bytes 2–5`.
+pub(super) fn span(first: u32, bits: u32) -> String {
+    let last = first.saturating_add(bits.max(1) - 1);
+    let (byte, last_byte) = (first / 8, last / 8);
+    if first.is_multiple_of(8) && bits.is_multiple_of(8) {
+        return if byte == last_byte { format!("byte {byte}") } else { format!("bytes {byte}–{last_byte}") };
+    }
+    match (byte == last_byte, bits) {
+        (true, 1) => format!("byte {byte} bit {}", first % 8),
+        (true, _) => format!("byte {byte} bits {}–{}", last % 8, first % 8),
+        (false, _) => format!("bits {first}–{last}"),
+    }
+}
+
+/// So many letters of a text, the last one being `…` where there are more.
+pub(super) fn cut(text: &str, letters: usize) -> String {
+    match text.chars().count() {
+        count if count <= letters => text.to_owned(),
+        _ => text.chars().take(letters.saturating_sub(1)).chain(['…']).collect(),
+    }
+}
