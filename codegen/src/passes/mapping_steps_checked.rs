@@ -52,31 +52,34 @@ impl Mapping<'_> {
             }
             return;
         }
-        let entries = self.device.object(index).map_or(0, |group| group.items.len().saturating_sub(1));
-        if entries > 0 && value > entries as i128 {
-            let name = brief(&self.procedure.name);
-            let message =
-                format!("`{name}`: writes {value} as the number of entries of 0x{index:04X}, which has {entries}");
+        if let Some(problem) = self.count(index, value) {
+            let message = format!(
+                "`{}`: writes {value} as the number of entries of 0x{index:04X}, {problem}",
+                brief(&self.procedure.name)
+            );
             diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
-        }
-        if value == 0 {
-            self.cleared.insert(index);
-            self.words.retain(|(own, _), _| *own != index);
-        } else if self.cleared.remove(&index) {
-            let written = self.words.keys().filter(|(own, _)| *own == index).count();
-            if value > written as i128 {
-                let name = brief(&self.procedure.name);
-                let message = format!(
-                    "`{name}`: writes {value} as the number of entries of 0x{index:04X}, and wrote {written} of them"
-                );
-                diagnostics.push(Diagnostic::new(&codes::STEP_IMPOSSIBLE, span, message));
-            }
         }
         let bits = self.bits(index, value);
         if self.device.ethercat.is_none() && bits > i128::from(CAN_BITS) {
             let message = format!("the mapping 0x{index:04X} has {bits} bits by then, and a CAN frame has 64");
             diagnostics.push(Diagnostic::new(&codes::PDO_TOO_LONG, span, message));
         }
+    }
+
+    /// What is wrong with a number of entries: more than the mapping has, or than were written since it was 0.
+    fn count(&mut self, index: u16, value: i128) -> Option<String> {
+        if value == 0 {
+            self.cleared.insert(index);
+            self.words.retain(|(own, _), _| *own != index);
+            return None;
+        }
+        let entries = self.device.object(index).map_or(0, |group| group.items.len().saturating_sub(1));
+        let was_cleared = self.cleared.remove(&index);
+        if entries > 0 && value > entries as i128 {
+            return Some(format!("which has {entries}"));
+        }
+        let written = self.words.keys().filter(|(own, _)| *own == index).count();
+        (was_cleared && value > written as i128).then(|| format!("and wrote {written} of them"))
     }
 
     /// The length of so many entries: those that were written, and by default the others.
