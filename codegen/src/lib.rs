@@ -37,6 +37,7 @@ pub mod backend;
 pub mod builder;
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod compare;
 pub mod compile;
 pub mod diagnostics;
 mod etg;

@@ -431,3 +431,31 @@ fn a_site_of_documentation() {
     assert_eq!(code(&lexibus(&["docs", DEMO, "--out", &file])), 1);
     assert_eq!(code(&lexibus(&["docs", DEMO])), 2);
 }
+
+#[test]
+fn changes_between_two_versions() {
+    let folder = folder("diff");
+    let old = file(&folder, "old.eds", QUIRKY);
+    let wider = file(&folder, "wider.eds", &QUIRKY.replace("DefaultValue=012", "DefaultValue=5"));
+    let other = file(&folder, "other.eds", &QUIRKY.replace("DataType=0x0006", "DataType=0x0007"));
+    let output = lexibus(&["diff", &old, &old]);
+    assert_eq!((code(&output), out(&output).as_str()), (0, "no changes\n"));
+    let output = lexibus(&["diff", &old, &wider]);
+    assert_eq!((code(&output), out(&output).lines().last()), (0, Some("1 change, 0 breaking")));
+    let output = lexibus(&["diff", &old, &other]);
+    assert_eq!(code(&output), 1);
+    assert!(
+        out(&output).starts_with("breaking: 0x2000:00 Gain: type UNSIGNED16, now UNSIGNED32\n"),
+        "{}",
+        out(&output)
+    );
+    let output = lexibus(&["diff", &old, &other, "--format", "json"]);
+    let line: serde_json::Value = serde_json::from_str(out(&output).lines().next().expect("a change")).expect("JSON");
+    assert_eq!((&line["fact"], &line["judgement"]), (&"type".into(), &"breaking".into()));
+    let page = folder.join("page.html");
+    lexibus(&["diff", &old, &other, "--format", "html", "--out", &page.to_string_lossy()]);
+    assert!(std::fs::read_to_string(page).expect("a page").contains("<td><b>breaking</b>"));
+    assert_eq!(code(&lexibus(&["diff", &old, "nowhere.eds"])), 2);
+    let broken = file(&folder, "broken.toml", "lexibus = 1\n[device]\n");
+    assert_eq!(code(&lexibus(&["diff", &old, &broken])), 1);
+}

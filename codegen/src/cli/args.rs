@@ -29,6 +29,8 @@ pub(super) enum Command {
     Export(Export),
     /// Write a site of documentation: pages that open from disk, with a search.
     Docs(Docs),
+    /// Tell what changed between two versions of a description, and what of it breaks code that was written for the old one.
+    Diff(Diff),
     /// Read and check device descriptions.
     Check(Check),
     /// Sum up device descriptions.
@@ -124,6 +126,36 @@ pub(super) enum Colour {
     Always,
     /// Never.
     Never,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Diff {
+    /// The old description.
+    pub old: PathBuf,
+    /// The new one.
+    pub new: PathBuf,
+    /// How the changes are told.
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = DiffFormat::Text)]
+    pub format: DiffFormat,
+    /// The file to write; standard output where it isn't given.
+    #[arg(short, long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Choose what the manual of a register table leaves open; may be repeated.
+    #[arg(long, value_name = "NAME=CHOICE", value_parser = choice)]
+    pub option: Vec<(String, String)>,
+    /// Profiles (CiA 301, CiA 402, CoE, PROFIdrive) add nothing to the objects of devices that follow them.
+    #[arg(long)]
+    pub no_profiles: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum DiffFormat {
+    /// A line a change.
+    Text,
+    /// One JSON object a line.
+    Json,
+    /// A page.
+    Html,
 }
 
 #[derive(Debug, Args)]
@@ -338,7 +370,7 @@ impl Arguments {
             Command::Check(check) => &mut check.inputs,
             Command::Info(info) => &mut info.inputs,
             Command::Dump(dump) => &mut dump.inputs,
-            Command::New(_) | Command::Import(_) | Command::Schema(_) => return arguments,
+            Command::New(_) | Command::Import(_) | Command::Schema(_) | Command::Diff(_) => return arguments,
             Command::Explain { .. } | Command::Completions { .. } => return arguments,
         };
         if let Some((_, matches)) = matches.subcommand() {

@@ -1,9 +1,10 @@
-//! The command line: `lexibus generate`, `export`, `docs`, `check`, `info`, `dump`, `new`, `import`, `schema`, `explain`,
+//! The command line: `lexibus generate`, `export`, `docs`, `diff`, `check`, `info`, `dump`, `new`, `import`, `schema`, `explain`,
 //! `completions`.
 //!
-//! Exit codes: 0 where everything went well, 1 for errors in the input or stale output, 2 for a wrong call.
+//! Exit codes: 0 where everything went well, 1 for errors in the input, stale output or breaking changes, 2 for a wrong call.
 
 mod args;
+mod diff;
 mod docs;
 mod export;
 mod generate;
@@ -74,6 +75,7 @@ fn run(arguments: Arguments) -> Result<bool, Failure> {
         Command::Generate(generate) => generate::run(&generate),
         Command::Export(export) => export::run(&export),
         Command::Docs(docs) => docs::run(&docs),
+        Command::Diff(diff) => diff::run(&diff),
         Command::Check(check) => check_files(&check.inputs),
         Command::Info(info) => info_files(&info.inputs, info.format),
         Command::Dump(dump) => dump_files(&dump.inputs),

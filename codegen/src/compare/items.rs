@@ -1,0 +1,173 @@
+//! Objects, registers and parameters.
+
+use std::collections::{BTreeMap, HashSet};
+
+use super::{renamed, types, Changes, Judgement, Scope};
+use crate::ir::{Access, Binding, Group, Item, Limits, Quantity, Scale, Type, Value};
+
+/// An item with the group that has it.
+type Placed<'a> = (&'a Group, &'a Item);
+
+pub(super) fn compare(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
+    let (was, is) = (placed(old), placed(new));
+    let mut gone = Vec::new();
+    let mut told = HashSet::new();
+    for (key, own) in &was {
+        match is.get(key) {
+            Some(other) => item((old, *own), (new, *other), key, &mut told, changes),
+            None => gone.push((key, *own)),
+        }
+    }
+    let mut added: Vec<(&String, Placed<'_>)> =
+        is.iter().filter(|(key, _)| !was.contains_key(*key)).map(|(key, own)| (key, *own)).collect();
+    for (key, own) in gone {
+        // What goes by its old name at another address.
+        let same = added.iter().position(|(_, other)| path(*other) == path(own) && !own.1.name.is_empty());
+        match same.map(|at| added.remove(at)) {
+            Some((new_key, other)) => {
+                let element = element(new_key, own);
+                changes.push(&element, "address", (key.clone(), new_key.clone()), Judgement::Compatible);
+                item((old, own), (new, other), new_key, &mut told, changes);
+            }
+            None => changes.existence(&element(key, own), true, false),
+        }
+    }
+    for (key, own) in added {
+        changes.existence(&element(key, own), false, true);
+    }
+}
+
+/// All items by their first address.
+fn placed<'a>(scope: &Scope<'a>) -> BTreeMap<String, Placed<'a>> {
+    let mut all = BTreeMap::new();
+    for group in &scope.groups {
+        for item in &group.items {
+            let key = item.bindings.first().map(address).unwrap_or_default();
+            all.entry(key).or_insert((*group, item));
+        }
+    }
+    all
+}
+
+fn address(binding: &Binding) -> String {
+    match binding {
+        Binding::Object { index, sub_index, .. } => format!("0x{index:04X}:{sub_index:02X}"),
+        Binding::Register(own) => {
+            let bit = own.bit_offset.map(|bit| format!(".{bit}")).unwrap_or_default();
+            format!("{:?} {:05}{bit}", own.space, own.address).to_lowercase()
+        }
+        Binding::Record { index, bit_offset, .. } => format!("record 0x{index:04X} bit {bit_offset:05}"),
+        Binding::Image { image, bit_offset, .. } => format!("{image} bit {bit_offset:05}"),
+        Binding::Parameter { space, code } => format!("{space} 0x{code:04X}"),
+        Binding::Ascii(name) => name.to_string(),
+        Binding::EscMemory { address, .. } => format!("memory 0x{address:04X}"),
+        Binding::Indirect(own) => format!("{} window 0x{:04X}", own.space, own.number),
+    }
+}
+
+fn path<'a>((group, item): Placed<'a>) -> (&'a str, &'a str) {
+    (&group.name, &item.name)
+}
+
+/// What a report calls an item.
+fn element(key: &str, (group, item): Placed<'_>) -> String {
+    let name = if item.name.is_empty() { &group.name } else { &item.name };
+    format!("{key} {name}").trim().to_owned()
+}
+
+fn item(
+    (old_scope, old): (&Scope<'_>, Placed<'_>),
+    (new_scope, new): (&Scope<'_>, Placed<'_>),
+    key: &str,
+    told: &mut HashSet<(Type, Type)>,
+    changes: &mut Changes,
+) {
+    let element = element(key, new);
+    let (was, is) = (old.1, new.1);
+    if old.0.index().is_some() && old.0.name != new.0.name && old.0.items.len() > 1 {
+        let names = (old.0.name.to_string(), new.0.name.to_string());
+        changes.fact(&element, "object", names, renamed(&old.0.name, &new.0.name));
+    }
+    changes.fact(&element, "name", (was.name.to_string(), is.name.to_string()), renamed(&was.name, &is.name));
+    let type_of = |scope: &Scope<'_>, item: &Item| types::written(scope.types, item.ty);
+    changes.fact(&element, "type", (type_of(old_scope, was), type_of(new_scope, is)), Judgement::Breaking);
+    if told.insert((was.ty, is.ty)) {
+        types::compare((old_scope.types, was.ty), (new_scope.types, is.ty), &element, changes);
+    }
+    let narrower = !is.access.readable() && was.access.readable() || !is.access.writable() && was.access.writable();
+    let judged = |breaks: bool| if breaks { Judgement::Breaking } else { Judgement::Compatible };
+    let access = |own: Access| own.name().to_owned();
+    changes.fact(&element, "access", (access(was.access), access(is.access)), judged(narrower));
+    let mappable = |item: &Item| match (item.mappable.rpdo, item.mappable.tpdo) {
+        (true, true) => "any PDO".to_owned(),
+        (true, false) => "RPDOs".to_owned(),
+        (false, true) => "TPDOs".to_owned(),
+        (false, false) => "none".to_owned(),
+    };
+    let lost = was.mappable.rpdo && !is.mappable.rpdo || was.mappable.tpdo && !is.mappable.tpdo;
+    changes.fact(&element, "mappable into", (mappable(was), mappable(is)), judged(lost));
+    changes.fact(
+        &element,
+        "range",
+        (range(&was.limits), range(&is.limits)),
+        judged(is_narrower(&was.limits, &is.limits)),
+    );
+    let value = |own: &Option<Value>| own.as_ref().map(ToString::to_string).unwrap_or_default();
+    changes.fact(&element, "default", (value(&was.default), value(&is.default)), Judgement::Compatible);
+    let quantity = |item: &Item| item.quantity.as_deref().cloned().unwrap_or_default();
+    let (was, is) = (quantity(was), quantity(is));
+    changes.fact(&element, "unit", (was.unit.to_string(), is.unit.to_string()), Judgement::Breaking);
+    changes.fact(&element, "scale", (scale(&was), scale(&is)), Judgement::Breaking);
+}
+
+fn range(limits: &Limits) -> String {
+    if !limits.allowed.is_empty() {
+        let one = |(first, last): &(Value, Value)| match first == last {
+            true => first.to_string(),
+            false => format!("{first} to {last}"),
+        };
+        return limits.allowed.iter().map(one).collect::<Vec<_>>().join(", ");
+    }
+    match (&limits.low, &limits.high) {
+        (Some(low), Some(high)) => format!("{low} to {high}"),
+        (Some(low), None) => format!("from {low}"),
+        (None, Some(high)) => format!("to {high}"),
+        (None, None) => String::new(),
+    }
+}
+
+/// Whether some value was allowed that isn't any more.
+fn is_narrower(old: &Limits, new: &Limits) -> bool {
+    let real = |own: &Option<Value>| own.as_ref().and_then(Value::as_real);
+    let below = match (real(&old.low), real(&new.low)) {
+        (None, Some(_)) => true,
+        (Some(old), Some(new)) => new > old,
+        _ => false,
+    };
+    let above = match (real(&old.high), real(&new.high)) {
+        (None, Some(_)) => true,
+        (Some(old), Some(new)) => new < old,
+        _ => false,
+    };
+    let is_allowed = |value: f64| {
+        new.allowed.iter().any(|(first, last)| {
+            first.as_real().is_some_and(|first| first <= value) && last.as_real().is_some_and(|last| value <= last)
+        })
+    };
+    let ends = old.allowed.iter().flat_map(|(first, last)| [first.as_real(), last.as_real()]).flatten();
+    let listed = !new.allowed.is_empty() && (old.allowed.is_empty() || !ends.into_iter().all(is_allowed));
+    below || above || listed
+}
+
+fn scale(own: &Quantity) -> String {
+    match &own.scale {
+        None => String::new(),
+        Some(Scale::Linear { factor, offset }) if *offset == 0.0 => format!("× {factor}"),
+        Some(Scale::Linear { factor, offset }) => format!("× {factor} + {offset}"),
+        Some(Scale::Reciprocal { numerator }) => format!("{numerator} / raw"),
+        Some(Scale::Fraction { bits, base }) => format!("/ 2^{bits} × {base}"),
+        Some(Scale::Exponent { exponent, base, fraction }) => format!("/ 2^{fraction} × {base}^{exponent}"),
+        Some(Scale::ByItem { item, factor }) => format!("× {factor} / {item}"),
+        Some(Scale::TimesItem { item, factor }) => format!("× {factor} × {item}"),
+    }
+}

@@ -1,0 +1,60 @@
+//! Layouts of process data.
+
+use super::{pairs, types, Changes, Judgement, Scope};
+use crate::ir::{Direction, Pdo, PdoEntry, PdoEntryKind, ProcessImage, TypeDef};
+
+pub(super) fn compare(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
+    let key = |own: &Pdo| (own.mapping_index, own.buses.map(|buses| (buses.canopen, buses.coe)));
+    for (was, is) in pairs(old.pdos, new.pdos, key, false) {
+        let Some(own) = was.or(is) else { continue };
+        let kind = if own.direction == Direction::Receive { "RPDO" } else { "TPDO" };
+        let element = format!("{kind} 0x{:04X} {}", own.mapping_index, own.name).trim().to_owned();
+        let (Some(was), Some(is)) = (was, is) else {
+            changes.existence(&element, was.is_some(), is.is_some());
+            continue;
+        };
+        let layouts = (layout(&was.entries, old.types), layout(&is.entries, new.types));
+        changes.fact(&element, "layout", layouts, Judgement::Breaking);
+        let manager = |own: &Pdo| own.sync_manager.map(|own| own.to_string()).unwrap_or_default();
+        changes.fact(&element, "sync manager", (manager(was), manager(is)), Judgement::Compatible);
+        let excludes = |own: &Pdo| own.excludes.iter().map(|own| format!("0x{own:04X}")).collect::<Vec<_>>().join(", ");
+        let fewer = was.excludes.iter().all(|own| is.excludes.contains(own)) && was.excludes.len() < is.excludes.len();
+        let judgement = if fewer { Judgement::Breaking } else { Judgement::Compatible };
+        changes.fact(&element, "excludes", (excludes(was), excludes(is)), judgement);
+    }
+    images(old, new, changes);
+}
+
+fn images(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
+    let same = |one: &ProcessImage, other: &ProcessImage| one.direction == other.direction && one.name == other.name;
+    for was in &old.images {
+        let element = format!("image {}", name(was));
+        match new.images.iter().find(|own| same(own, was)) {
+            Some(is) => {
+                let lengths = (was.length.to_string(), is.length.to_string());
+                changes.fact(&element, "length", lengths, Judgement::Breaking);
+                let layouts = (layout(&was.fields, old.types), layout(&is.fields, new.types));
+                changes.fact(&element, "layout", layouts, Judgement::Breaking);
+            }
+            None => changes.existence(&element, true, false),
+        }
+    }
+    for is in new.images.iter().filter(|own| !old.images.iter().any(|other| same(own, other))) {
+        changes.existence(&format!("image {}", name(is)), false, true);
+    }
+}
+
+fn name(own: &ProcessImage) -> &str {
+    match (own.name.as_str(), own.direction) {
+        ("", Direction::Receive) => "to the device",
+        ("", Direction::Transmit) => "from the device",
+        (name, _) => name,
+    }
+}
+
+/// What stands where: `0: UNSIGNED16 Controlword, 16: INTEGER32 Target position`.
+fn layout(entries: &[PdoEntry], types: &[TypeDef]) -> String {
+    let own = entries.iter().filter(|own| own.kind != PdoEntryKind::Padding);
+    let entry = |own: &PdoEntry| format!("{}: {} {}", own.bit_offset, types::written(types, own.ty), own.name);
+    own.map(entry).collect::<Vec<_>>().join(", ")
+}

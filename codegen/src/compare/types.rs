@@ -1,0 +1,121 @@
+//! Types with names for bits and values, and tables of codes.
+
+use std::collections::BTreeMap;
+
+use super::{renamed, Changes, Judgement};
+use crate::ir::{BitMeaning, CodeTable, EnumValue, Shape, Type, TypeDef};
+
+/// The most steps from a type to the one below: a description may run in circles.
+const DEEPEST: usize = 16;
+
+fn definition(types: &[TypeDef], ty: Type) -> Option<&TypeDef> {
+    let mut ty = ty;
+    for _ in 0..DEEPEST {
+        let Type::Named(id) = ty else { return None };
+        let own = types.get(id.0 as usize)?;
+        match own.shape {
+            Shape::Alias(other) => ty = other,
+            _ => return Some(own),
+        }
+    }
+    None
+}
+
+/// The type that generated code has: of what has names, whose names they are.
+pub(super) fn written(types: &[TypeDef], ty: Type) -> String {
+    let mut ty = ty;
+    for _ in 0..DEEPEST {
+        let Type::Named(id) = ty else { break };
+        let Some(own) = types.get(id.0 as usize) else { return "unknown type".to_owned() };
+        ty = match &own.shape {
+            Shape::Alias(other) => *other,
+            Shape::BitField { base, .. } => return format!("bits {} of {}", own.name, written(types, *base)),
+            Shape::Enumeration { base, .. } => return format!("values {} of {}", own.name, written(types, *base)),
+            Shape::Scaled { base, .. } => *base,
+            Shape::Array { .. } | Shape::Record(_) => return own.name.to_string(),
+        };
+    }
+    match ty {
+        Type::VisibleString(Some(length)) | Type::OctetString(Some(length)) | Type::UnicodeString(Some(length)) => {
+            format!("{ty}({length})")
+        }
+        other => other.to_string(),
+    }
+}
+
+/// Names of bits and values of a type that an element has.
+pub(super) fn compare(
+    (old_types, old): (&[TypeDef], Type),
+    (new_types, new): (&[TypeDef], Type),
+    element: &str,
+    changes: &mut Changes,
+) {
+    let (Some(old), Some(new)) = (definition(old_types, old), definition(new_types, new)) else { return };
+    match (&old.shape, &new.shape) {
+        (Shape::Enumeration { values: old, .. }, Shape::Enumeration { values: new, .. }) => {
+            values(old, new, element, changes);
+        }
+        (Shape::BitField { fields: old, .. }, Shape::BitField { fields: new, .. }) => {
+            let key = |own: &crate::ir::BitFieldEntry| {
+                let is_reserved = matches!(own.meaning, BitMeaning::Reserved { .. });
+                let when = own.when.as_ref().map(|own| format!("{:?}", own.values)).unwrap_or_default();
+                (!is_reserved).then(|| (format!("bits {}+{} {when}", own.offset, own.bits), own.name.to_string()))
+            };
+            named(old.iter().filter_map(key), new.iter().filter_map(key), element, Judgement::Compatible, changes);
+            for (one, other) in old
+                .iter()
+                .filter_map(|one| Some((one, new.iter().find(|own| own.offset == one.offset && own.name == one.name)?)))
+            {
+                if let (BitMeaning::Enumeration(one), BitMeaning::Enumeration(other)) = (&one.meaning, &other.meaning) {
+                    compare((old_types, Type::Named(*one)), (new_types, Type::Named(*other)), element, changes);
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+fn values(old: &[EnumValue], new: &[EnumValue], element: &str, changes: &mut Changes) {
+    let key = |own: &EnumValue| (format!("value {}", own.value), own.name.to_string());
+    // A further variant: whoever matched all of them has one to add.
+    named(old.iter().map(key), new.iter().map(key), element, Judgement::Breaking, changes);
+}
+
+/// Names by what they stand for.
+fn named(
+    old: impl Iterator<Item = (String, String)>,
+    new: impl Iterator<Item = (String, String)>,
+    element: &str,
+    of_new: Judgement,
+    changes: &mut Changes,
+) {
+    let (old, new): (BTreeMap<_, _>, BTreeMap<_, _>) = (old.collect(), new.collect());
+    for (key, was) in &old {
+        let what = format!("{element}, {key}");
+        match new.get(key) {
+            Some(is) => changes.fact(&what, "name", (was.clone(), is.clone()), renamed(was, is)),
+            None => changes.push(&what, "removed", (was.clone(), String::new()), Judgement::Breaking),
+        }
+    }
+    for (key, is) in new.iter().filter(|(key, _)| !old.contains_key(*key)) {
+        changes.push(&format!("{element}, {key}"), "added", (String::new(), is.clone()), of_new);
+    }
+}
+
+/// Tables of codes, which are enumerations in Rust.
+pub(super) fn codes(old: &[CodeTable], new: &[CodeTable], changes: &mut Changes) {
+    for table in old {
+        let element = format!("codes {}", table.name);
+        let key = |row: &crate::ir::CodeRow| (format!("code {:#X}", row.code), row.name.to_string());
+        match new.iter().find(|own| own.name == table.name) {
+            Some(other) => {
+                let (old, new) = (table.rows.iter().map(key), other.rows.iter().map(key));
+                named(old, new, &element, Judgement::Breaking, changes);
+            }
+            None => changes.existence(&element, true, false),
+        }
+    }
+    for table in new.iter().filter(|own| !old.iter().any(|other| other.name == own.name)) {
+        changes.existence(&format!("codes {}", table.name), false, true);
+    }
+}

@@ -1,0 +1,150 @@
+//! What changed between two versions of a description, and whether it breaks code that was written for the old one.
+
+use lexibus_codegen::compare::{compare, Change, Judgement};
+use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::ir::Catalog;
+use lexibus_codegen::source::Source;
+
+fn read(name: &str, text: &str) -> Catalog {
+    let compilation =
+        check(Source::new(name, text.as_bytes().to_vec()), &Options { no_profiles: true, ..Options::default() });
+    let said: Vec<String> = compilation.diagnostics.list().iter().map(|own| compilation.one_line(own)).collect();
+    assert!(compilation.is_usable(), "{said:#?}");
+    compilation.catalog.expect("a device")
+}
+
+const TABLE: &str = r#"lexibus = 1
+[device]
+name = "Pump"
+buses = ["modbus", "serial"]
+[spaces.register]
+modbus = { table = "holding" }
+[[chapters]]
+title = "Control"
+[chapters.registers]
+speed = { reg = 1, type = "u16", access = "rw", unit = "rpm", min = 0, max = 3000, default = 100 }
+mode = { reg = 2, type = "u16", access = "rw", enum = { 0 = "off", 1 = "on" } }
+flags = { reg = 3, type = "u16", access = "ro", bits = { 0 = "ready", 3 = "fault" } }
+gain = { reg = 4, type = "i16", access = "rw", scale = 0.1, unit = "A" }
+level = { reg = 5, type = "u16", access = "ro" }
+[codes.alarm.rows]
+1 = "too hot"
+[[messages]]
+name = "Go"
+request = [{ bytes = [1] }, { field = "target", type = "i16" }]
+"#;
+
+/// What is told of a table in which these texts are replaced.
+fn changes(replaced: &[(&str, &str)]) -> Vec<String> {
+    let new = replaced.iter().fold(TABLE.to_owned(), |text, (old, new)| {
+        assert!(text.contains(old), "{old}");
+        text.replace(old, new)
+    });
+    compare(&read("old.toml", TABLE), &read("new.toml", &new)).iter().map(Change::to_string).collect()
+}
+
+#[test]
+fn nothing_changed() {
+    assert_eq!(changes(&[]), [""; 0]);
+    assert_eq!(changes(&[("name = \"Pump\"", "name = \"Pump\"\ndoc = \"Pumps\"")]), [""; 0]);
+}
+
+#[test]
+fn facts_of_values() {
+    let one = |old: &str, new: &str| changes(&[(old, new)]).join("\n");
+    assert_eq!(one("max = 3000", "max = 2000"), "breaking: holding 00001 speed: range 0 to 3000, now 0 to 2000");
+    assert_eq!(one("max = 3000", "max = 4000"), "compatible: holding 00001 speed: range 0 to 3000, now 0 to 4000");
+    assert_eq!(one("default = 100", "default = 0"), "compatible: holding 00001 speed: default 100, now 0");
+    assert_eq!(one("unit = \"rpm\"", "unit = \"Hz\""), "breaking: holding 00001 speed: unit rpm, now Hz");
+    assert_eq!(one("scale = 0.1", "scale = 0.01"), "breaking: holding 00004 gain: scale × 0.1, now × 0.01");
+    assert_eq!(
+        one("gain = { reg = 4, type = \"i16\"", "gain = { reg = 4, type = \"u16\""),
+        "breaking: holding 00004 gain: type INTEGER16, now UNSIGNED16"
+    );
+    assert_eq!(
+        one("speed = { reg = 1, type = \"u16\", access = \"rw\"", "speed = { reg = 1, type = \"u16\", access = \"ro\""),
+        "breaking: holding 00001 speed: access rw, now ro"
+    );
+    assert_eq!(
+        one("level = { reg = 5, type = \"u16\", access = \"ro\"", "level = { reg = 5, type = \"u16\", access = \"rw\""),
+        "compatible: holding 00005 level: access ro, now rw"
+    );
+}
+
+#[test]
+fn names_and_places() {
+    let one = |old: &str, new: &str| changes(&[(old, new)]).join("\n");
+    assert_eq!(one("level = {", "height = {"), "breaking: holding 00005 height: name level, now height");
+    assert_eq!(one("level = {", "Level = {"), "compatible: holding 00005 Level: name level, now Level");
+    assert_eq!(
+        one("level = { reg = 5", "level = { reg = 9"),
+        "compatible: holding 00009 level: address holding 00005, now holding 00009"
+    );
+    assert_eq!(
+        one("level = { reg = 5, type = \"u16\", access = \"ro\" }\n", ""),
+        "breaking: holding 00005 level: removed"
+    );
+    let more =
+        "level = { reg = 5, type = \"u16\", access = \"ro\" }\nmore = { reg = 6, type = \"u16\", access = \"ro\" }";
+    assert_eq!(
+        one("level = { reg = 5, type = \"u16\", access = \"ro\" }", more),
+        "compatible: holding 00006 more: added"
+    );
+}
+
+#[test]
+fn bits_values_codes_and_messages() {
+    let one = |old: &str, new: &str| changes(&[(old, new)]).join("\n");
+    assert_eq!(one("1 = \"on\" }", "1 = \"on\", 2 = \"auto\" }"), "breaking: holding 00002 mode, value 2: added, auto");
+    assert_eq!(one("1 = \"on\" }", "1 = \"running\" }"), "breaking: holding 00002 mode, value 1: name on, now running");
+    assert_eq!(
+        one("3 = \"fault\"", "3 = \"fault\", 4 = \"hot\""),
+        "compatible: holding 00003 flags, bits 4+1 : added, hot"
+    );
+    assert_eq!(one(", 3 = \"fault\"", ""), "breaking: holding 00003 flags, bits 3+1 : removed, was fault");
+    assert_eq!(
+        one("1 = \"too hot\"", "1 = \"too hot\"\n2 = \"too cold\""),
+        "breaking: codes alarm, code 0x2: added, too cold"
+    );
+    assert_eq!(
+        one("type = \"i16\" }]", "type = \"i32\" }]"),
+        "breaking: message Go: request 01, INTEGER16 target, now 01, INTEGER32 target"
+    );
+    assert_eq!(one("name = \"Go\"", "name = \"Run\""), "breaking: message Go: removed\ncompatible: message Run: added");
+}
+
+#[test]
+fn layouts_of_pdos() {
+    let eds = |mapping: &str| {
+        format!(
+            "[DeviceInfo]\nNrOfRXPDO=1\n[MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n[1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\n\
+             [OptionalObjects]\nSupportedObjects=4\n1=0x1400\n2=0x1600\n3=0x6040\n4=0x607A\n\
+             [1400]\nParameterName=RPDO\nObjectType=9\nSubNumber=3\n[1400sub0]\nParameterName=Highest\nDataType=5\nAccessType=const\nDefaultValue=2\n\
+             [1400sub1]\nParameterName=COB-ID\nDataType=7\nAccessType=rw\nDefaultValue=$NODEID+0x200\n[1400sub2]\nParameterName=Type\nDataType=5\nAccessType=rw\nDefaultValue=255\n\
+             [1600]\nParameterName=Mapping\nObjectType=9\nSubNumber=2\n[1600sub0]\nParameterName=Count\nDataType=5\nAccessType=ro\nDefaultValue=1\n\
+             [1600sub1]\nParameterName=First\nDataType=7\nAccessType=ro\nDefaultValue={mapping}\n\
+             [6040]\nParameterName=Controlword\nDataType=6\nAccessType=rww\nPDOMapping=1\n[607A]\nParameterName=Target position\nDataType=4\nAccessType=rww\nPDOMapping=1\n"
+        )
+    };
+    let changes = compare(&read("old.eds", &eds("0x60400010")), &read("new.eds", &eds("0x607A0020")));
+    let layout = changes.iter().find(|own| own.fact == "layout").expect("another layout");
+    assert_eq!(
+        (layout.old.as_str(), layout.new.as_str()),
+        ("0: UNSIGNED16 Controlword", "0: INTEGER32 Target position")
+    );
+    assert_eq!((layout.element.as_str(), layout.judgement), ("RPDO 0x1600 Mapping", Judgement::Breaking));
+}
+
+#[test]
+fn a_description_differs_from_itself_in_nothing() {
+    for path in [
+        "dictionaries/eco.toml",
+        "dictionaries/hsd-sm137-sm140.toml",
+        "tests/data/coupler.esi.xml",
+        "tests/data/drive.gsdml.xml",
+    ] {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
+        let catalog = check(Source::read(&path).expect("a description"), &Options::default()).catalog.expect("devices");
+        assert_eq!(compare(&catalog, &catalog), [], "{}", path.display());
+    }
+}
