@@ -160,6 +160,18 @@ if (language) {
   language.addEventListener("change", () => names(kept("language", language.value)));
 }
 
+// What a program writes is copied with a button, which only pages with a script have.
+for (const code of document.querySelectorAll("p > code:only-child")) {
+  const button = document.createElement("button");
+  button.type = "button";
+  button.textContent = "Copy";
+  button.className = "copy";
+  button.addEventListener("click", () => {
+    navigator.clipboard?.writeText(code.textContent).then(() => { button.textContent = "Copied"; }, () => getSelection().selectAllChildren(code));
+  });
+  code.after(" ", button);
+}
+
 // An address that another page has.
 if (location.hash && !document.getElementById(decodeURIComponent(location.hash.slice(1)))) {
   load();

@@ -1,7 +1,7 @@
 //! Pages of items: a chapter of registers, or a range of objects.
 
 use super::anchor::Names;
-use super::entry::{self, Doubt, Row, Rows};
+use super::entry::{self, Calls, Doubt, Row, Rows};
 use super::words::{self, PLAIN};
 use crate::backend::words::Manual;
 use crate::ir::{Group, GroupKind, Item, TypeDef};
@@ -50,11 +50,11 @@ struct Part<'g> {
 pub(super) fn areas(
     groups: &[Group],
     types: &[TypeDef],
-    manual: &Manual,
+    (manual, calls): (&Manual, &Calls),
     files: &mut Names,
     prefix: &str,
 ) -> Vec<Area> {
-    parts(groups).iter().flat_map(|part| pages(part, types, manual, files, prefix)).collect()
+    parts(groups).iter().flat_map(|part| pages(part, types, (manual, calls), files, prefix)).collect()
 }
 
 /// A part for each chapter and image, and for each range of objects (CiA 301 7.4.1).
@@ -86,7 +86,13 @@ fn range_of(index: u16) -> &'static str {
     }
 }
 
-fn pages(part: &Part<'_>, types: &[TypeDef], manual: &Manual, files: &mut Names, prefix: &str) -> Vec<Area> {
+fn pages(
+    part: &Part<'_>,
+    types: &[TypeDef],
+    (manual, calls): (&Manual, &Calls),
+    files: &mut Names,
+    prefix: &str,
+) -> Vec<Area> {
     let mut names = Names::default();
     let mut sections: Vec<Section> = Vec::new();
     let mut areas: Vec<Vec<Section>> = Vec::new();
@@ -103,7 +109,7 @@ fn pages(part: &Part<'_>, types: &[TypeDef], manual: &Manual, files: &mut Names,
                 areas.push(std::mem::take(&mut sections));
                 (names, shown, count) = (Names::default(), Vec::new(), 0);
             }
-            let mut rows = Rows { types, manual, names: &mut names, shown };
+            let mut rows = Rows { types, manual, names: &mut names, calls, shown };
             sections.push(section(group, items, &mut rows));
             shown = rows.shown;
             count += items.len();

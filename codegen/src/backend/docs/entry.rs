@@ -1,5 +1,7 @@
 //! Rows of tables: an item a row, and what there is no column for below it.
 
+use std::collections::HashMap;
+
 use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::words::{self, PLAIN};
@@ -24,6 +26,8 @@ pub(super) struct Row {
     /// Further addresses, with their bus.
     pub elsewhere: Vec<String>,
     pub doubts: Vec<Doubt>,
+    /// How a program reaches it.
+    pub rust: String,
     pub bits: Option<Bits>,
     pub labels: Vec<Label>,
     /// The address of the row that has the bits or values, where another one on the page has the same type.
@@ -45,9 +49,21 @@ impl Row {
         !self.facts.is_empty()
             || !self.elsewhere.is_empty()
             || !self.doubts.is_empty()
+            || !self.rust.is_empty()
             || self.bits.is_some()
             || !self.labels.is_empty()
             || self.same_as.is_some()
+    }
+}
+
+/// The methods that give items, by where these are.
+pub(super) type Calls = HashMap<*const Item, String>;
+
+/// A line of a program that reads the item, or writes it where it can't be read.
+fn call_of(item: &Item, call: &str) -> String {
+    match item.access.readable() {
+        true => format!("device.{call}.read()?"),
+        false => format!("device.{call}.write(value)?"),
     }
 }
 
@@ -56,6 +72,8 @@ pub(super) struct Rows<'p> {
     pub types: &'p [TypeDef],
     pub manual: &'p Manual,
     pub names: &'p mut Names,
+    /// How programs reach items.
+    pub calls: &'p Calls,
     /// The types whose bits or values the page has already, with the address and name of the row.
     pub shown: Vec<(Type, String, String)>,
 }
@@ -91,6 +109,7 @@ impl Rows<'_> {
             facts: self.facts(item),
             elsewhere,
             doubts: doubts(&item.doubts),
+            rust: self.calls.get(&std::ptr::from_ref(item)).map(|call| call_of(item, call)).unwrap_or_default(),
             bits: drawn,
             labels,
             same_as,

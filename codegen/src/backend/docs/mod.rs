@@ -32,6 +32,7 @@ mod words;
 
 use askama::Template;
 
+use crate::backend::rust;
 use crate::backend::words::Manual;
 use crate::ir::{Catalog, Device};
 use anchor::Names;
@@ -225,7 +226,8 @@ impl Folder {
         let first = format!("{own}.html");
         let prefix = if is_alone { String::new() } else { format!("{own}-") };
         let manual = Manual::of(device);
-        let areas = area::areas(&device.groups, &device.types, &manual, &mut self.files, &prefix);
+        let calls = rust::calls(device).into_iter().map(|(item, call)| (std::ptr::from_ref(item), call)).collect();
+        let areas = area::areas(&device.groups, &device.types, (&manual, &calls), &mut self.files, &prefix);
         let frames = process::frames(&device.process_data, &device.types);
         let protocol = protocol::protocol(device, &manual);
         let tables = codes::tables(&device.code_tables, &manual);

@@ -2,7 +2,7 @@
 
 use super::anchor::Names;
 use super::area::Section;
-use super::entry::Rows;
+use super::entry::{Calls, Rows};
 use super::process::{self, Frame};
 use super::words::{self, PLAIN};
 use crate::backend::words::Manual;
@@ -57,10 +57,11 @@ fn module(own: &Module, parts: Vec<(String, String)>, names: &mut Names) -> Modu
     let order = &own.identity.order_code;
     facts.extend((!order.is_empty()).then(|| format!("Order code {order}.")));
     let mut sections = Vec::new();
-    let manual = Manual::default();
+    let (manual, calls) = (Manual::default(), Calls::default());
     for group in own.fixed_objects.iter().chain(&own.groups) {
         let mut anchors = Names::default();
-        let mut rows = Rows { types: &own.types, manual: &manual, names: &mut anchors, shown: Vec::new() };
+        let mut rows =
+            Rows { types: &own.types, manual: &manual, names: &mut anchors, calls: &calls, shown: Vec::new() };
         sections.push(section(group, &mut rows));
     }
     let number = format!("0x{:08X}", own.number);
@@ -80,9 +81,10 @@ fn submodule(catalog: &Catalog, own: &Submodule, anchor: &str, names: &mut Names
     let mut facts = PLAIN.description(own.documentation.as_deref());
     facts.extend((own.api != 0).then(|| format!("API 0x{:04X}.", own.api)));
     facts.extend(own.f_parameters.is_some().then(|| "With parameters of functional safety (PROFIsafe).".to_owned()));
-    let manual = Manual::default();
+    let (manual, calls) = (Manual::default(), Calls::default());
     let mut anchors = Names::default();
-    let mut rows = Rows { types: &catalog.types, manual: &manual, names: &mut anchors, shown: Vec::new() };
+    let mut rows =
+        Rows { types: &catalog.types, manual: &manual, names: &mut anchors, calls: &calls, shown: Vec::new() };
     let sections = own.records.iter().map(|group| section(group, &mut rows)).collect();
     let image = |data: &IoData, title: &str| process::image(&data.image, &catalog.types, "", title);
     let inputs = own.input.as_deref().map(|data| image(data, "Inputs of the controller"));

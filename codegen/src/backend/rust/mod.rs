@@ -53,8 +53,9 @@ pub use options::{Presence, RustOptions};
 
 use askama::Template;
 
-use crate::ir::{Catalog, Device, FileInfo, Format};
+use crate::ir::{Catalog, Device, FileInfo, Format, Item};
 use model::Model;
+use scope::Scope;
 
 /// The number of the interface between generated code and the runtime: `lexibus::interface::VERSION`.
 pub const INTERFACE_VERSION: u32 = 1;
@@ -99,6 +100,12 @@ fn render(model: Model<'_>) -> String {
     // Writing to a String can't fail, and the template calls nothing that does.
     let _ = DeviceTemplate { m: model }.render_into(&mut text);
     text
+}
+
+/// How a program reaches each item of a device: by the methods of its type, as in `identity().vendor_id()`.
+pub(super) fn calls(device: &Device) -> Vec<(&Item, String)> {
+    let (scope, _) = Scope::of_device(device, &RustOptions::default());
+    objects::calls(&scope)
 }
 
 /// The name of the device's type, and so of its file, where nobody chose another one.

@@ -94,10 +94,32 @@ fn object(scope: &Scope<'_>, locations: &Locations, group: &Group, name: &str) -
     }
 }
 
+/// How a program reaches each item: by the methods of the device's type, as in `identity().vendor_id()`.
+pub(super) fn calls<'a>(scope: &Scope<'a>) -> Vec<(&'a Item, String)> {
+    let registers = registers(scope);
+    let groups: Vec<&'a Group> = addressable(scope).collect();
+    let mut names = names(scope, &registers, &groups).into_iter();
+    let call = |name: &str| format!("{}()", names_unique::escaped(name));
+    let mut calls: Vec<(&'a Item, String)> =
+        registers.iter().zip(&mut names).map(|((_, item), name)| (*item, call(&name))).collect();
+    for (group, name) in groups.iter().zip(names) {
+        if is_module(group) {
+            let subs = group.items.iter().zip(sub_names(group));
+            calls.extend(subs.map(|(item, sub)| (item, format!("{}.{}", call(&name), call(&sub)))));
+        } else {
+            calls.extend(group.items.first().map(|item| (item, call(&name))));
+        }
+    }
+    calls
+}
+
 fn sub_items(scope: &Scope<'_>, locations: &Locations, group: &Group) -> Vec<ItemModel> {
+    let items = group.items.iter().zip(sub_names(group));
+    items.map(|(sub, name)| item::model(scope, locations, sub, &name, &sub.name, "super::super::")).collect()
+}
+
+fn sub_names(group: &Group) -> Vec<String> {
     let wishes: Vec<Wish<'_>> =
         group.items.iter().map(|item| Wish::new(&item.name, "sub", item.object().map_or(0, |(_, sub)| sub))).collect();
-    let names = names_unique::unique(&wishes, &RESERVED_IN_OBJECT, Case::Snake);
-    let items = group.items.iter().zip(names);
-    items.map(|(sub, name)| item::model(scope, locations, sub, &name, &sub.name, "super::super::")).collect()
+    names_unique::unique(&wishes, &RESERVED_IN_OBJECT, Case::Snake)
 }
