@@ -9,6 +9,8 @@ function lexibusIndex(list, lines) {
   if (loading) search();
 }
 
+// The folder of the index, where that isn't the page's.
+const folder = document.documentElement.dataset.index || "";
 const byId = (id) => document.getElementById(id);
 const input = byId("search"), found = byId("found");
 
@@ -16,7 +18,7 @@ function load() {
   if (loading) return;
   loading = true;
   const script = document.createElement("script");
-  script.src = "search.js";
+  script.src = folder + "search.js";
   document.head.append(script);
 }
 
@@ -79,7 +81,7 @@ function search() {
     const item = document.createElement("li"), link = document.createElement("a"), more = document.createElement("small");
     item.role = "option";
     item.id = "found-" + at;
-    link.href = path + "#" + encodeURIComponent(anchor);
+    link.href = folder + path + "#" + encodeURIComponent(anchor);
     link.tabIndex = -1;
     link.textContent = number + " " + name + " ";
     more.textContent = [names, unit, title].filter(Boolean).join(" · ");
@@ -182,7 +184,7 @@ if (location.hash && !document.getElementById(decodeURIComponent(location.hash.s
     const at = lower.indexOf("\t" + wanted + "\t");
     if (at >= 0) {
       const [start, end] = lineAt(at), [page, anchor] = text.slice(start, end).split("\t");
-      location.replace(pages[page][0] + "#" + encodeURIComponent(anchor));
+      location.replace(folder + pages[page][0] + "#" + encodeURIComponent(anchor));
     }
   };
 }

@@ -70,6 +70,8 @@ pub struct Site {
     index: Index,
     /// Titles and first pages of the devices.
     devices: Vec<Listed>,
+    /// The folders of the catalogues.
+    catalogs: Vec<String>,
 }
 
 /// A device in the list of all.
@@ -163,6 +165,8 @@ struct ListPage<'p> {
     devices: &'p [Listed],
     /// The way to the folder of the site.
     root: &'p str,
+    /// The folder of the index, where that isn't the page's.
+    index: &'p str,
 }
 
 /// Templates don't fail on what they are given.
@@ -189,6 +193,7 @@ impl Site {
         let listed = own.devices.drain(..).map(|own| Listed { path: format!("{folder}/{}", own.path), ..own });
         self.devices.extend(listed);
         self.index.add(&own.index, &folder);
+        self.catalogs.push(format!("{folder}/"));
         own.pages.push(Page { path: "search.js".to_owned(), text: own.index.script() });
         own.pages.into_iter().map(|page| Page { path: format!("{folder}/{}", page.path), ..page }).collect()
     }
@@ -196,14 +201,20 @@ impl Site {
     /// What all pages share: the list of devices, the index of all, style and script.
     pub fn finish(self) -> Vec<Page> {
         let around = Frameset { title: "Devices".to_owned(), links: Vec::new(), languages: Vec::new() };
-        let list = ListPage { around: &around, file: "index.html", devices: &self.devices, root: "." };
+        // All that a single catalogue has is in its own index.
+        let (index, own) = match self.catalogs.as_slice() {
+            [only] => (only.as_str(), None),
+            _ => ("", Some(self.index.script())),
+        };
+        let list = ListPage { around: &around, file: "index.html", devices: &self.devices, root: ".", index };
         let page = |path: &str, text: String| Page { path: path.to_owned(), text };
-        vec![
+        let mut pages = vec![
             page("index.html", written(&list)),
-            page("search.js", self.index.script()),
             page("site.css", STYLE.to_owned()),
             page("site.js", SCRIPT.to_owned()),
-        ]
+        ];
+        pages.extend(own.map(|script| page("search.js", script)));
+        pages
     }
 }
 
@@ -332,7 +343,8 @@ impl Folder {
     /// The first page of a catalogue of several devices.
     fn list(&mut self, title: &str, modules: &[(String, String)]) {
         let around = Frameset { title: title.to_owned(), links: modules.to_vec(), languages: Vec::new() };
-        let text = written(&ListPage { around: &around, file: "index.html", devices: &self.devices, root: ".." });
+        let text =
+            written(&ListPage { around: &around, file: "index.html", devices: &self.devices, root: "..", index: "" });
         self.page("index.html", text);
     }
 }
