@@ -4,42 +4,26 @@ use std::collections::BTreeMap;
 
 use super::{renamed, Changes, Judgement};
 use crate::ir::{BitMeaning, CodeTable, EnumValue, Shape, Type, TypeDef};
-
-/// The most steps from a type to the one below: a description may run in circles.
-const DEEPEST: usize = 16;
-
-fn definition(types: &[TypeDef], ty: Type) -> Option<&TypeDef> {
-    let mut ty = ty;
-    for _ in 0..DEEPEST {
-        let Type::Named(id) = ty else { return None };
-        let own = types.get(id.0 as usize)?;
-        match own.shape {
-            Shape::Alias(other) => ty = other,
-            _ => return Some(own),
-        }
-    }
-    None
-}
+use crate::passes::owner::Owner;
 
 /// The type that generated code has: of what has names, whose names they are.
 pub(super) fn written(types: &[TypeDef], ty: Type) -> String {
-    let mut ty = ty;
-    for _ in 0..DEEPEST {
-        let Type::Named(id) = ty else { break };
-        let Some(own) = types.get(id.0 as usize) else { return "unknown type".to_owned() };
-        ty = match &own.shape {
-            Shape::Alias(other) => *other,
-            Shape::BitField { base, .. } => return format!("bits {} of {}", own.name, written(types, *base)),
-            Shape::Enumeration { base, .. } => return format!("values {} of {}", own.name, written(types, *base)),
-            Shape::Scaled { base, .. } => *base,
-            Shape::Array { .. } | Shape::Record(_) => return own.name.to_string(),
-        };
-    }
+    let owner = Owner::of_types(types);
+    let basic = owner.basic(ty);
+    let named = owner.definition(ty).and_then(|own| match own.shape {
+        Shape::BitField { .. } => Some(format!("bits {} of {}", own.name, plain(basic))),
+        Shape::Enumeration { .. } => Some(format!("values {} of {}", own.name, plain(basic))),
+        Shape::Array { .. } | Shape::Record(_) => Some(own.name.to_string()),
+        Shape::Alias(_) | Shape::Scaled { .. } => None,
+    });
+    named.unwrap_or_else(|| plain(basic))
+}
+
+/// A type without a name of its own, with the length of a text.
+fn plain(ty: Type) -> String {
     match ty {
-        Type::VisibleString(Some(length)) | Type::OctetString(Some(length)) | Type::UnicodeString(Some(length)) => {
-            format!("{ty}({length})")
-        }
-        other => other.to_string(),
+        Type::Named(_) => Type::Opaque(None).to_string(),
+        other => other.with_length(),
     }
 }
 
@@ -50,7 +34,11 @@ pub(super) fn compare(
     element: &str,
     changes: &mut Changes,
 ) {
-    let (Some(old), Some(new)) = (definition(old_types, old), definition(new_types, new)) else { return };
+    let (Some(old), Some(new)) =
+        (Owner::of_types(old_types).definition(old), Owner::of_types(new_types).definition(new))
+    else {
+        return;
+    };
     match (&old.shape, &new.shape) {
         (Shape::Enumeration { values: old, .. }, Shape::Enumeration { values: new, .. }) => {
             values(old, new, element, changes);

@@ -108,6 +108,16 @@ impl Type {
         }
     }
 
+    /// The name with the greatest length of a text, where that is known: `VISIBLE_STRING(25)`.
+    pub fn with_length(self) -> String {
+        match self {
+            Type::VisibleString(Some(length)) | Type::OctetString(Some(length)) | Type::UnicodeString(Some(length)) => {
+                format!("{self}({length})")
+            }
+            other => other.to_string(),
+        }
+    }
+
     /// The basic type with this code in CiA 301 (7.4.7, table of the data type area); `None` for every other code.
     pub fn from_cia301(code: u32) -> Option<Type> {
         Some(match code {

@@ -2,9 +2,13 @@
 //! a count of what the raw number stands for.
 
 use super::owner::Owner;
+use super::physical;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{CompactString, Conversion, Device, Item, MachineUnit, Quantity, Scale, Variant};
+use crate::ir::{Conversion, Device, Item, MachineUnit, Quantity, Scale};
 use crate::text::brief;
+
+/// As many digits behind the first one as show a count of 16 bits.
+const DIGITS: f64 = 6.0;
 
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     let groups = [device.groups.as_slice()];
@@ -35,26 +39,16 @@ fn problem(device: &Device, item: &Item, quantity: &Quantity, own: &Conversion) 
     let (low, high) = (below.min(above), below.max(above));
     let is_within = low <= value && value <= high || low.is_nan() || high.is_nan();
     let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    (!is_within).then(|| format!("`{name}`: {raw} stands for {}{unit}, and not for {value}", rounded(exact)))
+    (!is_within)
+        .then(|| format!("`{name}`: {raw} stands for {}{unit}, and not for {value}", physical::rounded(exact, DIGITS)))
 }
 
 /// The physical number that a raw one stands for.
 fn physical(device: &Device, quantity: &Quantity, own: &Conversion, raw: f64) -> Result<f64, String> {
-    let other = |name: &CompactString| own.by.ok_or(format!("say `by`, the value of `{}`", brief(name)));
-    Ok(match &quantity.scale {
-        None => raw,
-        Some(Scale::Linear { factor, offset }) => raw * factor + offset,
-        Some(Scale::Reciprocal { numerator }) => numerator / raw,
-        Some(Scale::Fraction { bits, base }) => {
-            let constants = model(device, own).into_iter().flat_map(|own| &own.constants);
-            let known = constants.filter(|(name, _)| name == base).find_map(|(_, value)| value.as_real());
-            raw / 2f64.powi((*bits).into()) * known.map_or_else(|| other(base), Ok)?
-        }
-        Some(Scale::Exponent { exponent, base, fraction }) => {
-            raw / 2f64.powi((*fraction).into()) * f64::from(*base).powf(other(exponent)?)
-        }
-        Some(Scale::ByItem { item, factor }) => raw * factor / other(item)?,
-        Some(Scale::TimesItem { item, factor }) => raw * factor * other(item)?,
+    let model = device.variants.iter().find(|variant| Some(&variant.name) == own.model.as_ref());
+    physical::of_raw(quantity.scale.as_ref(), raw, |name| {
+        let constant = matches!(quantity.scale, Some(Scale::Fraction { .. })).then(|| physical::constant(model, name));
+        constant.flatten().or(own.by).ok_or_else(|| format!("say `by`, the value of `{}`", brief(name)))
     })
 }
 
@@ -69,29 +63,9 @@ fn in_unit(device: &Device, quantity: &Quantity, own: &Conversion, number: f64) 
 
 /// What a number of the machine is multiplied with.
 fn ratio(device: &Device, unit: &MachineUnit, own: &Conversion) -> Result<f64, String> {
-    let number = |name: &CompactString| {
+    physical::ratio(unit, |name| {
         let given = own.given.iter().find(|(own, _)| own == name).map(|(_, number)| *number);
-        let of_model = || {
-            let number = device.given.iter().find(|own| own.name == *name)?;
-            let (_, value) = number.models.iter().find(|(model, _)| Some(model) == own.model.as_ref())?;
-            value.as_real()
-        };
-        given.or_else(of_model).ok_or(format!("say what `{}` is, in `given`", brief(name)))
-    };
-    let product = |list: &[CompactString]| list.iter().map(number).product::<Result<f64, String>>();
-    Ok(product(&unit.times)? / product(&unit.over)?)
-}
-
-fn model<'d>(device: &'d Device, own: &Conversion) -> Option<&'d Variant> {
-    device.variants.iter().find(|variant| Some(&variant.name) == own.model.as_ref())
-}
-
-/// As many digits as show a count of 16 bits.
-fn rounded(number: f64) -> f64 {
-    const DIGITS: f64 = 6.0;
-    let factor = 10f64.powf((DIGITS - number.abs().log10().floor()).clamp(-300.0, 300.0));
-    match (number * factor).round() / factor {
-        rounded if rounded.is_finite() => rounded,
-        _ => number,
-    }
+        let number = given.or_else(|| physical::given(device, own.model.as_deref(), name));
+        number.ok_or_else(|| format!("say what `{}` is, in `given`", brief(name)))
+    })
 }

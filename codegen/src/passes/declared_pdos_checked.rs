@@ -100,7 +100,7 @@ impl Mapped {
     }
 
     fn against(&self, device: &Device, item: &Item, is_resolved: bool) -> [Option<(&'static Code, String)>; 3] {
-        let owner = Owner { types: &device.types, groups: &[] };
+        let owner = Owner::of_types(&device.types);
         let bits = owner.definition(item.ty).map_or(item.ty.bits(), |definition| definition.bits);
         let length = bits.filter(|&bits| !is_resolved && bits != self.bits);
         let length =

@@ -7,7 +7,7 @@ use crate::source::Span;
 use crate::text::brief;
 
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
-    let owner = Owner { types: &device.types, groups: &[] };
+    let owner = Owner::of_types(&device.types);
     for message in &device.messages {
         for example in &message.examples {
             let request = Frame::new(owner, &message.request, &example.request);

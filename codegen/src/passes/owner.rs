@@ -10,12 +10,17 @@ const MAX_ALIASES: usize = 16;
 
 /// Groups of items, and the types that the items name.
 #[derive(Clone, Copy)]
-pub(super) struct Owner<'a> {
+pub(crate) struct Owner<'a> {
     pub types: &'a [TypeDef],
     pub groups: &'a [&'a [Group]],
 }
 
 impl<'a> Owner<'a> {
+    /// Types alone.
+    pub fn of_types(types: &'a [TypeDef]) -> Self {
+        Owner { types, groups: &[] }
+    }
+
     pub fn items(self) -> impl Iterator<Item = &'a Item> {
         self.groups.iter().flat_map(|groups| groups.iter()).flat_map(|group| &group.items)
     }

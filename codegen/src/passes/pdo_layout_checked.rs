@@ -251,7 +251,7 @@ impl<'a> Layout<'a> {
             self.mapped_report(item, &codes::WRONG_DIRECTION, span, message);
         }
         // Bit fields and enumerations are as long as their integer.
-        let owner = Owner { types: &self.device.types, groups: &[] };
+        let owner = Owner::of_types(&self.device.types);
         let is_own = self.device.entry(entry.index, entry.sub_index).is_some();
         let ty = if is_own { owner.basic(item.object_type()) } else { item.ty };
         match ty.bits() {

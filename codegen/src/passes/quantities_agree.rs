@@ -1,13 +1,19 @@
 //! After this pass items that a register table calls one quantity, in two scales, were compared: their defaults are the same physical
 //! number on every model.
 
+use std::convert::Infallible;
+
 use super::owner::{Index, Owner};
+use super::physical;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{CompactString, Device, Item, MachineUnit, Scale, Value, Variant};
 use crate::text::brief;
 
 /// How far apart, as a part of the greater one, two defaults may be that were rounded to different counts.
 const TOLERANCE: f64 = 0.001;
+
+/// Five digits of a number are enough to see a difference of a thousandth.
+const DIGITS: f64 = 4.0;
 
 pub(super) fn run(device: &Device, diagnostics: &mut Diagnostics) {
     let groups = [device.groups.as_slice()];
@@ -52,21 +58,15 @@ fn differences(device: &Device, items: &Index<'_>, one: &Item, other: &Item) -> 
         };
         if (one.0 - other.0).abs() > TOLERANCE * one.0.abs().max(other.0.abs()) {
             let of = model.map(|model| format!(" ({})", brief(&model.name))).unwrap_or_default();
-            found.push(format!("{} and {} {}{of}", rounded(one.0), rounded(other.0), brief(&one.1)));
+            found.push(format!(
+                "{} and {} {}{of}",
+                physical::rounded(one.0, DIGITS),
+                physical::rounded(other.0, DIGITS),
+                brief(&one.1)
+            ));
         }
     }
     found
-}
-
-/// Five digits of a number are enough to see a difference of a thousandth.
-fn rounded(number: f64) -> f64 {
-    let digits = 4.0 - number.abs().log10().floor();
-    let factor = 10f64.powf(digits.clamp(-300.0, 300.0));
-    if number == 0.0 || !factor.is_finite() {
-        number
-    } else {
-        (number * factor).round() / factor
-    }
 }
 
 /// A default as a physical number, and as one of the machine where its unit says how.
@@ -82,20 +82,15 @@ impl Physical {
         let Some(quantity) = &item.quantity else {
             return Some(Physical { number: raw, unit: CompactString::default(), machine: None });
         };
-        let constant = |name: &str| {
-            let (_, value) = model?.constants.iter().find(|(own, _)| own == name)?;
-            value.as_real()
+        let other = |name: &CompactString| match quantity.scale {
+            Some(Scale::Fraction { .. }) => physical::constant(model, name).ok_or(()),
+            Some(Scale::Exponent { .. }) => items.find(name).and_then(|item| default(item, model)).ok_or(()),
+            _ => Err(()),
         };
-        let number = match &quantity.scale {
-            None => raw,
-            Some(Scale::Linear { factor, offset }) => raw * factor + offset,
-            Some(Scale::Fraction { bits, base }) => raw / 2f64.powi((*bits).into()) * constant(base)?,
-            Some(Scale::Exponent { exponent, base, fraction }) => {
-                let exponent = default(items.find(exponent)?, model)?;
-                raw / 2f64.powi((*fraction).into()) * f64::from(*base).powf(exponent)
-            }
-            Some(_) => return None,
-        };
+        if matches!(quantity.scale, Some(Scale::Reciprocal { .. })) {
+            return None;
+        }
+        let number = physical::of_raw(quantity.scale.as_ref(), raw, other).ok()?;
         let machine = quantity.machine.as_ref().map(|own| (number * machine(device, own, model), own.unit.clone()));
         Some(Physical { number, unit: quantity.unit.clone(), machine })
     }
@@ -103,14 +98,10 @@ impl Physical {
 
 /// What a number of the machine is multiplied with. Numbers that no model knows count as 1: both views have them.
 fn machine(device: &Device, unit: &MachineUnit, model: Option<&Variant>) -> f64 {
-    let number = |name: &CompactString| {
-        let given = device.given.iter().find(|own| own.name == *name);
-        let known =
-            given.into_iter().flat_map(|own| &own.models).find(|(own, _)| Some(own) == model.map(|own| &own.name));
-        known.and_then(|(_, value)| value.as_real()).unwrap_or(1.0)
-    };
-    let product = |list: &[CompactString]| list.iter().map(number).product::<f64>();
-    product(&unit.times) / product(&unit.over)
+    let model = model.map(|model| model.name.as_str());
+    let number = |name: &CompactString| Ok::<_, Infallible>(physical::given(device, model, name).unwrap_or(1.0));
+    let Ok(ratio) = physical::ratio(unit, number);
+    ratio
 }
 
 /// The default of an item on a model.

@@ -2,17 +2,16 @@
 
 use std::collections::BTreeSet;
 
+use super::cell::Cell;
 use super::words;
 use crate::ir::{BitFieldEntry, BitMeaning, EnumValue, Shape, Trigger, Type, TypeDef};
+use crate::passes::owner::Owner;
 
 /// Bits in a row of a drawing.
 const ROW: u32 = 16;
 
 /// Width of a bit.
 const CELL: u32 = 40;
-
-/// Width of a letter, and the room beside a text.
-const LETTER: u32 = 7;
 
 /// A bit field, ready to be drawn and listed.
 #[derive(Debug)]
@@ -32,16 +31,6 @@ pub(super) struct Row {
     /// Distance from the top.
     pub top: u32,
     pub cells: Vec<Cell>,
-}
-
-/// A field, or the part of it that stands in a row.
-#[derive(Debug)]
-pub(super) struct Cell {
-    pub left: u32,
-    pub width: u32,
-    pub middle: u32,
-    /// As much of the name as there is room for.
-    pub label: String,
 }
 
 /// A line of the list.
@@ -66,7 +55,7 @@ pub(super) struct Label {
 
 /// Bits and values of a type; nothing for one that has neither.
 pub(super) fn of_type(types: &[TypeDef], ty: Type) -> (Option<Bits>, Vec<Label>) {
-    match words::definition(types, ty).map(|definition| &definition.shape) {
+    match Owner::of_types(types).definition(ty).map(|definition| &definition.shape) {
         Some(Shape::BitField { base, fields }) => {
             let bits = words::basic(types, *base).bits().unwrap_or(8);
             (Some(drawing(types, fields, bits)), Vec::new())
@@ -104,9 +93,7 @@ fn cell(field: &BitFieldEntry, first: u32, bits: u32) -> Option<Cell> {
     let end = (u32::from(field.offset) + u32::from(field.bits)).min(first + bits);
     let width = end.checked_sub(low).filter(|width| *width > 0)? * CELL;
     let left = (first + bits - end) * CELL;
-    let room = (width.saturating_sub(LETTER) / LETTER) as usize;
-    let label = words::cut(&field.name, room);
-    Some(Cell { left, width, middle: left + width / 2, label })
+    Some(Cell::new(left, width, &field.name))
 }
 
 fn field(types: &[TypeDef], own: &BitFieldEntry) -> Field {
@@ -117,7 +104,10 @@ fn field(types: &[TypeDef], own: &BitFieldEntry) -> Field {
         BitMeaning::Flag { inverted: true } => facts.push("Set while 0.".to_owned()),
         BitMeaning::Reserved { write: Some(bit) } => facts.push(format!("Reserved: write {}.", u8::from(*bit))),
         BitMeaning::Reserved { write: None } => facts.push("Reserved.".to_owned()),
-        BitMeaning::Enumeration(id) => values = of_type(types, Type::Named(*id)).1,
+        BitMeaning::Enumeration(id) => {
+            let own = Owner::of_types(types).enumeration(Type::Named(*id));
+            values = own.map(|(values, _)| labels(values)).unwrap_or_default();
+        }
         BitMeaning::Number if own.bits > 1 => facts.push("A number.".to_owned()),
         _ => {}
     }

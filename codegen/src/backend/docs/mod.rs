@@ -20,6 +20,7 @@
 mod anchor;
 mod area;
 mod bits;
+mod cell;
 mod codes;
 mod entry;
 mod machines;

@@ -1,6 +1,7 @@
 //! Cyclic data: PDOs, process images and sync managers, with drawings byte by byte.
 
 use super::anchor::Names;
+use super::cell::Cell;
 use super::words;
 use crate::ir::{Direction, Pdo, PdoEntry, PdoEntryKind, ProcessData, ProcessImage, TypeDef};
 
@@ -10,9 +11,6 @@ const CELL: u32 = 80;
 
 /// Height of a row.
 const HEIGHT: u32 = 40;
-
-/// The least width that a name is written into.
-const LETTER: u32 = 7;
 
 /// So many rows are drawn; what is behind them is in the list.
 const MOST_ROWS: usize = 64;
@@ -37,16 +35,6 @@ pub(super) struct Row {
     pub first: u32,
     pub top: u32,
     pub cells: Vec<Cell>,
-}
-
-/// An entry, or the part of it that stands in a row. Widths are those of bits.
-#[derive(Debug)]
-pub(super) struct Cell {
-    pub left: u32,
-    pub width: u32,
-    pub middle: u32,
-    pub label: String,
-    pub is_padding: bool,
 }
 
 /// A line of the list.
@@ -167,10 +155,10 @@ fn row(entries: &[PdoEntry], number: u32) -> Row {
         let high = own.bit_offset.saturating_add(own.bits).min(last);
         let bits = high.checked_sub(low).filter(|bits| *bits > 0)?;
         let (left, width) = ((low - first) * CELL / 8, bits * CELL / 8);
-        let room = (width.saturating_sub(LETTER) / LETTER) as usize;
-        let is_padding = own.kind == PdoEntryKind::Padding;
-        let label = if is_padding { String::new() } else { words::cut(&own.name, room) };
-        Some(Cell { left, width, middle: left + width / 2, label, is_padding })
+        Some(match own.kind {
+            PdoEntryKind::Padding => Cell::padding(left, width),
+            _ => Cell::new(left, width, &own.name),
+        })
     };
     Row { first: number * ROW, top: number * HEIGHT, cells: entries.iter().filter_map(cell).collect() }
 }

@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use super::words::one_line as line;
+
 /// So many letters of a description are found.
 const WORDS: usize = 80;
 
@@ -62,11 +64,6 @@ impl Index {
             self.pages.iter().map(|(path, title)| format!("[{},{}]", json(path), json(title))).collect();
         format!("lexibusIndex([{}],{});\n", pages.join(","), json(&self.lines))
     }
-}
-
-/// Text as one line without tabs.
-fn line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]

@@ -1,59 +1,28 @@
 //! Words of documentation pages. Templates escape them.
 
 use crate::backend::words::Words;
-use crate::ir::{Binding, Item, ObjectBuses, RegisterSpace, Shape, Texts, Type, TypeDef, Value};
+use crate::ir::{Binding, Item, ObjectBuses, RegisterSpace, Texts, Type, TypeDef, Value};
+use crate::passes::owner::Owner;
 
 /// Sentences as they are.
 pub(super) const PLAIN: Words = Words { escape: one_line };
 
-/// The most steps from a type to the one below: a description may run in circles.
-const DEEPEST: usize = 16;
-
-fn one_line(text: &str) -> String {
+/// A text without breaks of lines.
+pub(super) fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// The type that a source defines and that a type names, perhaps through others.
-pub(super) fn definition(types: &[TypeDef], ty: Type) -> Option<&TypeDef> {
-    let mut ty = ty;
-    for _ in 0..DEEPEST {
-        let Type::Named(id) = ty else { return None };
-        let definition = types.get(id.0 as usize)?;
-        match definition.shape {
-            Shape::Alias(other) => ty = other,
-            _ => return Some(definition),
-        }
-    }
-    None
-}
-
-/// The basic type below.
+/// The basic type below; of arrays and records, nothing is known.
 pub(super) fn basic(types: &[TypeDef], ty: Type) -> Type {
-    let mut ty = ty;
-    for _ in 0..DEEPEST {
-        let Type::Named(id) = ty else { return ty };
-        let Some(definition) = types.get(id.0 as usize) else { return Type::Opaque(None) };
-        ty = match &definition.shape {
-            Shape::Alias(other) => *other,
-            Shape::BitField { base, .. } | Shape::Enumeration { base, .. } | Shape::Scaled { base, .. } => *base,
-            Shape::Array { .. } | Shape::Record(_) => return Type::Opaque(None),
-        };
+    match Owner::of_types(types).basic(ty) {
+        Type::Named(_) => Type::Opaque(None),
+        basic => basic,
     }
-    Type::Opaque(None)
 }
 
 /// A type as a table shows it: its length where it is a text, and what the source calls it where that says more.
 pub(super) fn type_name(types: &[TypeDef], ty: Type) -> String {
-    let text = |name: &str, length: Option<u32>| match length {
-        Some(length) => format!("{name}({length})"),
-        None => name.to_owned(),
-    };
-    match basic(types, ty) {
-        Type::VisibleString(length) => text("VISIBLE_STRING", length),
-        Type::OctetString(length) => text("OCTET_STRING", length),
-        Type::UnicodeString(length) => text("UNICODE_STRING", length),
-        other => other.to_string(),
-    }
+    basic(types, ty).with_length()
 }
 
 /// A name in other languages.

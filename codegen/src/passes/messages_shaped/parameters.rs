@@ -109,7 +109,7 @@ pub(crate) fn numbered<'d>(device: &'d Device, space: &str) -> BTreeMap<u32, &'d
 
 /// Reports messages that can't carry the parameters that they should, and parameters that none carries.
 pub(super) fn run(device: &Device, shapes: &[Shaped<'_>], diagnostics: &mut Diagnostics) {
-    let owner = Owner { types: &device.types, groups: &[] };
+    let owner = Owner::of_types(&device.types);
     let mut carried: BTreeMap<u32, &str> = BTreeMap::new();
     for space in &device.parameter_spaces {
         unfit(space, shapes, diagnostics);

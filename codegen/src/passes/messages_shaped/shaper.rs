@@ -47,13 +47,13 @@ impl Side<'_> {
 /// The shape of a request.
 pub(super) fn request<'a>(device: &'a Device, message: &'a Message) -> Result<Side<'a>, Problem> {
     let station = device.framing.as_ref().and_then(|framing| framing.address.as_deref());
-    let shaper = Shaper { owner: Owner { types: &device.types, groups: &[] }, station, request: None };
+    let shaper = Shaper { owner: Owner::of_types(&device.types), station, request: None };
     shaper.side(&message.request)
 }
 
 /// The shape of its reply.
 pub(super) fn reply<'a>(device: &'a Device, message: &'a Message, request: &Side<'_>) -> Result<Side<'a>, Problem> {
-    let owner = Owner { types: &device.types, groups: &[] };
+    let owner = Owner::of_types(&device.types);
     Shaper { owner, station: None, request: Some(request) }.side(&message.reply)
 }
 

@@ -1,0 +1,48 @@
+//! Physical numbers: what a raw number stands for, and what it is on the machine that the device drives.
+
+use crate::ir::{CompactString, Device, MachineUnit, Scale, Value, Variant};
+
+/// What a raw number stands for. `other` knows the values that scales depend on: constants of a model, and other items.
+pub(super) fn of_raw<E>(
+    scale: Option<&Scale>,
+    raw: f64,
+    other: impl Fn(&CompactString) -> Result<f64, E>,
+) -> Result<f64, E> {
+    Ok(match scale {
+        None => raw,
+        Some(Scale::Linear { factor, offset }) => raw * factor + offset,
+        Some(Scale::Reciprocal { numerator }) => numerator / raw,
+        Some(Scale::Fraction { bits, base }) => raw / 2f64.powi((*bits).into()) * other(base)?,
+        Some(Scale::Exponent { exponent, base, fraction }) => {
+            raw / 2f64.powi((*fraction).into()) * f64::from(*base).powf(other(exponent)?)
+        }
+        Some(Scale::ByItem { item, factor }) => raw * factor / other(item)?,
+        Some(Scale::TimesItem { item, factor }) => raw * factor * other(item)?,
+    })
+}
+
+/// What a number of the machine is multiplied with. `number` knows those that are given.
+pub(super) fn ratio<E>(unit: &MachineUnit, number: impl Fn(&CompactString) -> Result<f64, E>) -> Result<f64, E> {
+    let product = |list: &[CompactString]| list.iter().map(&number).product::<Result<f64, E>>();
+    Ok(product(&unit.times)? / product(&unit.over)?)
+}
+
+/// A constant of a model.
+pub(super) fn constant(model: Option<&Variant>, name: &str) -> Option<f64> {
+    model?.constants.iter().find(|(own, _)| own == name)?.1.as_real()
+}
+
+/// A given number that a model knows.
+pub(super) fn given(device: &Device, model: Option<&str>, name: &str) -> Option<f64> {
+    let own = device.given.iter().find(|own| own.name == name)?;
+    own.models.iter().find(|(own, _)| Some(own.as_str()) == model).and_then(|(_, value)| Value::as_real(value))
+}
+
+/// A number with so many digits behind its first one.
+pub(super) fn rounded(number: f64, digits: f64) -> f64 {
+    let factor = 10f64.powf((digits - number.abs().log10().floor()).clamp(-300.0, 300.0));
+    match (number * factor).round() / factor {
+        rounded if rounded.is_finite() => rounded,
+        _ => number,
+    }
+}
