@@ -197,7 +197,7 @@ pub(super) fn model(
     let fields = with.fields(&entries, None, &taken);
     let (zeros, ones) = reserved(&entries);
     let mut docs = vec![docs::sentence(&docs::escape(&definition.name))];
-    docs::definition(definition, &scope.manual, &mut docs);
+    docs::described(definition.documentation.as_deref(), &scope.manual, &mut docs);
     for (bits, number) in [(zeros, 0), (ones, 1)] {
         if bits != 0 {
             docs.extend([String::new(), format!("Bits {} are written as {number}.", hexadecimal(bits))]);

@@ -60,10 +60,7 @@ pub(super) fn models(scope: &Scope<'_>, device: &Device, objects: &[ObjectModel]
 
 fn documentation(scope: &Scope<'_>, own: &Variant) -> Vec<String> {
     let mut lines = vec![docs::sentence(&docs::escape(&own.name))];
-    let mut sentences = Vec::new();
-    docs::words(own.documentation.as_deref(), &mut sentences);
-    sentences.extend(scope.manual.place(own.documentation.as_deref(), &[]));
-    lines.extend(sentences.into_iter().flat_map(|sentence| [String::new(), sentence]));
+    docs::described(own.documentation.as_deref(), &scope.manual, &mut lines);
     lines
 }
 

@@ -10,7 +10,7 @@ use super::scope::Scope;
 use super::value_type;
 pub(super) use crate::backend::words::sentence;
 use crate::backend::words::Words;
-use crate::ir::{Binding, Condition, Documentation, Item, Limits, Type, TypeDef, Value};
+use crate::ir::{Binding, Condition, Documentation, Item, Limits, Type, Value};
 
 /// Sentences for doc comments.
 pub(super) const WORDS: Words = Words { escape };
@@ -98,11 +98,11 @@ pub(super) fn words(documentation: Option<&Documentation>, sentences: &mut Vec<S
     sentences.extend(WORDS.description(documentation));
 }
 
-/// The lines about a type behind its name.
-pub(super) fn definition(definition: &TypeDef, manual: &Manual, lines: &mut Vec<String>) {
+/// What a source says of an element and where it says so, in paragraphs of their own.
+pub(super) fn described(documentation: Option<&Documentation>, manual: &Manual, lines: &mut Vec<String>) {
     let mut sentences = Vec::new();
-    words(definition.documentation.as_deref(), &mut sentences);
-    sentences.extend(manual.place(definition.documentation.as_deref(), &[]));
+    words(documentation, &mut sentences);
+    sentences.extend(manual.place(documentation, &[]));
     for sentence in sentences {
         lines.extend([String::new(), sentence]);
     }

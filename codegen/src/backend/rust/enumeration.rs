@@ -70,7 +70,7 @@ pub(super) fn model(
     let bits = base.bits()?;
     let complete = in_field && bits <= COMPLETE && values.len() == 1 << bits;
     let mut docs = vec![docs::sentence(&docs::escape(&definition.name))];
-    docs::definition(definition, &scope.manual, &mut docs);
+    docs::described(definition.documentation.as_deref(), &scope.manual, &mut docs);
     Some(EnumerationModel {
         docs,
         derives: options.derives(true),

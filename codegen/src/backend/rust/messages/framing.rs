@@ -35,10 +35,7 @@ pub(super) fn constant(framing: &Framing, shaped: &[Shaped<'_>]) -> Option<Strin
 /// What documentation says of it.
 pub(super) fn documentation(framing: &Framing, scope: &Scope<'_>) -> Vec<String> {
     let mut lines = vec!["How frames are delimited and checked.".to_owned()];
-    let mut sentences = Vec::new();
-    docs::words(framing.documentation.as_deref(), &mut sentences);
-    sentences.extend(scope.manual.place(framing.documentation.as_deref(), &[]));
-    lines.extend(sentences.into_iter().flat_map(|sentence| [String::new(), sentence]));
+    docs::described(framing.documentation.as_deref(), &scope.manual, &mut lines);
     lines
 }
 
