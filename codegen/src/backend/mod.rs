@@ -5,6 +5,7 @@ pub mod eds;
 pub mod esi;
 pub mod gsdml;
 pub mod json;
+mod markdown;
 mod note;
 mod options;
 mod registers;

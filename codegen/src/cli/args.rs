@@ -165,6 +165,20 @@ pub(super) struct Docs {
     /// The folder to write to.
     #[arg(short, long, value_name = "FOLDER")]
     pub out: PathBuf,
+    /// What the pages are written in.
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = DocsFormat::Html)]
+    pub format: DocsFormat,
+    /// Write nothing; fail where a page isn't what would be written.
+    #[arg(long)]
+    pub check: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum DocsFormat {
+    /// A site that opens from disk, with drawings and a search.
+    Html,
+    /// Pages for repositories and for mdBook.
+    Markdown,
 }
 
 #[derive(Debug, Args)]

@@ -21,6 +21,8 @@ pub(super) struct Machine {
     pub title: String,
     pub facts: Vec<String>,
     pub diagram: Option<Diagram>,
+    /// The state after power-on.
+    pub initial: Option<String>,
     pub states: Vec<Named>,
     pub commands: Vec<Named>,
     pub transitions: Vec<Way>,
@@ -100,6 +102,7 @@ pub(super) fn machine(own: &StateMachine, manual: &Manual) -> Machine {
         title: own.name.to_string(),
         facts,
         diagram: diagram(own),
+        initial: own.initial.as_ref().map(ToString::to_string),
         states: own.states.iter().map(named).collect(),
         commands: own.commands.iter().map(named).collect(),
         transitions: own.transitions.iter().map(way).collect(),
