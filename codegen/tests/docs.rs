@@ -126,3 +126,27 @@ fn a_page_of_registers() {
     let (_, content) = page.text.split_once("<main").expect("the content");
     insta::assert_snapshot!(content);
 }
+
+#[test]
+fn repairs_stand_where_they_matter() {
+    let eds = "[DeviceInfo]\nProductName=Pump\n[ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n2=0x2001\n\
+               [2000]\nParameterName=Gain\nDataType=6\nAccessType=rw\nDefaultValue=012\n\
+               [2001]\nParameterName=Level\nDataType=6\nAccessType=ro\n";
+    for (format, page, all) in [
+        (Format::Html, "pump/manufacturer-objects.html", "pump/findings.html"),
+        (Format::Markdown, "pump/manufacturer-objects.md", "pump/findings.md"),
+    ] {
+        let pages = site(format, vec![("pump".to_owned(), Source::new("pump.eds", eds.into()))]);
+        let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
+        let (gain, level) = text(page).split_once("id=\"0x2001\"").expect("two objects");
+        assert!(gain.contains("Repaired") && gain.contains("(pump.eds:11:14, EDS020)"), "{gain}");
+        assert!(!level.contains("Repaired"), "{level}");
+        assert!(text(all).contains("EDS020"), "{}", text(all));
+        let first =
+            pages.iter().find(|page| page.path.starts_with("pump/index") || page.path.starts_with("pump/README"));
+        assert!(first.expect("a first page").text.contains(all.trim_start_matches("pump/")));
+    }
+    // What has none has no page of them.
+    let pages = files(Format::Html, &["dictionaries/demo-drive.eds"]);
+    assert!(pages.iter().all(|page| !page.path.ends_with("findings.html")));
+}

@@ -27,10 +27,8 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     };
     inputs::each(&docs.inputs, &options, |input, compilation| {
         reporter.report(&compilation)?;
-        if let Some(catalog) = compilation.catalog.as_ref().filter(|_| compilation.is_usable()) {
-            let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-            put(&site.add(&stem, catalog), &mut reporter);
-        }
+        let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        put(&site.add_compilation(&stem, &compilation), &mut reporter);
         Ok(())
     })?;
     put(&site.finish(), &mut reporter);

@@ -14,8 +14,9 @@ fn root() -> PathBuf {
 pub fn site(format: Format, sources: Vec<(String, Source)>) -> Vec<Page> {
     let (mut site, mut pages) = (Site::new(format), Vec::new());
     for (name, source) in sources {
-        let compilation = check(source, &Options::default());
-        pages.extend(site.add(&name, compilation.catalog.as_ref().unwrap_or_else(|| panic!("{name}"))));
+        let own = site.add_compilation(&name, &check(source, &Options::default()));
+        assert!(!own.is_empty(), "{name}");
+        pages.extend(own);
     }
     pages.extend(site.finish());
     pages

@@ -5,6 +5,8 @@ use std::collections::HashMap;
 use super::anchor::Names;
 use super::area::{self, Area};
 use super::codes::{self, Codes};
+use super::entry::{Known, Row};
+use super::findings::Findings;
 use super::format::{Around, Catalogue, Frameset, List, Listed, Pages};
 use super::machines;
 use super::modules::{self, ModuleModel};
@@ -24,6 +26,7 @@ pub(super) struct Folder {
     pub pages: Vec<Page>,
     pub index: Index,
     pub listed: Catalogue,
+    findings: Findings,
 }
 
 /// What a device has beside items, and the files that it goes to.
@@ -37,24 +40,43 @@ struct Parts {
 }
 
 impl Folder {
-    pub fn new(format: &'static dyn Pages) -> Self {
+    pub fn new(format: &'static dyn Pages, findings: Findings) -> Self {
         let mut files = Names::default();
         files.file(format.first());
-        Folder { format, files, pages: Vec::new(), index: Index::default(), listed: Catalogue::default() }
+        Folder { format, files, pages: Vec::new(), index: Index::default(), listed: Catalogue::default(), findings }
     }
 
     /// All pages of a catalogue that is called `title`.
     pub fn catalog(&mut self, title: &str, catalog: &Catalog) {
         let is_alone = catalog.devices.len() == 1;
-        if !catalog.modules.is_empty() || !catalog.submodules.is_empty() {
-            self.modules(catalog, title);
-        }
+        // Pages of devices lead to those that all of them share, whose names are known first therefore.
+        let (modules, files) = self.modules(catalog);
+        let findings = (!self.findings.list.is_empty()).then(|| self.file("Findings"));
+        self.listed.shared.extend(files.iter().cloned());
+        self.listed.shared.extend(findings.iter().map(|file| (file.clone(), "Findings".to_owned())));
         for device in &catalog.devices {
             self.device(device, catalog, is_alone);
         }
-        if !is_alone {
-            self.list(title);
+        let title = self.listed.devices.first().filter(|_| is_alone).map_or(title, |own| own.title.as_str()).to_owned();
+        let set = Frameset { title, links: self.around(), languages: Vec::new() };
+        self.module_pages(&modules, &files, &set);
+        if let Some(file) = &findings {
+            let text = self.format.findings(Around { set: &set, file }, &self.findings.list);
+            self.page(file, text);
         }
+        if !is_alone {
+            self.list(&set);
+        }
+    }
+
+    /// The pages of a device that is alone, and those that all devices share.
+    fn around(&self) -> Vec<(String, String)> {
+        let first = |own: &Listed| [(own.path.clone(), "Overview".to_owned())].into_iter().chain(own.pages.clone());
+        let alone = match self.listed.devices.as_slice() {
+            [only] => Some(first(only)),
+            _ => None,
+        };
+        alone.into_iter().flatten().chain(self.listed.shared.iter().cloned()).collect()
     }
 
     fn page(&mut self, file: &str, text: String) {
@@ -74,7 +96,7 @@ impl Folder {
         let manual = Manual::of(device);
         let (parts, pages) = self.parts(device, &manual, &prefix);
         let mut links = vec![(first.clone(), "Overview".to_owned())];
-        links.extend(pages.iter().chain(&self.listed.modules).cloned());
+        links.extend(pages.iter().chain(&self.listed.shared).cloned());
         let set = Frameset { title: title.clone(), links, languages: languages(device) };
         let own = overview::overview(device, catalog.files.first(), &manual);
         let text = format.overview(Around { set: &set, file: &first }, &own, &contents(device, &parts));
@@ -92,7 +114,8 @@ impl Folder {
     /// What there is to write of a device, and the further pages that it gives.
     fn parts(&mut self, device: &Device, manual: &Manual, prefix: &str) -> (Parts, Vec<(String, String)>) {
         let calls = rust::calls(device).into_iter().map(|(item, call)| (std::ptr::from_ref(item), call)).collect();
-        let mut areas = area::areas(&device.groups, &device.types, (manual, &calls), &mut self.files, prefix);
+        let known = Known { manual, calls: &calls, findings: &self.findings };
+        let mut areas = area::areas(&device.groups, &device.types, known, &mut self.files, prefix);
         for own in &mut areas {
             own.file += self.format.ending();
         }
@@ -150,34 +173,38 @@ impl Folder {
         }
     }
 
-    /// The pages of modules, which all devices of a catalogue share.
-    fn modules(&mut self, catalog: &Catalog, title: &str) {
-        let mut all = modules::modules(catalog);
+    /// The modules, and the files and titles of their pages.
+    fn modules(&mut self, catalog: &Catalog) -> (Vec<ModuleModel>, Vec<(String, String)>) {
+        let mut all = modules::modules(catalog, &self.findings);
         let count = all.len().div_ceil(modules::PAGE);
         let name = |at: usize| match count {
             1 => "Modules".to_owned(),
             _ => format!("Modules ({} of {count})", at + 1),
         };
-        let links: Vec<(String, String)> = (0..count).map(|at| (self.file("modules"), name(at))).collect();
-        link_parts(&mut all, &links);
-        let set = Frameset { title: title.to_owned(), links: links.clone(), languages: Vec::new() };
-        for ((file, _), modules) in links.iter().zip(all.chunks(modules::PAGE)) {
-            self.page(file, self.format.modules(Around { set: &set, file }, modules));
-            self.index.page(file, title);
+        let files: Vec<(String, String)> = (0..count).map(|at| (self.file("modules"), name(at))).collect();
+        link_parts(&mut all, &files);
+        (all, files)
+    }
+
+    fn module_pages(&mut self, all: &[ModuleModel], files: &[(String, String)], set: &Frameset) {
+        for ((file, _), modules) in files.iter().zip(all.chunks(modules::PAGE)) {
+            self.page(file, self.format.modules(Around { set, file }, modules));
+            self.index.page(file, &set.title);
             for own in modules {
                 let words = own.facts.first().map_or("", String::as_str);
                 self.index.entry(&Entry { names: &own.names, words, ..found(&own.anchor, &own.number, &own.name) });
+                for (_, section) in &own.sections {
+                    index_rows(&mut self.index, &section.rows);
+                }
             }
         }
-        self.listed.modules = links;
     }
 
     /// The first page of a catalogue of several devices.
-    fn list(&mut self, title: &str) {
-        let set = Frameset { title: title.to_owned(), links: self.listed.modules.clone(), languages: Vec::new() };
+    fn list(&mut self, set: &Frameset) {
         let file = format!("{}{}", self.format.first(), self.format.ending());
         let list = List { devices: &self.listed.devices, root: "..", index: "" };
-        let text = self.format.list(Around { set: &set, file: &file }, list);
+        let text = self.format.list(Around { set, file: &file }, list);
         self.page(&file, text);
     }
 }
@@ -218,11 +245,15 @@ fn index_area(index: &mut Index, own: &Area) {
         if let Some(anchor) = &section.anchor {
             index.entry(&Entry { names: &section.names, ..found(anchor, &section.number, &section.name) });
         }
-        for row in &section.rows {
-            let words = row.facts.first().map_or("", String::as_str);
-            let entry = found(&row.anchor, &row.number, &row.name);
-            index.entry(&Entry { names: &row.names, unit: &row.unit, words, ..entry });
-        }
+        index_rows(index, &section.rows);
+    }
+}
+
+fn index_rows(index: &mut Index, rows: &[Row]) {
+    for row in rows {
+        let words = row.facts.first().map_or("", String::as_str);
+        let entry = found(&row.anchor, &row.number, &row.name);
+        index.entry(&Entry { names: &row.names, unit: &row.unit, words, ..entry });
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::area::Area;
 use super::codes::Codes;
+use super::findings::Finding;
 use super::html::Html;
 use super::machines::{Machine, Sequence};
 use super::markdown::Markdown;
@@ -56,8 +57,8 @@ pub(super) struct Catalogue {
     /// Its folder, with a `/` behind it.
     pub folder: String,
     pub devices: Vec<Listed>,
-    /// Pages of modules, which all its devices share: files and titles.
-    pub modules: Vec<(String, String)>,
+    /// Pages that all its devices share: files and titles.
+    pub shared: Vec<(String, String)>,
 }
 
 /// A device in the list of all.
@@ -102,6 +103,7 @@ pub(super) trait Pages {
     fn codes(&self, around: Around<'_>, tables: &[Codes]) -> String;
     fn machines(&self, around: Around<'_>, machines: &[Machine], sequences: &[Sequence]) -> String;
     fn modules(&self, around: Around<'_>, modules: &[ModuleModel]) -> String;
+    fn findings(&self, around: Around<'_>, findings: &[Finding]) -> String;
     fn list(&self, around: Around<'_>, list: List<'_>) -> String;
 
     /// What the pages of one catalogue share, beside them.

@@ -5,6 +5,7 @@ use askama::Template;
 use super::area::Area;
 use super::bits::{self, Grids};
 use super::codes::Codes;
+use super::findings::Finding;
 use super::format::{Around, Catalogue, Frameset, List, Listed, Pages};
 use super::machines::{Machine, Sequence};
 use super::modules::ModuleModel;
@@ -82,6 +83,14 @@ struct ModulesPage<'p> {
 }
 
 #[derive(Template)]
+#[template(path = "docs/findings.html")]
+struct FindingsPage<'p> {
+    around: &'p Frameset,
+    file: &'p str,
+    findings: &'p [Finding],
+}
+
+#[derive(Template)]
 #[template(path = "docs/list.html")]
 struct ListPage<'p> {
     around: &'p Frameset,
@@ -150,6 +159,10 @@ impl Pages for Html {
         let rows = modules.iter().flat_map(|own| &own.sections).flat_map(|(_, section)| &section.rows);
         let grids = &bits::grids(rows.filter_map(|row| row.bits.as_ref()));
         written(&ModulesPage { around, file, modules, grids })
+    }
+
+    fn findings(&self, Around { set: around, file }: Around<'_>, findings: &[Finding]) -> String {
+        written(&FindingsPage { around, file, findings })
     }
 
     fn list(&self, Around { set: around, file }: Around<'_>, list: List<'_>) -> String {

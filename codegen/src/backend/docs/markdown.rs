@@ -6,6 +6,7 @@ use askama::Template;
 
 use super::area::Area;
 use super::codes::Codes;
+use super::findings::Finding;
 use super::format::{Around, Catalogue, List, Listed, Pages};
 use super::machines::{Machine, Sequence};
 use super::modules::ModuleModel;
@@ -80,6 +81,12 @@ struct ModulesPage<'p> {
 }
 
 #[derive(Template)]
+#[template(path = "docs/markdown/findings.md")]
+struct FindingsPage<'p> {
+    findings: &'p [Finding],
+}
+
+#[derive(Template)]
 #[template(path = "docs/markdown/list.md")]
 struct ListPage<'p> {
     title: &'p str,
@@ -151,6 +158,10 @@ impl Pages for Markdown {
 
     fn modules(&self, _: Around<'_>, modules: &[ModuleModel]) -> String {
         written(&ModulesPage { modules })
+    }
+
+    fn findings(&self, _: Around<'_>, findings: &[Finding]) -> String {
+        written(&FindingsPage { findings })
     }
 
     fn list(&self, around: Around<'_>, list: List<'_>) -> String {

@@ -12,7 +12,7 @@
 //!            [1000]\nParameterName=Device type\nDataType=7\nAccessType=ro\n";
 //! let compilation = check(Source::new("pump.eds", eds.into()), &Options::default());
 //! let mut site = Site::default();
-//! let pages = site.add("pump", &compilation.catalog.expect("a device"));
+//! let pages = site.add_compilation("pump", &compilation);
 //! assert!(pages.iter().any(|page| page.text.contains("Device type")));
 //! let shared = site.finish();
 //! assert!(shared.iter().any(|page| page.path == "index.html"));
@@ -24,6 +24,7 @@ mod bits;
 mod cell;
 mod codes;
 mod entry;
+mod findings;
 mod folder;
 mod format;
 mod html;
@@ -36,8 +37,10 @@ mod protocol;
 mod search;
 mod words;
 
+use crate::compile::Compilation;
 use crate::ir::Catalog;
 use anchor::Names;
+use findings::Findings;
 use folder::Folder;
 pub use format::Format;
 use format::{Around, Catalogue, Frameset, List, Listed};
@@ -84,8 +87,18 @@ impl Site {
 
     /// The pages of a catalogue, in a folder that is named after `name`.
     pub fn add(&mut self, name: &str, catalog: &Catalog) -> Vec<Page> {
+        self.folder(name, catalog, Findings::default())
+    }
+
+    /// The pages of what was compiled, with what was found in its source; none where it has errors.
+    pub fn add_compilation(&mut self, name: &str, compilation: &Compilation) -> Vec<Page> {
+        let catalog = compilation.catalog.as_ref().filter(|_| compilation.is_usable());
+        catalog.map(|catalog| self.folder(name, catalog, Findings::of(compilation))).unwrap_or_default()
+    }
+
+    fn folder(&mut self, name: &str, catalog: &Catalog, findings: Findings) -> Vec<Page> {
         let folder = self.folders.file(name);
-        let mut own = Folder::new(self.format.pages());
+        let mut own = Folder::new(self.format.pages(), findings);
         own.catalog(name, catalog);
         self.index.add(&own.index, &folder);
         own.pages.extend(own.format.of_catalog(&|| own.index.script()));

@@ -2,7 +2,8 @@
 
 use super::anchor::Names;
 use super::area::Section;
-use super::entry::{Calls, Rows};
+use super::entry::{Calls, Known, Rows};
+use super::findings::Findings;
 use super::process::{self, Frame};
 use super::words::{self, PLAIN};
 use crate::backend::words::Manual;
@@ -34,7 +35,7 @@ pub(super) struct Slot {
 }
 
 /// All modules of a catalogue, and then its submodules.
-pub(super) fn modules(catalog: &Catalog) -> Vec<ModuleModel> {
+pub(super) fn modules(catalog: &Catalog, findings: &Findings) -> Vec<ModuleModel> {
     let mut names = Names::default();
     let anchors: Vec<String> =
         catalog.submodules.iter().map(|own| names.anchor(&format!("submodule-{:08X}", own.ident))).collect();
@@ -45,20 +46,26 @@ pub(super) fn modules(catalog: &Catalog) -> Vec<ModuleModel> {
             Some((catalog.submodules.get(at)?.name.to_string(), anchors.get(at)?.clone()))
         });
         let anchor = names.anchor(&format!("module-{:08X}", own.number));
-        all.push(module(own, anchor, parts.collect()));
+        all.push(module(own, anchor, parts.collect(), findings));
     }
-    all.extend(catalog.submodules.iter().zip(anchors).map(|(own, anchor)| submodule(catalog, own, anchor)));
+    all.extend(catalog.submodules.iter().zip(anchors).map(|(own, anchor)| submodule(catalog, own, anchor, findings)));
     all
 }
 
 /// The items of a module; their addresses begin with that of the module.
-fn sections<'g>(groups: impl Iterator<Item = &'g Group>, types: &[TypeDef], anchor: &str) -> Vec<(String, Section)> {
+fn sections<'g>(
+    groups: impl Iterator<Item = &'g Group>,
+    types: &[TypeDef],
+    anchor: &str,
+    findings: &Findings,
+) -> Vec<(String, Section)> {
     let (manual, calls, mut names) = (Manual::default(), Calls::default(), Names::within(anchor));
-    let mut rows = Rows { types, manual: &manual, names: &mut names, calls: &calls, shown: Vec::new() };
+    let known = Known { manual: &manual, calls: &calls, findings };
+    let mut rows = Rows { types, known, names: &mut names, shown: Vec::new() };
     groups.map(|group| section(group, &mut rows)).collect()
 }
 
-fn module(own: &Module, anchor: String, parts: Vec<(String, String)>) -> ModuleModel {
+fn module(own: &Module, anchor: String, parts: Vec<(String, String)>, findings: &Findings) -> ModuleModel {
     let mut facts = PLAIN.description(own.documentation.as_deref());
     let order = &own.identity.order_code;
     facts.extend((!order.is_empty()).then(|| format!("Order code {order}.")));
@@ -68,13 +75,13 @@ fn module(own: &Module, anchor: String, parts: Vec<(String, String)>) -> ModuleM
         names: words::names(&own.names),
         facts,
         frames: process::frames(&own.process_data, &own.types),
-        sections: sections(own.fixed_objects.iter().chain(&own.groups), &own.types, &anchor),
+        sections: sections(own.fixed_objects.iter().chain(&own.groups), &own.types, &anchor, findings),
         parts,
         anchor,
     }
 }
 
-fn submodule(catalog: &Catalog, own: &Submodule, anchor: String) -> ModuleModel {
+fn submodule(catalog: &Catalog, own: &Submodule, anchor: String, findings: &Findings) -> ModuleModel {
     let mut facts = PLAIN.description(own.documentation.as_deref());
     facts.extend((own.api != 0).then(|| format!("API 0x{:04X}.", own.api)));
     facts.extend(own.f_parameters.is_some().then(|| "With parameters of functional safety (PROFIsafe).".to_owned()));
@@ -87,7 +94,7 @@ fn submodule(catalog: &Catalog, own: &Submodule, anchor: String) -> ModuleModel 
         names: words::names(&own.names),
         facts,
         frames: inputs.into_iter().chain(outputs).collect(),
-        sections: sections(own.records.iter(), &catalog.types, &anchor),
+        sections: sections(own.records.iter(), &catalog.types, &anchor, findings),
         parts: Vec::new(),
         anchor,
     }
