@@ -10,7 +10,7 @@ mod note;
 mod options;
 mod registers;
 pub mod rust;
-mod words;
+pub(crate) mod words;
 mod xml;
 
 pub use note::{Export, Note, NoteKind};

@@ -1,20 +1,28 @@
 //! Sentences about elements of the IR, for documentation of any kind.
 
 use crate::ir::{
-    Availability, Behaviour, CompactString, Condition, Device, Documentation, Doubt, ItemVariant, Limits, LocalText,
-    Quantity, Scale, Storage, Value,
+    Availability, Behaviour, CompactString, Condition, Device, Direction, Documentation, Doubt, ItemVariant, Limits,
+    LocalText, Quantity, Scale, Step, Storage, Value,
 };
 
 /// Makes sentences. Every text of a source goes through `escape` on its way into one.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Words {
+pub(crate) struct Words {
     /// The text as the output shows it literally, on one line.
     pub escape: fn(&str) -> String,
 }
 
+/// Sentences as they are.
+pub(crate) const PLAIN: Words = Words { escape: one_line };
+
+/// A text without breaks of lines.
+pub(crate) fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// What is known of the manual that a description was taken from.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Manual {
+pub(crate) struct Manual {
     /// Its language, where it isn't the one of the description.
     pub language: String,
     /// What places in it are: `line` or `page`.
@@ -108,6 +116,28 @@ impl Words {
 
     fn values(&self, values: &[Value]) -> String {
         values.iter().map(|value| self.value(value)).collect::<Vec<_>>().join(" or ")
+    }
+
+    /// What a step of a procedure does.
+    pub fn step(&self, own: &Step) -> String {
+        let value = |value| self.value(value);
+        let name = |name: &str| self.escaped(name);
+        match own {
+            Step::Write(item, to) => format!("Write {} to {}.", value(to), name(item)),
+            Step::WriteBits(item, mask, to) => format!("Write {} to the bits 0x{mask:X} of {}.", value(to), name(item)),
+            Step::WriteArgument(item, argument) => format!("Write {} to {}.", name(argument), name(item)),
+            Step::Read(item) => format!("Read {}.", name(item)),
+            Step::WaitFor(item, mask, to, limit) => {
+                let bits = if *mask == u64::MAX { String::new() } else { self.escaped(&format!(" & 0x{mask:X}")) };
+                let limit = limit.map(|limit| format!(", at most {limit} ms")).unwrap_or_default();
+                format!("Wait until {}{bits} is {}{limit}.", name(item), value(to))
+            }
+            Step::Delay(milliseconds) => format!("Wait {milliseconds} ms."),
+            Step::Send(message) => format!("Send {}.", name(message)),
+            Step::Exchange(Direction::Receive) => "Send the outputs once.".to_owned(),
+            Step::Exchange(Direction::Transmit) => "Take the inputs once.".to_owned(),
+            Step::Manual(text) => sentence(&name(text)),
+        }
     }
 
     /// A value; of a long text or block of bytes, the start.
