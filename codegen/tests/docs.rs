@@ -1,45 +1,14 @@
 //! The site of `lexibus docs`: each link leads somewhere, nothing of a description is markup, and it is as small as it should be.
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use docs_support::{files, hostile, site, ALL};
+use docs_support::{files, hostile, html_links, site, values, ALL};
 use lexibus_codegen::backend::docs::Format;
 use lexibus_codegen::source::Source;
 
 mod docs_support;
 
-/// The values of an attribute in double quotes.
-fn values<'p>(text: &'p str, attribute: &str) -> Vec<&'p str> {
-    let start = format!(" {attribute}=\"");
-    text.split(&start).skip(1).filter_map(|rest| rest.split('"').next()).collect()
-}
-
 #[test]
 fn each_link_leads_somewhere() {
-    let pages = files(Format::Html, &ALL);
-    let mut ids: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-    for page in &pages {
-        let all = values(&page.text, "id");
-        let own: BTreeSet<&str> = all.iter().copied().collect();
-        assert_eq!(own.len(), all.len(), "{}: an id is given twice", page.path);
-        ids.insert(&page.path, own);
-    }
-    let mut count = 0;
-    for page in pages.iter().filter(|page| page.path.ends_with(".html")) {
-        let folder = page.path.rsplit_once('/').map_or("", |(folder, _)| folder);
-        let links = values(&page.text, "href").into_iter().chain(values(&page.text, "src"));
-        for link in links {
-            let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
-            let path = match file.strip_prefix("../") {
-                Some(path) => path.to_owned(),
-                None if file.is_empty() => page.path.clone(),
-                None => format!("{folder}/{}", file.trim_start_matches("./")).trim_start_matches('/').to_owned(),
-            };
-            let own = ids.get(path.as_str()).unwrap_or_else(|| panic!("{}: there is no {path}", page.path));
-            assert!(anchor.is_empty() || own.contains(anchor), "{}: {path} has no {anchor}", page.path);
-            count += 1;
-        }
-    }
+    let count = html_links(&files(Format::Html, &ALL));
     assert!(count > 5000, "only {count} links");
 }
 

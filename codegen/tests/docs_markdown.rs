@@ -1,67 +1,16 @@
 //! Pages of Markdown: every link leads somewhere, nothing of a description is markup, and the summary has every page.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use docs_support::{files, hostile, site, ALL};
-use lexibus_codegen::backend::docs::{Format, Page};
+use docs_support::{files, hostile, id, markdown_links, pages, site, ALL};
+use lexibus_codegen::backend::docs::Format;
 use lexibus_codegen::source::Source;
-use pulldown_cmark::{Event, Options, Parser, Tag};
 
 mod docs_support;
 
-/// What a reader of Markdown sees in a page, read as GitHub and `mdBook` do.
-#[derive(Default)]
-struct Seen {
-    links: Vec<String>,
-    html: Vec<String>,
-    text: String,
-    images: usize,
-}
-
-fn seen(page: &Page) -> Seen {
-    let mut seen = Seen::default();
-    for event in Parser::new_ext(&page.text, Options::ENABLE_TABLES | Options::ENABLE_FOOTNOTES) {
-        match event {
-            Event::Start(Tag::Link { dest_url, .. }) => seen.links.push(dest_url.into_string()),
-            Event::Start(Tag::Image { .. }) => seen.images += 1,
-            Event::Html(own) | Event::InlineHtml(own) => seen.html.push(own.trim().to_owned()),
-            Event::Text(own) | Event::Code(own) => seen.text.push_str(&own),
-            _ => {}
-        }
-    }
-    seen
-}
-
-/// The address that `<a id="…">` gives.
-fn id(html: &str) -> Option<&str> {
-    html.strip_prefix("<a id=\"")?.strip_suffix("\">")
-}
-
-fn pages(all: &[Page]) -> impl Iterator<Item = (&Page, Seen)> {
-    all.iter().map(|page| (page, seen(page)))
-}
-
 #[test]
 fn each_link_leads_somewhere() {
-    let all = files(Format::Markdown, &ALL);
-    let mut ids: BTreeMap<&str, BTreeSet<String>> = BTreeMap::new();
-    for (page, seen) in pages(&all) {
-        let own: Vec<String> = seen.html.iter().filter_map(|html| id(html)).map(str::to_owned).collect();
-        let once: BTreeSet<String> = own.iter().cloned().collect();
-        assert_eq!(once.len(), own.len(), "{}: an id is given twice", page.path);
-        ids.insert(&page.path, once);
-    }
-    let mut count = 0;
-    for (page, seen) in pages(&all) {
-        let folder = page.path.rsplit_once('/').map_or(String::new(), |(folder, _)| format!("{folder}/"));
-        for link in seen.links {
-            let (file, anchor) = link.split_once('#').unwrap_or((&link, ""));
-            let path = if file.is_empty() { page.path.clone() } else { format!("{folder}{file}") };
-            let own = ids.get(path.as_str()).unwrap_or_else(|| panic!("{}: there is no {path}", page.path));
-            assert!(anchor.is_empty() || own.contains(anchor), "{}: {path} has no {anchor}", page.path);
-            count += 1;
-        }
-    }
+    let count = markdown_links(&files(Format::Markdown, &ALL));
     assert!(count > 2000, "only {count} links");
 }
 
