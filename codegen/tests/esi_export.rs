@@ -239,8 +239,8 @@ fn the_documentation_lists_every_note() {
 #[test]
 fn the_documentation_lists_every_option() {
     for (documentation, keys) in [
-        (include_str!("../../docs/src/ethercat.md"), Options::KEYS),
-        (include_str!("../../docs/src/profinet.md"), lexibus_codegen::backend::gsdml::Options::KEYS),
+        (include_str!("../../docs/src/esi.md"), Options::KEYS),
+        (include_str!("../../docs/src/gsdml.md"), lexibus_codegen::backend::gsdml::Options::KEYS),
     ] {
         for (key, what) in keys {
             assert!(documentation.contains(&format!("| `{key}` | {} |", what.trim_end_matches('.'))), "{key}");
