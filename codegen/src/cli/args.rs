@@ -47,6 +47,9 @@ pub(super) enum Command {
     Explain {
         /// Identifier or name of the code, such as EDS020 or octal-number.
         code: Option<String>,
+        /// How it is printed.
+        #[arg(long, value_enum, value_name = "FORMAT", default_value_t = ExplainFormat::Text)]
+        format: ExplainFormat,
     },
     /// Print a completion script for a shell.
     Completions {
@@ -126,6 +129,14 @@ pub(super) enum Colour {
     Always,
     /// Never.
     Never,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ExplainFormat {
+    /// For people; without a code, a line a code.
+    Text,
+    /// Markdown, each code with its explanation.
+    Markdown,
 }
 
 #[derive(Debug, Args)]
