@@ -56,6 +56,40 @@
 //! # Ok::<(), Error<core::convert::Infallible>>(())
 //! ```
 //!
+//! # Where to find what
+//!
+//! | for | see |
+//! |---|---|
+//! | values, and reading and writing them | [`Item`], [`Accessor`], [`Value`], [`Range`], [`Error`] |
+//! | scales and units | [`Quantity`], [`Scaled`] and its like |
+//! | the state machine of a drive | [`Step`] |
+//! | alarms and other codes | [`codes`] |
+//! | a client of one's own | [`Client`], [`AsyncClient`], [`RegisterClient`](modbus::RegisterClient), [`RecordClient`](profinet::RecordClient), [`Exchange`] |
+//! | process data of CANopen, and mappings of one's own | [`pdo`](mod@pdo), [`pdo!`] |
+//! | EtherCAT: assignment of PDOs, slots, start-up lists | [`ethercat`] |
+//! | PROFINET: plans, records, images, diagnosis | [`profinet`] |
+//! | Modbus: several items in a request | [`modbus`] |
+//! | serial protocols | [`message`], [`framing`] |
+//! | all items of a device as data | [`table`] |
+//!
+//! # Features
+//!
+//! None is on by default.
+//!
+//! | feature | what it adds |
+//! |---|---|
+//! | `macros` | the macro `dictionary!`, which compiles a description where it stands |
+//! | `std` | `sim`: simulated devices; [`Client::wait`] that sleeps |
+//! | `canopen` | `clients::canopen`: SDO, NMT, heartbeat, emergencies and PDOs over any CAN interface; needs an allocator |
+//! | `socketcan`, `socketcan-tokio` | the same over SocketCAN of Linux, blocking and not |
+//! | `ethercat` | `clients::ethercat`: objects of SubDevices with `ethercrab`; needs Rust 1.85 |
+//! | `modbus` | `clients::modbus`: RTU and TCP with `tokio-modbus` |
+//! | `serial` | `clients::serial`: messages over any stream of `embedded-io` |
+//! | `serde`, `defmt` | traits of these crates on the values that generated types contain |
+//!
+//! [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md) begins at the beginning, and has a chapter for
+//! each format and each bus.
+//!
 //! Clauses such as "CiA 301 7.1.6.5" refer to CiA 301 version 4.2.0.
 
 #![no_std]

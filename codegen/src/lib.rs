@@ -12,8 +12,20 @@
 //! Underneath is a pipeline in which data flows one way:
 //!
 //! ```text
-//! source -> syntax -> frontend/{eds, xdd, esi, gsdml} -> ir -> passes -> backend/{rust, json, eds, esi, gsdml}
+//! source -> syntax -> frontend/{eds, xdd, esi, gsdml, table} -> ir -> passes -> backend/{rust, docs, json, eds, esi, gsdml}
 //! ```
+//!
+//! | for | see |
+//! |---|---|
+//! | a build script | [`Builder`] |
+//! | a program that reads descriptions | [`compile`], [`selection`], and [`ir`] for what it gets |
+//! | what is wrong with a description | [`diagnostics`], and the catalogue of codes, [`diagnostics::codes`] |
+//! | Rust, documentation, JSON and other formats | [`backend`] |
+//! | what changed between two versions | [`compare`] |
+//! | what standards say of a device's objects | [`profiles`] |
+//!
+//! With the feature `cli` it is also the command `lexibus`. [The book](https://github.com/lexibus/lexibus/blob/main/docs/src/SUMMARY.md)
+//! has a chapter for each format, and one that writes a front end.
 //!
 //! Each stage can be used by itself:
 //!

@@ -144,6 +144,29 @@ fn every_file_is_a_chapter_and_its_examples_are_compiled() {
     assert_eq!(summary.matches("](").count(), count, "a chapter of SUMMARY.md has no file, or stands there twice");
 }
 
+/// What stands outside of the book leads into it, and to files that are there.
+#[test]
+fn links_of_other_texts_lead_to_files() {
+    let root = docs().join("..");
+    let mut count = 0;
+    for text in
+        ["README.md", "CHANGELOG.md", "dictionaries/README.md", "tests/interop/README.md", "examples/no_std/README.md"]
+    {
+        let path = root.join(text);
+        let content = fs::read_to_string(&path).expect("a text of the repository");
+        let inline = content.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        let definitions =
+            content.lines().filter_map(|line| line.strip_prefix('[')?.split_once("]: ").map(|(_, link)| link));
+        let links = inline.chain(definitions).filter(|link| !link.contains("://") && !link.starts_with('#'));
+        for link in links {
+            let target = path.parent().expect("a folder").join(link.split('#').next().unwrap_or_default());
+            assert!(target.exists(), "{text}: {link}");
+            count += 1;
+        }
+    }
+    assert!(count > 10, "{count} links");
+}
+
 /// A reader who copies an example gets one that was compiled.
 #[test]
 fn no_example_is_left_out() {
