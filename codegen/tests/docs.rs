@@ -1,5 +1,8 @@
 //! The site of `lexibus docs`: each link leads somewhere, nothing of a description is markup, and it is as small as it should be.
 
+#[path = "docs_support/hostile.rs"]
+mod hostile;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
@@ -82,51 +85,17 @@ fn each_link_leads_somewhere() {
 fn the_search_finds_what_pages_have() {
     let pages = files(&["dictionaries/hsd-sm137-sm140.toml"]);
     let index = &pages.iter().find(|page| page.path == "hsd-sm137-sm140/search.js").expect("an index").text;
-    // A parameter, a message by its Italian name, a code, each with page and address.
-    for line in [
-        "\\tKP_VEL\\tparameter 0x0105\\tKP_VEL\\t",
-        "\\tCmdTraj\\tmessage\\tCmdTraj\\tPosizionamento",
-        "\\t1\\toverheated\\tALOVERHEATED\\t",
-    ] {
-        assert!(index.contains(line), "{line}");
+    // A parameter, a message by its Italian name, a code.
+    for text in ["KP_VEL\\t", "\\nCmdTraj\\tPosizionamento", "\\noverheated\\tALOVERHEATED\\t"] {
+        assert!(index.contains(text), "{text}");
     }
     assert!(index.starts_with("lexibusIndex([[\"index.html\",\"HSD Motor\"],"));
+    assert!(index.contains("\\nparameter 0x0105\\n"));
 }
-
-const HOSTILE: &str =
-    "<script>alert(1)</script><img src=x onerror=alert(2)>\\\" ' onload=alert(3) </title></table>&lt; http://x";
 
 #[test]
 fn nothing_of_a_description_is_markup() {
-    let hostile = HOSTILE.replace("\\\"", "");
-    let eds = format!(
-        "[FileInfo]\nDescription={hostile}\n[DeviceInfo]\nVendorName={hostile}\nProductName={hostile}\nOrderCode={hostile}\n\
-         [MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n[1000]\nParameterName={hostile}\nDataType=0x0009\nAccessType=ro\n\
-         DefaultValue={hostile}\nDenotation={hostile}\n[Comments]\nLines=1\nLine1={hostile}\n"
-    );
-    let xml = hostile.replace('&', "&amp;").replace('<', "&lt;");
-    let esi = std::fs::read_to_string(root().join("tests/data/coupler.esi.xml")).expect("an ESI");
-    let esi = esi.replace("</Name>", &format!("{xml}</Name>")).replace("</Comment>", &format!("{xml}</Comment>"));
-    let gsdml = std::fs::read_to_string(root().join("tests/data/drive.gsdml.xml")).expect("a GSDML");
-    let gsdml = gsdml.replace(" Value=\"", &format!(" Value=\"{}", xml.replace('"', "&quot;")));
-    let table = format!(
-        "lexibus = 1\n[device]\nname = \"{HOSTILE}\"\nvendor = \"{HOSTILE}\"\ndoc = \"{HOSTILE}\"\nbuses = [\"modbus\", \"serial\"]\n\
-         doubt = {{ says = \"{HOSTILE}\", chose = \"{HOSTILE}\", why = \"{HOSTILE}\" }}\n[manual]\nlanguage = \"it\"\n\
-         [spaces.register]\nmodbus = {{ table = \"holding\" }}\n[[chapters]]\ntitle = \"{HOSTILE}\"\ndoc = \"{HOSTILE}\"\n[chapters.registers]\n\
-         \"{HOSTILE}\" = {{ reg = 1, type = \"u16\", access = \"rw\", unit = \"{HOSTILE}\", orig = \"{HOSTILE}\", doc = \"{HOSTILE}\", \
-         effects = [\"{HOSTILE}\"], bits = {{ 0 = {{ name = \"{HOSTILE}\", doc = \"{HOSTILE}\" }}, \"2-1\" = {{ name = \"x\", values = {{ 1 = \"{HOSTILE}\" }} }} }} }}\n\
-         mode = {{ reg = 2, type = \"u16\", access = \"rw\", enum = {{ 1 = \"{HOSTILE}\" }} }}\n\
-         [codes.\"{HOSTILE}\"]\ncolumns = [\"{HOSTILE}\"]\n[codes.\"{HOSTILE}\".rows]\n1 = {{ name = \"{HOSTILE}\", doc = \"{HOSTILE}\", cells = [\"{HOSTILE}\"] }}\n\
-         [machines.\"{HOSTILE}\"]\nstatus = \"mode\"\ndoc = \"{HOSTILE}\"\n[machines.\"{HOSTILE}\".states]\n\"{HOSTILE}\" = {{ mask = 1, value = 1 }}\n\
-         [procedures.\"{HOSTILE}\"]\ndoc = \"{HOSTILE}\"\nsteps = [{{ manual = \"{HOSTILE}\" }}]\n\
-         [[messages]]\nname = \"{HOSTILE}\"\ndoc = \"{HOSTILE}\"\nrequest = [{{ field = \"{HOSTILE}\", type = \"u8\", doc = \"{HOSTILE}\" }}]\n"
-    );
-    let pages = site(vec![
-        (hostile.clone(), Source::new("h.eds", eds.into())),
-        ("esi".to_owned(), Source::new("h.xml", esi.into())),
-        ("gsdml".to_owned(), Source::new("h.xml", gsdml.into())),
-        ("table".to_owned(), Source::new("h.toml", table.into())),
-    ]);
+    let pages = site(hostile::descriptions());
     let mut shown = 0;
     for page in pages.iter().filter(|page| page.path.ends_with(".html")) {
         assert_eq!(page.text.matches("<script").count(), 1, "{}", page.path);
