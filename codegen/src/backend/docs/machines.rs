@@ -1,5 +1,6 @@
 //! State machines: a diagram, lists of states, commands and transitions, and what commands do in each state.
 
+use std::cmp::Ordering;
 use std::collections::VecDeque;
 
 use super::words::{self, PLAIN};
@@ -11,6 +12,9 @@ const WIDTH: u32 = 170;
 const HEIGHT: u32 = 36;
 const GAP: u32 = 30;
 const RISE: u32 = 70;
+
+/// The room on either side, for arrows that lead back.
+const SIDE: u32 = 90;
 
 /// The letters of a name that a state has room for.
 const LETTERS: usize = 22;
@@ -105,7 +109,7 @@ pub(super) fn machine(own: &StateMachine, manual: &Manual) -> Machine {
         initial: own.initial.as_ref().map(ToString::to_string),
         states: own.states.iter().map(named).collect(),
         commands: own.commands.iter().map(named).collect(),
-        transitions: own.transitions.iter().map(way).collect(),
+        transitions: own.transitions.iter().enumerate().map(way).collect(),
         matrix: matrix(own),
     }
 }
@@ -120,9 +124,14 @@ fn named(own: &Pattern) -> Named {
     }
 }
 
-fn way(own: &Transition) -> Way {
+/// By what the list and the diagram call a transition: its number, else its place.
+fn number((at, own): (usize, &Transition)) -> String {
+    own.number.map_or_else(|| (at + 1).to_string(), |number| number.to_string())
+}
+
+fn way((at, own): (usize, &Transition)) -> Way {
     Way {
-        number: own.number.map(|number| number.to_string()).unwrap_or_default(),
+        number: number((at, own)),
         from: own.from.as_ref().map_or_else(|| "any state".to_owned(), ToString::to_string),
         to: own.to.to_string(),
         command: own.command.as_ref().map_or_else(|| "by itself".to_owned(), ToString::to_string),
@@ -171,10 +180,7 @@ fn diagram(own: &StateMachine) -> Option<Diagram> {
         .transitions
         .iter()
         .enumerate()
-        .filter_map(|(at, way)| {
-            let label = way.number.map_or_else(|| (at + 1).to_string(), |number| number.to_string());
-            Some((place(way.from.as_ref()?)?, place(&way.to)?, label))
-        })
+        .filter_map(|(at, way)| Some((place(way.from.as_ref()?)?, place(&way.to)?, number((at, way)))))
         .collect();
     if ways.is_empty() {
         return None;
@@ -190,11 +196,11 @@ fn diagram(own: &StateMachine) -> Option<Diagram> {
         rows[*rank].push(at);
     }
     let widest = rows.iter().map(Vec::len).max().unwrap_or(1) as u32;
-    let width = widest * (WIDTH + GAP) + 3 * GAP;
+    let width = widest * (WIDTH + GAP) + 2 * SIDE;
     let mut boxes = vec![None; own.states.len()];
     for (rank, row) in rows.iter().enumerate() {
         let taken = row.len() as u32 * (WIDTH + GAP);
-        let start = GAP + (width.saturating_sub(3 * GAP).saturating_sub(taken)) / 2;
+        let start = SIDE + (width.saturating_sub(2 * SIDE).saturating_sub(taken)) / 2;
         for (column, at) in row.iter().enumerate() {
             boxes[*at] = Some((start + column as u32 * (WIDTH + GAP), 8 + rank as u32 * (HEIGHT + RISE)));
         }
@@ -209,7 +215,7 @@ fn diagram(own: &StateMachine) -> Option<Diagram> {
         let label = words::cut(&own.states.get(at)?.name, LETTERS);
         Some(StateBox { left, top, middle: left + WIDTH / 2, base: top + 23, label, is_initial: at == first })
     };
-    let height = rows.len() as u32 * (HEIGHT + RISE) - RISE + 24;
+    let height = rows.len() as u32 * (HEIGHT + RISE) - RISE + 40;
     Some(Diagram { width, height, boxes: boxes.iter().enumerate().filter_map(state_box).collect(), arrows })
 }
 
@@ -233,27 +239,35 @@ fn ranks(count: usize, first: usize, ways: &[(usize, usize, String)]) -> Vec<usi
     ranks.into_iter().map(|rank| rank.unwrap_or(behind)).collect()
 }
 
-/// A curve from one state to another, its number beside it. Those that lead down leave at the bottom, the others at a side.
+/// A curve from one state to another, its number beside it. Those that lead down leave at the bottom, those that lead back at the
+/// side that is nearer to the end, and those within a row pass below it.
 fn arrow((x, y): (u32, u32), (to_x, to_y): (u32, u32), number: u32, label: &str) -> Arrow {
     let shift = number % 5 * 12;
     let (from_x, end_x) = (x + WIDTH / 2 - 24 + shift, to_x + WIDTH / 2 - 24 + shift);
-    let (path, x, y) = if to_y > y {
-        let (start, end) = (y + HEIGHT, to_y);
-        let middle = (start + end) / 2;
-        (
-            format!("M{from_x} {start}C{from_x} {middle} {end_x} {middle} {end_x} {end}"),
-            (from_x + end_x) / 2 + 4,
-            middle,
-        )
-    } else {
-        let (right, to_right) = (x + WIDTH, to_x + WIDTH);
-        let (start, end) = (y + 8 + shift / 3, to_y + 8 + shift / 3);
-        let out = right.max(to_right) + GAP + shift;
-        (
-            format!("M{right} {start}C{out} {start} {out} {end} {to_right} {end}"),
-            out.saturating_sub(GAP / 4),
-            (start + end) / 2,
-        )
+    let middle_x = (from_x + end_x) / 2 + 4;
+    let (path, x, y) = match to_y.cmp(&y) {
+        Ordering::Greater => {
+            let (start, end) = (y + HEIGHT, to_y);
+            let middle = (start + end) / 2;
+            (format!("M{from_x} {start}C{from_x} {middle} {end_x} {middle} {end_x} {end}"), middle_x, middle)
+        }
+        Ordering::Equal if to_x != x => {
+            let (bottom, below) = (y + HEIGHT, y + HEIGHT + 26);
+            (format!("M{from_x} {bottom}C{from_x} {below} {end_x} {below} {end_x} {bottom}"), middle_x, below - 6)
+        }
+        _ => {
+            let is_left = x < to_x;
+            let (side, to_side) = if is_left { (x, to_x) } else { (x + WIDTH, to_x + WIDTH) };
+            let (start, end) = (y + 8 + shift / 3, to_y + 8 + shift / 3);
+            let out = match is_left {
+                true => side.min(to_side).saturating_sub(GAP + shift),
+                false => side.max(to_side) + GAP + shift,
+            };
+            // A curve comes three quarters of the way to the points that it is drawn towards.
+            let beside = (side + to_side + 6 * out) / 8;
+            let middle = (start + end) / 2 + number % 3 * 12;
+            (format!("M{side} {start}C{out} {start} {out} {end} {to_side} {end}"), beside, middle)
+        }
     };
     Arrow { path, x, y, label: label.to_owned() }
 }

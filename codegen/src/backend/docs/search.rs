@@ -1,5 +1,7 @@
-//! The index of the search: a line an entry, in a script that pages load when somebody searches.
+//! The index of the search, in a script that pages load when somebody searches. Many entries have the same number or text, in a
+//! site of many devices above all: each of them is written once, and looked through once.
 
+use std::collections::HashMap;
 use std::fmt::Write;
 
 use super::words::one_line as line;
@@ -10,9 +12,27 @@ const WORDS: usize = 80;
 /// An index of entries.
 #[derive(Debug, Default)]
 pub(super) struct Index {
-    /// Pages, each with the title of its device.
-    pages: Vec<(String, String)>,
-    lines: String,
+    /// Pages, each with the title of its device and its entries.
+    pages: Vec<Page>,
+    numbers: Texts,
+    /// Name, names in other languages, unit and the start of the description, separated by tabs.
+    texts: Texts,
+}
+
+#[derive(Debug)]
+struct Page {
+    path: String,
+    title: String,
+    entries: Vec<Place>,
+}
+
+/// Where an entry is, and which number and text it has.
+#[derive(Debug)]
+struct Place {
+    /// Its address within the page; empty where that is its number.
+    anchor: String,
+    number: usize,
+    text: usize,
 }
 
 /// What is found.
@@ -26,43 +46,75 @@ pub(super) struct Entry<'e> {
     pub words: &'e str,
 }
 
+/// Texts, each once, in the order in which they came.
+#[derive(Debug, Default)]
+struct Texts {
+    all: Vec<String>,
+    places: HashMap<String, usize>,
+}
+
+impl Texts {
+    fn place(&mut self, text: &str) -> usize {
+        if let Some(place) = self.places.get(text) {
+            return *place;
+        }
+        let place = self.all.len();
+        self.all.push(text.to_owned());
+        self.places.insert(text.to_owned(), place);
+        place
+    }
+}
+
 impl Index {
     /// Adds a page; entries that follow are on it.
     pub fn page(&mut self, path: &str, title: &str) {
-        self.pages.push((path.to_owned(), title.to_owned()));
+        self.pages.push(Page { path: path.to_owned(), title: title.to_owned(), entries: Vec::new() });
     }
 
-    /// Adds an entry of the last page. Fields are separated by tabs.
+    /// Adds an entry of the last page.
     pub fn entry(&mut self, entry: &Entry<'_>) {
-        let page = self.pages.len().saturating_sub(1);
-        let _ = write!(self.lines, "{page}\t{}\t{}\t", line(entry.anchor), line(entry.number));
-        self.lines.push_str(&line(entry.name));
-        self.lines.push('\t');
-        for (at, (_, name)) in entry.names.iter().enumerate() {
-            self.lines.push_str(if at == 0 { "" } else { " | " });
-            self.lines.push_str(&line(name));
-        }
+        let names: Vec<String> = entry.names.iter().map(|(_, name)| line(name)).collect();
         let words: String = line(entry.words).chars().take(WORDS).collect();
-        let _ = writeln!(self.lines, "\t{}\t{words}", line(entry.unit));
+        let text = [line(entry.name), names.join(" | "), line(entry.unit), words].join("\t");
+        let (number, text) = (self.numbers.place(&line(entry.number)), self.texts.place(&text));
+        let anchor = if entry.anchor == entry.number { String::new() } else { line(entry.anchor) };
+        if let Some(page) = self.pages.last_mut() {
+            page.entries.push(Place { anchor, number, text });
+        }
     }
 
     /// Adds all that another index has, whose pages are in a folder.
     pub fn add(&mut self, other: &Index, folder: &str) {
-        let first = self.pages.len();
-        self.pages.extend(other.pages.iter().map(|(path, title)| (format!("{folder}/{path}"), title.clone())));
-        for own in other.lines.lines() {
-            let Some((page, rest)) = own.split_once('\t') else { continue };
-            let page = first + page.parse::<usize>().unwrap_or(0);
-            let _ = writeln!(self.lines, "{page}\t{rest}");
-        }
+        let numbers: Vec<usize> = other.numbers.all.iter().map(|own| self.numbers.place(own)).collect();
+        let texts: Vec<usize> = other.texts.all.iter().map(|own| self.texts.place(own)).collect();
+        let place =
+            |own: &Place| Place { anchor: own.anchor.clone(), number: numbers[own.number], text: texts[own.text] };
+        self.pages.extend(other.pages.iter().map(|own| Page {
+            path: format!("{folder}/{}", own.path),
+            title: own.title.clone(),
+            entries: own.entries.iter().map(place).collect(),
+        }));
     }
 
     /// The script. Texts are JSON strings, so that nothing in them is code.
     pub fn script(&self) -> String {
         let json = |text: &str| serde_json::to_string(text).unwrap_or_default();
         let pages: Vec<String> =
-            self.pages.iter().map(|(path, title)| format!("[{},{}]", json(path), json(title))).collect();
-        format!("lexibusIndex([{}],{});\n", pages.join(","), json(&self.lines))
+            self.pages.iter().map(|own| format!("[{},{}]", json(&own.path), json(&own.title))).collect();
+        let anchors: Vec<&str> =
+            self.pages.iter().flat_map(|page| &page.entries).map(|own| own.anchor.as_str()).collect();
+        let lists = [&self.numbers.all.join("\n"), &self.texts.all.join("\n"), &anchors.join("\n")];
+        let lists = lists.map(|own| json(own)).join(",\n");
+        let mut script = format!("lexibusIndex([{}],\n{lists},\n[", pages.join(","));
+        for (at, page) in self.pages.iter().enumerate() {
+            script.push_str(if at == 0 { "[" } else { ",[" });
+            for (at, own) in page.entries.iter().enumerate() {
+                let comma = if at == 0 { "" } else { "," };
+                let _ = write!(script, "{comma}{},{}", own.number, own.text);
+            }
+            script.push(']');
+        }
+        script + "]);\n"
     }
 }
 
@@ -70,19 +122,24 @@ impl Index {
 mod tests {
     use super::*;
 
-    fn entry(name: &str) -> Entry<'_> {
-        Entry { anchor: "0x6040", number: "0x6040", name, names: &[], unit: "", words: "Takes\tcommands" }
+    fn entry<'e>(anchor: &'e str, name: &'e str) -> Entry<'e> {
+        Entry { anchor, number: "0x6040", name, names: &[], unit: "", words: "Takes\tcommands" }
     }
 
     #[test]
     fn indices_are_joined() {
         let (mut one, mut all) = (Index::default(), Index::default());
         one.page("a.html", "A");
-        one.entry(&entry("Control\nword"));
+        one.entry(&entry("0x6040", "Control\nword"));
+        one.entry(&entry("word", "first"));
         all.page("x.html", "X");
-        all.entry(&entry("first"));
+        all.entry(&entry("0x6040", "first"));
         all.add(&one, "folder");
-        let expected = r#"lexibusIndex([["x.html","X"],["folder/a.html","A"]],"0\t0x6040\t0x6040\tfirst\t\t\tTakes commands\n1\t0x6040\t0x6040\tControl word\t\t\tTakes commands\n");"#;
+        let expected = r#"lexibusIndex([["x.html","X"],["folder/a.html","A"]],
+"0x6040",
+"first\t\t\tTakes commands\nControl word\t\t\tTakes commands",
+"\n\nword",
+[[0,0],[0,1,0,0]]);"#;
         assert_eq!(all.script().trim_end(), expected);
     }
 }

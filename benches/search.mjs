@@ -1,0 +1,66 @@
+// Types queries into the search of a site's first page, and prints how long each key stroke takes: until its handler is done, and until
+// the page is drawn.
+import { statSync } from "node:fs";
+import path from "node:path";
+import { pagesOf, Window, withBrowser } from "../codegen/tests/browser/browser.mjs";
+
+const QUERIES = [
+  "0x6040", "24640", "6040", "control word", "velocity", "velocità", "rpm", "target position rpm", "motor overload", "akd mode", "1 2 3 4",
+  "0x0000000c", "a e i o u", "no such thing",
+];
+
+const [site] = process.argv.slice(2);
+const size = (name) => `${(statSync(path.join(site, name)).size / 1e6).toFixed(1)} MB`;
+console.log(`${pagesOf(site).length} pages, an index of ${size("search.js")}`);
+
+await withBrowser(async (browser) => {
+  const window = await Window.open(browser, site);
+  const page = await window.go("index.html");
+  await page.evaluate(measure);
+  const start = performance.now();
+  await page.keyboard.press("/");
+  await page.keyboard.type("v");
+  await page.waitForFunction(() => document.querySelector("#found li"));
+  console.log(`first result after ${Math.round(performance.now() - start)} ms, with reading the index`);
+  const all = [];
+  for (const query of QUERIES) {
+    await page.fill("#search", "");
+    await page.waitForTimeout(100);
+    await page.evaluate(() => { times.length = 0; });
+    for (const letter of query) {
+      await page.keyboard.type(letter);
+      await page.waitForTimeout(50);
+    }
+    await page.waitForFunction((count) => times.length >= count, query.length);
+    const times = await page.evaluate(() => times);
+    all.push(...times);
+    console.log(`${query.padEnd(20)} worst ${told(worst(times))}   ${await page.locator("#found li").count()} shown`);
+  }
+  console.log(`${all.length} key strokes: median ${told(median(all))}, worst ${told(worst(all))}`);
+  window.clean();
+});
+
+// Two numbers a key stroke, taken in the page.
+function measure() {
+  window.times = [];
+  const input = document.getElementById("search");
+  let start = 0;
+  document.addEventListener("input", () => { start = performance.now(); }, true);
+  document.addEventListener("input", () => {
+    const own = start, handled = performance.now() - own, { port1, port2 } = new MessageChannel();
+    port1.onmessage = () => { times.push([handled, performance.now() - own]); };
+    requestAnimationFrame(() => port2.postMessage(input.value));
+  });
+}
+
+function worst(times) {
+  return [0, 1].map((at) => Math.max(...times.map((own) => own[at])));
+}
+
+function median(times) {
+  return [0, 1].map((at) => times.map((own) => own[at]).sort((one, other) => one - other)[times.length >> 1]);
+}
+
+function told([handled, drawn]) {
+  return `${handled.toFixed(0)} ms, drawn after ${drawn.toFixed(0)} ms`;
+}

@@ -1,0 +1,51 @@
+// axe-core finds nothing on pages of every kind: names, labels, headings, roles and contrast, in both themes, and on a phone.
+import assert from "node:assert/strict";
+import { axe, Window, withBrowser } from "./browser.mjs";
+
+const DESKTOP = { width: 1280, height: 800 }, PHONE = { width: 390, height: 844 };
+
+const PAGES = [
+  "index.html", "eco/index.html", "eco/process-data.html", "eco/states-and-procedures.html", "eco/parameters.html", "hsd-sm137-sm140/codes.html",
+  "hsd-sm137-sm140/states-and-procedures.html", "aec-vector-step/alarms-and-warnings.html", "kollmorgen-akd/messages.html",
+  "kollmorgen-akd/profile-objects.html#0x6040",
+];
+
+const [site] = process.argv.slice(2);
+await withBrowser(async (browser) => {
+  for (const colorScheme of ["light", "dark"]) {
+    for (const viewport of colorScheme === "light" ? [DESKTOP, PHONE] : [DESKTOP]) {
+      const window = await Window.open(browser, site, { colorScheme, viewport });
+      for (const place of PAGES) {
+        await window.go(place);
+        await examine(window.page, `${place}, ${colorScheme}, ${viewport.width} wide`);
+      }
+      await window.go("eco/index.html");
+      await window.search("speed");
+      await examine(window.page, `the search, ${colorScheme}, ${viewport.width} wide`);
+      window.clean();
+      await window.close();
+    }
+  }
+});
+
+async function examine(page, what) {
+  await browsed(page);
+  await page.evaluate(axe);
+  const violations = await page.evaluate(async () => {
+    const { violations, passes } = await axe.run(document, { preload: false, resultTypes: ["violations", "passes"] });
+    const examined = passes.find((rule) => rule.id === "color-contrast")?.nodes.length ?? 0;
+    if (!examined) return ["no contrast was examined"];
+    return violations.map(({ impact, id, help, nodes }) => `${impact}: ${help} (${id}), ${nodes.length} times, as in ${nodes[0].html.slice(0, 200)}`);
+  });
+  assert.deepEqual(violations, [], what);
+}
+
+// As after somebody looked at all of it: what isn't in sight yet isn't laid out yet, and nobody knows whether it scrolls.
+async function browsed(page) {
+  await page.evaluate(async () => {
+    const style = new CSSStyleSheet(), frame = () => new Promise(requestAnimationFrame);
+    style.replaceSync("* { content-visibility: visible !important; }");
+    document.adoptedStyleSheets = [style];
+    for (let at = 0; at < 3; at++) await frame();
+  });
+}

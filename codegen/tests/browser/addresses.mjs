@@ -1,0 +1,46 @@
+// An address within a page leads to the page that has it, whichever page of the device it is asked of.
+import assert from "node:assert/strict";
+import { Window, withBrowser } from "./browser.mjs";
+
+const [site, alone] = process.argv.slice(2);
+await withBrowser(async (browser) => {
+  const window = await Window.open(browser, site);
+  await leads(window, "aec-vector-step/index.html#0x6040", "aec-vector-step/profile-objects.html#0x6040");
+  await leads(window, "aec-vector-step/codes.html#0x6040", "aec-vector-step/profile-objects.html#0x6040");
+  // An entry that is in the row of its object, and one that has its own.
+  await leads(window, "aec-vector-step/index.html#0x6040:00", "aec-vector-step/profile-objects.html#0x6040");
+  await leads(window, "aec-vector-step/index.html#0x1403:01", "aec-vector-step/communication-objects.html#0x1403:01");
+  await leads(window, "aec-vector-step/index.html#0x607a", "aec-vector-step/profile-objects.html#0x607A");
+  await leads(window, "hsd-sm137-sm140/index.html#KP_VEL", "hsd-sm137-sm140/parameters.html#KP_VEL");
+  await leads(window, "index.html#Renc1pulse", "aec-vector-step/encoder-1.html#Renc1pulse");
+  await changes(window);
+  await stays(window);
+  window.clean();
+  await window.close();
+
+  const other = await Window.open(browser, alone);
+  await leads(other, "index.html#0x6040", "demo-drive/profile-objects.html#0x6040");
+  other.clean();
+});
+
+async function leads(window, from, to) {
+  const page = await window.go(from);
+  await page.waitForURL((url) => decodeURIComponent(url.href).endsWith(to));
+  await page.waitForFunction(() => document.querySelector(":target"));
+}
+
+// Somebody changes the address of a page that is open.
+async function changes(window) {
+  const page = await window.go("kollmorgen-akd/index.html");
+  await page.evaluate(() => { location.hash = "#0x6040"; });
+  await page.waitForURL(/profile-objects\.html#0x6040$/);
+}
+
+// What nobody has leads nowhere, and breaks nothing.
+async function stays(window) {
+  for (const hash of ["#0xDEAD", "#%", "#%FF%FE", "#<script>", "#", "#content"]) {
+    const page = await window.go("eco/index.html" + hash);
+    await page.waitForTimeout(300);
+    assert.ok(page.url().includes("eco/index.html"), `${hash} leads to ${page.url()}`);
+  }
+}

@@ -1,0 +1,58 @@
+// The theme and the language of names are as the system has it, change with the keyboard, and stay chosen on other pages.
+import assert from "node:assert/strict";
+import { Window, withBrowser } from "./browser.mjs";
+
+const [site] = process.argv.slice(2);
+await withBrowser(async (browser) => {
+  await themes(browser, "light", "dark");
+  await themes(browser, "dark", "light");
+  await languages(browser);
+});
+
+async function themes(browser, system, other) {
+  const window = await Window.open(browser, site, { colorScheme: system });
+  const page = await window.go("eco/index.html");
+  assert.equal(await brightness(page), system);
+  for (const theme of [other, system, other]) {
+    await page.locator("#theme").focus();
+    await page.keyboard.press("Enter");
+    assert.equal(await brightness(page), theme);
+  }
+  await window.go("kollmorgen-akd/codes.html");
+  assert.equal(await brightness(page), other, "the choice isn't kept");
+  window.clean();
+  await window.close();
+}
+
+async function languages(browser) {
+  const window = await Window.open(browser, site);
+  const page = await window.go("aec-vector-step/encoder-1.html");
+  const row = page.locator("tbody[id=Renc1pulse] td").first();
+  const shown = async () => (await row.innerText()).trim();
+  const choose = (language) => page.locator("#language").selectOption(language);
+  assert.equal(await shown(), "Renc1pulse Impulsi giro encoder 1");
+  await choose("-");
+  assert.equal(await shown(), "Renc1pulse");
+  await choose("it");
+  assert.equal(await shown(), "Impulsi giro encoder 1");
+  await window.go("aec-vector-step/position-registers.html");
+  assert.equal(await page.locator("#language").inputValue(), "it", "the choice isn't kept");
+  const named = await page.locator("tbody[id] > tr:first-child > td:nth-child(2)").allInnerTexts();
+  assert.ok(named.length > 5 && named.every((name) => name.trim()), `a name is missing: ${named}`);
+  await choose("");
+  assert.ok((await page.locator("tbody[id=Rposact] td").first().innerText()).startsWith("Rposact Posizione"));
+  // By keyboard: the next of the list.
+  await page.locator("#language").focus();
+  await page.keyboard.press("ArrowDown");
+  assert.equal(await page.locator("#language").inputValue(), "-");
+  window.clean();
+}
+
+// Which theme is seen.
+function brightness(page) {
+  return page.evaluate(() => {
+    const sum = (colour) => colour.match(/\d+/g).slice(0, 3).reduce((sum, own) => sum + Number(own), 0);
+    const { backgroundColor, color } = getComputedStyle(document.body);
+    return sum(backgroundColor) > sum(color) ? "light" : "dark";
+  });
+}

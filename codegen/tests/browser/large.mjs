@@ -1,0 +1,32 @@
+// 2,000 registers with eight fields each: what a page takes to load is bounded, and the last register is found and shown. How long it
+// takes is printed.
+import assert from "node:assert/strict";
+import { statSync } from "node:fs";
+import path from "node:path";
+import { pagesOf, Window, withBrowser } from "./browser.mjs";
+
+const [site] = process.argv.slice(2);
+const size = (name) => statSync(path.join(site, name)).size;
+const pages = pagesOf(site);
+assert.ok(size("large/search.js") < 300_000, `an index of ${size("large/search.js")} bytes`);
+for (const page of pages) assert.ok(size(page) < 800_000, `${page}: ${size(page)} bytes`);
+
+await withBrowser(async (browser) => {
+  const window = await Window.open(browser, site);
+  await window.go("index.html");
+  const start = performance.now();
+  await window.go("large/registers.html");
+  const loaded = performance.now();
+  const found = await window.search("register_1999");
+  const answered = performance.now();
+  assert.match(found[0], /^register 1999 register_1999/);
+  assert.equal(window.requests.length, 3 + 3 + 1, window.requests.join("\n"));
+  await window.page.keyboard.press("Enter");
+  await window.page.waitForURL(/registers-4\.html#register_1999$/);
+  await window.page.waitForFunction(() => document.querySelector(":target")?.getBoundingClientRect().top < innerHeight);
+  const elements = await window.page.evaluate(() => document.querySelectorAll("*").length);
+  assert.ok(elements < 50_000, `${elements} elements`);
+  window.clean();
+  const took = (from, to) => `${Math.round(to - from)} ms`;
+  console.log(`a page of 500 registers: ${took(start, loaded)}; 13 keys to the first result: ${took(loaded, answered)}; ${elements} elements`);
+});

@@ -1,0 +1,31 @@
+// Each page loads with no error and no request for anything outside the site, and has what every page has.
+import assert from "node:assert/strict";
+import { pagesOf, Window, withBrowser } from "./browser.mjs";
+
+const [site] = process.argv.slice(2);
+const pages = pagesOf(site);
+assert.ok(pages.length > 60, `only ${pages.length} pages`);
+
+await withBrowser(async (browser) => {
+  const window = await Window.open(browser, site);
+  for (const place of pages) {
+    window.requests.length = 0;
+    const page = await window.go(place);
+    assert.deepEqual(window.complaints, [], place);
+    const own = window.requests.map((url) => url.split("/").pop()).sort();
+    assert.deepEqual(own, [place.split("/").pop(), "site.css", "site.js"].sort(), place);
+    const seen = await page.evaluate(() => ({
+      headings: document.querySelectorAll("h1").length,
+      title: document.title,
+      open: [...document.querySelectorAll("nav [aria-current=page]")].map((link) => link.href),
+      has: document.querySelector("main").innerText.trim().length,
+      styled: getComputedStyle(document.querySelector("header")).display,
+      url: location.href,
+    }));
+    assert.equal(seen.headings, 1, place);
+    assert.ok(seen.title.length > 2 && seen.has > 20, `${place} is empty`);
+    assert.equal(seen.styled, "flex", `${place} has no style`);
+    if (place !== "index.html") assert.deepEqual(seen.open, [seen.url], `${place}: the link that is marked`);
+  }
+  console.log(`${pages.length} pages`);
+});

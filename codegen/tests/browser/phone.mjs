@@ -1,0 +1,34 @@
+// On a phone no page is wider than the screen: what is wider scrolls in its own box, which the keyboard reaches.
+import assert from "node:assert/strict";
+import { pagesOf, Window, withBrowser } from "./browser.mjs";
+
+const [site] = process.argv.slice(2);
+await withBrowser(async (browser) => {
+  for (const width of [390, 320]) {
+    const window = await Window.open(browser, site, { viewport: { width, height: 700 }, isMobile: true, hasTouch: true });
+    let boxes = 0;
+    for (const place of pagesOf(site)) {
+      const page = await window.go(place);
+      // What isn't in sight yet isn't laid out yet.
+      const seen = await page.evaluate(() => {
+        const style = new CSSStyleSheet();
+        style.replaceSync("* { content-visibility: visible !important; }");
+        document.adoptedStyleSheets = [style];
+        const all = [...document.querySelectorAll("main :not(svg, svg *)")];
+        return {
+          width: document.documentElement.scrollWidth,
+          lost: all.filter((own) => getComputedStyle(own).overflowX === "hidden").map((own) => own.outerHTML.slice(0, 80)),
+          scrolled: all.filter((own) => own.matches(".wide, pre") && own.scrollWidth > own.clientWidth).length,
+          letters: parseFloat(getComputedStyle(document.body).fontSize),
+        };
+      });
+      assert.ok(seen.width <= width, `${place} is ${seen.width} wide on ${width}`);
+      assert.deepEqual(seen.lost, [], place);
+      assert.ok(seen.letters >= 14, place);
+      boxes += seen.scrolled;
+    }
+    assert.ok(boxes > 10, `only ${boxes} boxes are scrolled`);
+    window.clean();
+    await window.close();
+  }
+});

@@ -1,0 +1,34 @@
+// On paper there is the name of the device and what the page is about, dark on white whatever the theme, and nothing to click.
+import assert from "node:assert/strict";
+import { Window, withBrowser } from "./browser.mjs";
+
+const [site] = process.argv.slice(2);
+await withBrowser(async (browser) => {
+  for (const colorScheme of ["light", "dark"]) {
+    const window = await Window.open(browser, site, { colorScheme, viewport: { width: 718, height: 1000 } });
+    const page = await window.go("aec-vector-step/profile-objects.html");
+    await page.locator("#theme").click();
+    await page.emulateMedia({ media: "print" });
+    const seen = await page.evaluate(() => {
+      const style = (selector) => getComputedStyle(document.querySelector(selector));
+      return {
+        back: style("body").backgroundColor,
+        text: style("body").color,
+        heading: style(".items thead").display,
+        drawn: style("svg.bits").display,
+        width: document.documentElement.scrollWidth,
+      };
+    });
+    assert.equal(seen.back, "rgb(255, 255, 255)");
+    assert.ok(seen.text.match(/\d+/g).every((part) => Number(part) < 64), seen.text);
+    assert.deepEqual([seen.heading, seen.drawn], ["table-header-group", "block"]);
+    assert.ok(seen.width <= 718, `${seen.width} wide`);
+    assert.deepEqual(await page.locator("header").innerText(), "Vector Step");
+    for (const own of ["nav", "#search", "#theme", "#language", ".copy"]) {
+      assert.ok(await page.locator(own).first().isHidden(), `${own} is printed`);
+    }
+    assert.ok((await page.pdf({ format: "A4" })).length > 10_000);
+    window.clean();
+    await window.close();
+  }
+});

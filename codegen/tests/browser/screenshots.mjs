@@ -1,0 +1,34 @@
+// Pictures of each kind of page, in both themes, on a screen and on a phone, for people to look at.
+import { mkdirSync } from "node:fs";
+import path from "node:path";
+import { Window, withBrowser } from "./browser.mjs";
+
+const PICTURES = [
+  ["devices", "index.html"],
+  ["overview", "eco/index.html"],
+  ["bits", "aec-vector-step/profile-objects.html#0x6041"],
+  ["registers", "eco/parameters.html"],
+  ["process-data", "eco/process-data.html"],
+  ["machines", "aec-vector-step/states-and-procedures.html"],
+  ["messages", "hsd-sm137-sm140/messages.html#CmdTraj"],
+  ["codes", "hsd-sm137-sm140/codes.html"],
+  ["search", "eco/index.html", "speed"],
+];
+
+const [site, folder] = process.argv.slice(2);
+mkdirSync(folder, { recursive: true });
+await withBrowser(async (browser) => {
+  for (const colorScheme of ["light", "dark"]) {
+    for (const [screen, options] of [["desktop", { viewport: { width: 1280, height: 900 } }], ["phone", { viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true }]]) {
+      const window = await Window.open(browser, site, { colorScheme, ...options });
+      for (const [name, place, typed] of PICTURES) {
+        await window.go(place);
+        if (typed) await window.search(typed);
+        await window.page.screenshot({ path: path.join(folder, `${name}-${screen}-${colorScheme}.png`) });
+      }
+      window.clean();
+      await window.close();
+    }
+  }
+  console.log(`pictures are in ${path.resolve(folder)}`);
+});

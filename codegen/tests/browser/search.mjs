@@ -1,0 +1,100 @@
+// The search finds numbers in both notations, names in two languages, units and descriptions, with the keyboard alone, and leads to the row.
+import assert from "node:assert/strict";
+import { Window, withBrowser } from "./browser.mjs";
+
+// Where it is typed, what is typed, what the first result has to be, and where Enter leads.
+const FOUND = [
+  ["aec-vector-step/index.html", "0x6040", /^0x6040 Controlword/, "aec-vector-step/profile-objects.html#0x6040"],
+  ["aec-vector-step/index.html", "6040", /^0x6040 Controlword/, "aec-vector-step/profile-objects.html#0x6040"],
+  ["aec-vector-step/index.html", "24640", /^0x6040 Controlword/, "aec-vector-step/profile-objects.html#0x6040"],
+  ["aec-vector-step/index.html", "0x1403:01", /^0x1403:01 /, "aec-vector-step/communication-objects.html#0x1403:01"],
+  ["aec-vector-step/index.html", "rposact", /^0x2000:01 Rposact/, "aec-vector-step/position-registers.html#Rposact"],
+  ["aec-vector-step/codes.html", "impulsi giro encoder 1", /^0x4729:01 Renc1pulse Impulsi giro/, "aec-vector-step/encoder-1.html#Renc1pulse"],
+  ["hsd-sm137-sm140/index.html", "0x0105", /^parameter 0x0105 KP_VEL/, "hsd-sm137-sm140/parameters.html#KP_VEL"],
+  ["hsd-sm137-sm140/index.html", "261", /^parameter 0x0105 KP_VEL/, "hsd-sm137-sm140/parameters.html#KP_VEL"],
+  ["hsd-sm137-sm140/parameters.html", "velocita e della coppia", /^message Poll theoretical position Richiesta/, "hsd-sm137-sm140/messages.html#Poll_theoretical_position"],
+  ["hsd-sm137-sm140/index.html", "greatest current controller V", /^low_level 0x0005 KIQDLIMAX V · HSD Motor$/, "hsd-sm137-sm140/low-level-parameters.html#KIQDLIMAX"],
+  ["hsd-sm137-sm140/index.html", "overheated", /^1 overheated ALOVERHEATED/, "hsd-sm137-sm140/codes.html#alarm-1"],
+  ["eco/index.html", "32848", /^register 32848 mechatronic_80/, "eco/registers.html#mechatronic_80"],
+  ["eco/index.html", "0x8050", /^register 32848 mechatronic_80/, "eco/registers.html#mechatronic_80"],
+  ["kollmorgen-akd/index.html", "valore di comando di velocità", /^0x60FF Velocity command value/, "kollmorgen-akd/profile-objects.html#0x60FF"],
+  // A code between the ends of a range.
+  ["kollmorgen-akd/index.html", "0x6142", /^0x6100 to 0x61FF internal software/, "kollmorgen-akd/codes.html#emergency-0x6100"],
+  // Of all devices, from the first page; the device is a word like others.
+  ["index.html", "akd 60ff", /^0x60FF Velocity command value .*AKD$/, "kollmorgen-akd/profile-objects.html#0x60FF"],
+  ["index.html", "KP_VEL", /^parameter 0x0105 KP_VEL .*HSD Motor$/, "hsd-sm137-sm140/parameters.html#KP_VEL"],
+];
+
+const [site] = process.argv.slice(2);
+await withBrowser(async (browser) => {
+  const window = await Window.open(browser, site);
+  for (const [from, typed, first, to] of FOUND) {
+    const page = await window.go(from);
+    const found = await window.search(typed);
+    assert.match(found[0], first, `${typed}: ${found.slice(0, 3).join(" | ")}`);
+    await page.keyboard.press("Enter");
+    await page.waitForURL((url) => decodeURIComponent(url.href).endsWith(to));
+    await landed(window, `${typed} on ${from}`);
+  }
+  await units(window);
+  await arrows(window);
+  await nothing(window);
+  window.clean();
+});
+
+// The row that the address says is in sight, below what stays at the top, and the keyboard goes on from there.
+async function landed(window, what) {
+  const { page } = window;
+  await page.waitForFunction(() => document.querySelector(":target"));
+  const place = await page.evaluate(() => {
+    const row = document.querySelector(":target").getBoundingClientRect();
+    return { top: row.top, header: document.querySelector("header").getBoundingClientRect().bottom, height: innerHeight };
+  });
+  assert.ok(place.top >= place.header - 1 && place.top < place.height - 20, `${what}: ${JSON.stringify(place)}`);
+  await page.keyboard.press("Tab");
+  const goesOn = await page.evaluate(() => {
+    const row = document.querySelector(":target");
+    return row.contains(document.activeElement) || !row.querySelector("a");
+  });
+  assert.ok(goesOn, `${what}: Tab goes elsewhere`);
+}
+
+// A unit finds what is counted in it, whatever it is called.
+async function units(window) {
+  await window.go("eco/index.html");
+  const found = await window.search("rpm");
+  const counted = found.filter((own) => own.endsWith(" rpm · Eco"));
+  assert.ok(counted.length >= 8 && counted.some((own) => own.startsWith("0x606C:00 velocity_actual_value")), found.join("\n"));
+}
+
+// Arrows choose, the choice is told, Escape closes, and so does leaving the field.
+async function arrows(window) {
+  const page = await window.go("eco/index.html");
+  const found = await window.search("homing");
+  assert.ok(found.length > 3);
+  const chosen = () => page.evaluate(() => [
+    [...document.querySelectorAll("#found a")].findIndex((own) => own.getAttribute("aria-selected") === "true"),
+    document.getElementById("search").getAttribute("aria-activedescendant"),
+    document.getElementById("search").getAttribute("aria-expanded"),
+  ]);
+  assert.deepEqual(await chosen(), [0, "found-0", "true"]);
+  for (const [key, at] of [["ArrowDown", 1], ["ArrowDown", 2], ["ArrowUp", 1]]) {
+    await page.keyboard.press(key);
+    assert.deepEqual(await chosen(), [at, `found-${at}`, "true"]);
+  }
+  for (let at = 0; at < 60; at++) await page.keyboard.press("ArrowDown");
+  assert.equal((await chosen())[0], found.length - 1);
+  assert.ok(await page.locator("#found li").last().isVisible());
+  await page.keyboard.press("Escape");
+  assert.ok(await page.locator("#found").isHidden());
+  await window.search("homing");
+  await page.keyboard.press("Tab");
+  assert.ok(await page.locator("#found").isHidden(), "the list stays open");
+}
+
+async function nothing(window) {
+  const page = await window.go("eco/index.html");
+  assert.deepEqual(await window.search("no such thing"), []);
+  assert.equal(await page.getByRole("status").innerText(), "Nothing found.");
+  assert.ok(await page.locator("#found").isHidden());
+}

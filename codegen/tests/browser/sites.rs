@@ -1,0 +1,101 @@
+//! Sites that the scripts open, each written once.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
+
+use lexibus_codegen::backend::docs::{Page, Site};
+use lexibus_codegen::compile::{check, Options};
+
+use crate::hostile as descriptions;
+
+/// A new folder of this name.
+pub fn folder(name: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("browser").join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    std::fs::create_dir_all(&path).expect("a folder for temporary files");
+    path
+}
+
+/// What the command line writes of these descriptions.
+fn documented(name: &str, descriptions: &[&str]) -> PathBuf {
+    let site = folder(name);
+    let dictionaries = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries");
+    let paths = descriptions.iter().map(|name| dictionaries.join(name));
+    lexibus(|command| command.arg("docs").args(paths).arg("--out").arg(&site), &[0]);
+    site
+}
+
+/// Runs the command line, which has to end with one of these codes.
+fn lexibus(arguments: impl FnOnce(&mut Command) -> &mut Command, codes: &[i32]) {
+    let output = arguments(&mut Command::new(env!("CARGO_BIN_EXE_lexibus"))).output().expect("lexibus runs");
+    let code = output.status.code().expect("an exit code");
+    assert!(codes.contains(&code), "exit code {code}: {}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// The site of the four drives that were transcribed from manuals.
+pub fn drives() -> PathBuf {
+    const ALL: [&str; 4] = ["aec-vector-step.toml", "eco.toml", "hsd-sm137-sm140.toml", "kollmorgen-akd.toml"];
+    static SITE: OnceLock<PathBuf> = OnceLock::new();
+    SITE.get_or_init(|| documented("drives", &ALL)).clone()
+}
+
+/// The site of a single drive.
+pub fn alone() -> PathBuf {
+    documented("alone", &["demo-drive.eds"])
+}
+
+/// 2,000 registers with eight fields each.
+pub fn large() -> PathBuf {
+    let field = |at: usize| {
+        format!("\"{}-{}\" = {{ name = \"field {at}\", number = true, doc = \"What it does\" }}", 2 * at + 1, 2 * at)
+    };
+    let fields = (0..8).map(field).collect::<Vec<_>>().join(", ");
+    let row = |register: usize| {
+        format!("register_{register} = {{ reg = {register}, type = \"u16\", access = \"rw\", doc = \"Number {register} of many\", bits = {{ {fields} }} }}\n")
+    };
+    let rows: String = (0..2000).map(row).collect();
+    let table = format!(
+        "lexibus = 1\n[device]\nname = \"Large\"\nbuses = [\"modbus\"]\n[spaces.register]\nmodbus = {{ table = \"holding\" }}\n\
+         [[chapters]]\ntitle = \"Registers\"\n[chapters.registers]\n{rows}"
+    );
+    let site = folder("large");
+    let path = site.join("large.toml");
+    std::fs::write(&path, table).expect("a temporary file");
+    lexibus(|command| command.arg("docs").arg(&path).arg("--out").arg(&site), &[0]);
+    site
+}
+
+/// Descriptions that try to be markup, and what `lexibus diff` tells of two versions of one, in `diff.html`.
+pub fn hostile() -> PathBuf {
+    let root = folder("hostile");
+    let (mut site, mut pages) = (Site::default(), Vec::new());
+    for (name, source) in descriptions::descriptions() {
+        let catalog = check(source, &Options::default()).catalog.expect("a device");
+        pages.extend(site.add(&name, &catalog));
+    }
+    pages.extend(site.finish());
+    pages.iter().for_each(|page| write(&root, page));
+    difference(&root);
+    root
+}
+
+fn write(root: &Path, page: &Page) {
+    let path = root.join(&page.path);
+    std::fs::create_dir_all(path.parent().expect("a folder")).expect("a folder");
+    std::fs::write(path, &page.text).expect("a page");
+}
+
+/// Even the names of the files are markup.
+fn difference(root: &Path) {
+    let own = descriptions::table();
+    let versions = [own.clone(), own.replace("reg = 1,", "reg = 3,").replace("alert(1)", "alert(4)")];
+    let place = folder("versions");
+    let [old, new] =
+        ["<img src=x onerror=alert(5)> old.toml", "<img src=x onerror=alert(6)> new.toml"].map(|name| place.join(name));
+    for (path, text) in [&old, &new].into_iter().zip(versions) {
+        std::fs::write(path, text).expect("a temporary file");
+    }
+    let out = root.join("diff.html");
+    lexibus(|command| command.arg("diff").args([&old, &new]).args(["--format", "html", "--out"]).arg(&out), &[1]);
+}
