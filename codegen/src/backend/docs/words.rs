@@ -1,11 +1,11 @@
 //! Words of documentation pages. Templates escape them.
 
-use crate::backend::words::Words;
+use crate::backend::words::{Words, NO_LINK};
 use crate::ir::{Binding, Item, ObjectBuses, RegisterSpace, Texts, Type, TypeDef, Value};
 use crate::passes::owner::Owner;
 
 /// Sentences as they are.
-pub(super) const PLAIN: Words = Words { escape: one_line };
+pub(super) const PLAIN: Words<'static> = Words { escape: one_line, link: NO_LINK };
 
 /// A text without breaks of lines.
 pub(super) fn one_line(text: &str) -> String {
