@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Generates what is checked in: the bindings under generated/src, those whose instructions are counted, and the schema of
-# register tables; with --check, compares them instead. `$LEXIBUS` is the compiler where one is there already.
+# Generates what is checked in: the bindings under generated/src, those whose instructions are counted, the schema of
+# register tables, and the book's catalogue of codes; with --check, compares them instead. `$LEXIBUS` is the compiler where one is there already.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 lexibus() {
@@ -21,3 +21,9 @@ lexibus generate benches/instructions/axis.esi.xml -A warnings \
 lexibus generate tests/data/drive.gsdml.xml \
     --out benches/instructions/src/station.rs "$@"
 lexibus schema --out dictionaries/table.schema.json "$@"
+catalogue=$(lexibus explain --format markdown)
+if [[ ${1:-} == --check ]]; then
+    diff docs/src/lints.md <(echo "$catalogue") || { echo "docs/src/lints.md is stale: tests/bindings.sh writes it again"; exit 1; }
+else
+    echo "$catalogue" >docs/src/lints.md
+fi

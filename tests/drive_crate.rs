@@ -94,3 +94,33 @@ fn traits_of_other_crates_reach_every_generated_type() {
     let output = cargo(&folder, &["check", "--quiet"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
 }
+
+/// The first program of the book, made of its blocks: it prints what the chapter says.
+#[test]
+fn the_crate_of_the_book() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("pump-control");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(folder.join("src")).expect("a folder for temporary files");
+    std::fs::copy(root().join("docs/examples/pump.eds"), folder.join("pump.eds")).expect("the description");
+    let chapter = std::fs::read_to_string(root().join("docs/src/getting-started.md")).expect("the chapter");
+    let mut printed = None;
+    for part in chapter.split("<!-- file: ").skip(1) {
+        let (name, rest) = part.split_once(" -->\n```").expect("a block behind its name");
+        let (_, rest) = rest.split_once('\n').expect("a block");
+        let (block, _) = rest.split_once("\n```").expect("the end of a block");
+        match name {
+            "output" => printed = block.strip_prefix("$ cargo run\n").map(str::to_owned),
+            "Cargo.toml" => {
+                // The crates of this workspace take the place of those that are published.
+                let own = |name: &str, path: &Path| format!("{name} = {{ path = {path:?} }}\n");
+                let patch = own("lexibus", root()) + &own("lexibus-codegen", &root().join("codegen"));
+                let manifest = format!("{block}\n\n[workspace]\n\n[patch.crates-io]\n{patch}");
+                std::fs::write(folder.join(name), manifest).expect("a manifest");
+            }
+            _ => std::fs::write(folder.join(name), format!("{block}\n")).expect("a file of the chapter"),
+        }
+    }
+    let output = cargo(&folder, &["run", "--quiet"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    assert_eq!(text(&output.stdout).trim_end(), printed.expect("what the chapter says that it prints"));
+}

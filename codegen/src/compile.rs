@@ -143,7 +143,12 @@ fn file_info(source: &Source, format: Format) -> FileInfo {
 
 /// Reads `source` and checks it: the IR that every back end starts from.
 pub fn check(source: Source, options: &Options) -> Compilation {
-    let mut compilation = read(source, options);
+    checked(read(source, options), options)
+}
+
+/// Selects, corrects, completes and checks what was read: the part of [`check`] that is the same for every front end, also
+/// for one that isn't in this crate.
+pub fn checked(mut compilation: Compilation, options: &Options) -> Compilation {
     if let Some(catalog) = &mut compilation.catalog {
         options.select.devices_and_modules(catalog, &mut compilation.diagnostics);
         for source in &options.overlays {

@@ -433,6 +433,39 @@ fn a_site_of_documentation() {
 }
 
 #[test]
+fn pages_of_markdown() {
+    let folder = folder("markdown");
+    let out = folder.join("pages");
+    let call = |further: &[&str]| {
+        let out = out.to_string_lossy();
+        lexibus(&[&["docs", DEMO, "--format", "markdown", "--out", &out], further].concat())
+    };
+    // Nothing is there yet.
+    assert_eq!(code(&call(&["--check"])), 1);
+    assert_eq!(code(&call(&[])), 0);
+    assert_eq!(code(&call(&["--check"])), 0);
+    let summary = std::fs::read_to_string(out.join("SUMMARY.md")).expect("a summary");
+    assert!(summary.contains("\n- [Demo Drive](demo-drive/README.md)\n  - [Communication objects]"), "{summary}");
+    let page = out.join("demo-drive/profile-objects.md");
+    std::fs::write(&page, "<!-- Written by lexibus docs -->\n# Old\n").expect("a page");
+    let output = call(&["--check"]);
+    assert_eq!(code(&output), 1);
+    assert!(err(&output).contains("profile-objects.md is stale"), "{}", err(&output));
+    assert_eq!(code(&call(&[])), 0);
+    assert!(std::fs::read_to_string(&page).expect("a page").contains("<a id=\"0x6040\"></a>"));
+    // What somebody else wrote is left alone.
+    std::fs::write(out.join("README.md"), "# A project\n").expect("a file");
+    let output = call(&[]);
+    assert_eq!(code(&output), 1);
+    assert!(
+        err(&output).contains("README.md is there already and was not written by `lexibus docs`"),
+        "{}",
+        err(&output)
+    );
+    assert_eq!(std::fs::read_to_string(out.join("README.md")).expect("a file"), "# A project\n");
+}
+
+#[test]
 fn changes_between_two_versions() {
     let folder = folder("diff");
     let old = file(&folder, "old.eds", QUIRKY);

@@ -99,9 +99,9 @@ fn bits_values_codes_and_messages() {
     assert_eq!(one("1 = \"on\" }", "1 = \"running\" }"), "breaking: holding 00002 mode, value 1: name on, now running");
     assert_eq!(
         one("3 = \"fault\"", "3 = \"fault\", 4 = \"hot\""),
-        "compatible: holding 00003 flags, bits 4+1 : added, hot"
+        "compatible: holding 00003 flags, bit 4: added, hot"
     );
-    assert_eq!(one(", 3 = \"fault\"", ""), "breaking: holding 00003 flags, bits 3+1 : removed, was fault");
+    assert_eq!(one(", 3 = \"fault\"", ""), "breaking: holding 00003 flags, bit 3: removed, was fault");
     assert_eq!(
         one("1 = \"too hot\"", "1 = \"too hot\"\n2 = \"too cold\""),
         "breaking: codes alarm, code 0x2: added, too cold"
@@ -111,6 +111,84 @@ fn bits_values_codes_and_messages() {
         "breaking: message Go: request 01, INTEGER16 target, now 01, INTEGER32 target"
     );
     assert_eq!(one("name = \"Go\"", "name = \"Run\""), "breaking: message Go: removed\ncompatible: message Run: added");
+}
+
+/// What is told of a file of the tests in which these texts are replaced.
+fn changes_of(path: &str, replaced: &[(&str, &str)]) -> Vec<String> {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data").join(path);
+    let old = std::fs::read_to_string(&path).expect("a description");
+    let new = replaced.iter().fold(old.clone(), |text, (old, new)| {
+        assert!(text.contains(old), "{old}");
+        text.replacen(old, new, 1)
+    });
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    compare(&read(&name, &old), &read(&name, &new)).iter().map(Change::to_string).collect()
+}
+
+#[test]
+fn modules_of_a_coupler() {
+    let one = |old: &str, new: &str| changes_of("coupler.esi.xml", &[(old, new)]).join("\n");
+    assert_eq!(
+        one("<Name>Input 3</Name>", "<Name>Level switch</Name>"),
+        "breaking: module 16 digital inputs: 0x6000:03 Level switch: name Input 3, now Level switch\n\
+         breaking: module 16 digital inputs: TPDO 0x1A00 Inputs: layout …, 2: BOOLEAN Input 3, …, now …, 2: BOOLEAN Level switch, …"
+    );
+    assert_eq!(
+        one("<Type ModuleIdent=\"#x00002001\"", "<Type ModuleIdent=\"#x00002091\""),
+        "breaking: module 8 digital outputs: module: removed\ncompatible: module 8 digital outputs: module: added"
+    );
+}
+
+#[test]
+fn submodules_of_a_head() {
+    let one = |old: &str, new: &str| changes_of("drive.gsdml.xml", &[(old, new)]).join("\n");
+    assert_eq!(
+        one("DataType=\"N2\" TextId=\"T_NIST_A\"", "DataType=\"N4\" TextId=\"T_NIST_A\""),
+        "breaking: submodule Standard telegram 1: image Input: length 4, now 6\n\
+         breaking: submodule Standard telegram 1: image Input: layout 0: UNSIGNED16 ZSW1, 16: INTEGER16 NIST_A, \
+         now 0: UNSIGNED16 ZSW1, 16: INTEGER32 NIST_A"
+    );
+    assert_eq!(
+        one("SubmoduleIdentNumber=\"0x00000003\"", "SubmoduleIdentNumber=\"0x00000033\""),
+        "breaking: submodule Standard telegram 3: submodule: removed\n\
+         compatible: submodule Standard telegram 3: submodule: added"
+    );
+}
+
+#[test]
+fn machines_and_procedures() {
+    let with = |text: &str| {
+        let machine = format!(
+            "{TABLE}[machines.axis]\nstatus = \"flags\"\ncontrol = \"mode\"\n[machines.axis.states]\nidle = {{ mask = 9, value = 0 }}\n\
+             ready = {{ mask = 9, value = 1 }}\nfault = {{ mask = 9, value = 9 }}\n[machines.axis.commands]\nstart = {{ mask = 3, value = 1 }}\n\
+             [[machines.axis.transitions]]\nfrom = \"idle\"\nto = \"ready\"\ncommand = \"start\"\n\
+             [procedures.run]\nsteps = [{{ write = \"mode\", value = 1 }}, {{ delay = 10 }}]\n"
+        );
+        machine + text
+    };
+    let old = with("");
+    let one = |from: &str, to: &str| {
+        assert!(old.contains(from), "{from}");
+        let changes = compare(&read("old.toml", &old), &read("new.toml", &old.replace(from, to)));
+        changes.iter().map(Change::to_string).collect::<Vec<_>>().join("\n")
+    };
+    assert_eq!(
+        one("fault = { mask = 9, value = 9 }\n", "fault = { mask = 8, value = 8 }\n"),
+        "compatible: machine axis, state fault: bits 0x9 of 0x9, now 0x8 of 0x8"
+    );
+    assert_eq!(one("fault = { mask = 9, value = 9 }\n", ""), "breaking: machine axis, state fault: removed, was fault");
+    assert_eq!(
+        one("start = { mask = 3, value = 1 }\n", "start = { mask = 3, value = 1 }\nstop = { mask = 3, value = 2 }\n"),
+        "compatible: machine axis, command stop: added, stop"
+    );
+    assert_eq!(
+        one("delay = 10", "delay = 20"),
+        "compatible: procedure run: steps Write 1 to mode. Wait 10 ms., now Write 1 to mode. Wait 20 ms."
+    );
+    assert_eq!(
+        one("[procedures.run]", "[procedures.go]"),
+        "breaking: procedure run: removed\ncompatible: procedure go: added"
+    );
 }
 
 #[test]

@@ -1,86 +1,20 @@
 //! The site of `lexibus docs`: each link leads somewhere, nothing of a description is markup, and it is as small as it should be.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
-
-use lexibus_codegen::backend::docs::{Page, Site};
-use lexibus_codegen::compile::{check, Options};
+use docs_support::{files, hostile, html_links, site, values, ALL};
+use lexibus_codegen::backend::docs::Format;
 use lexibus_codegen::source::Source;
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
-/// The pages of these sources.
-fn site(sources: Vec<(String, Source)>) -> Vec<Page> {
-    let (mut site, mut pages) = (Site::default(), Vec::new());
-    for (name, source) in sources {
-        let compilation = check(source, &Options::default());
-        pages.extend(site.add(&name, compilation.catalog.as_ref().unwrap_or_else(|| panic!("{name}"))));
-    }
-    pages.extend(site.finish());
-    pages
-}
-
-fn files(paths: &[&str]) -> Vec<Page> {
-    let read = |path: &&str| {
-        let name = path.rsplit('/').next().unwrap_or(path).split('.').next().unwrap_or_default().to_owned();
-        (name, Source::read(&root().join(path)).expect("a description"))
-    };
-    site(paths.iter().map(read).collect())
-}
-
-const ALL: [&str; 10] = [
-    "dictionaries/aec-vector-step.toml",
-    "dictionaries/demo-drive.eds",
-    "dictionaries/eco.toml",
-    "dictionaries/hsd-sm137-sm140.toml",
-    "dictionaries/kollmorgen-akd.toml",
-    "tests/data/coupler.esi.xml",
-    "tests/data/drive.gsdml.xml",
-    "tests/data/heads.gsdml.xml",
-    "tests/data/hoist.toml",
-    "tests/data/safe.gsdml.xml",
-];
-
-/// The values of an attribute in double quotes.
-fn values<'p>(text: &'p str, attribute: &str) -> Vec<&'p str> {
-    let start = format!(" {attribute}=\"");
-    text.split(&start).skip(1).filter_map(|rest| rest.split('"').next()).collect()
-}
+mod docs_support;
 
 #[test]
 fn each_link_leads_somewhere() {
-    let pages = files(&ALL);
-    let mut ids: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-    for page in &pages {
-        let all = values(&page.text, "id");
-        let own: BTreeSet<&str> = all.iter().copied().collect();
-        assert_eq!(own.len(), all.len(), "{}: an id is given twice", page.path);
-        ids.insert(&page.path, own);
-    }
-    let mut count = 0;
-    for page in pages.iter().filter(|page| page.path.ends_with(".html")) {
-        let folder = page.path.rsplit_once('/').map_or("", |(folder, _)| folder);
-        let links = values(&page.text, "href").into_iter().chain(values(&page.text, "src"));
-        for link in links {
-            let (file, anchor) = link.split_once('#').unwrap_or((link, ""));
-            let path = match file.strip_prefix("../") {
-                Some(path) => path.to_owned(),
-                None if file.is_empty() => page.path.clone(),
-                None => format!("{folder}/{}", file.trim_start_matches("./")).trim_start_matches('/').to_owned(),
-            };
-            let own = ids.get(path.as_str()).unwrap_or_else(|| panic!("{}: there is no {path}", page.path));
-            assert!(anchor.is_empty() || own.contains(anchor), "{}: {path} has no {anchor}", page.path);
-            count += 1;
-        }
-    }
+    let count = html_links(&files(Format::Html, &ALL));
     assert!(count > 5000, "only {count} links");
 }
 
 #[test]
 fn the_search_finds_what_pages_have() {
-    let pages = files(&["dictionaries/hsd-sm137-sm140.toml"]);
+    let pages = files(Format::Html, &["dictionaries/hsd-sm137-sm140.toml"]);
     let index = &pages.iter().find(|page| page.path == "hsd-sm137-sm140/search.js").expect("an index").text;
     // A parameter, a message by its Italian name, a code, each with page and address.
     for line in [
@@ -93,40 +27,9 @@ fn the_search_finds_what_pages_have() {
     assert!(index.starts_with("lexibusIndex([[\"index.html\",\"HSD Motor\"],"));
 }
 
-const HOSTILE: &str =
-    "<script>alert(1)</script><img src=x onerror=alert(2)>\\\" ' onload=alert(3) </title></table>&lt; http://x";
-
 #[test]
 fn nothing_of_a_description_is_markup() {
-    let hostile = HOSTILE.replace("\\\"", "");
-    let eds = format!(
-        "[FileInfo]\nDescription={hostile}\n[DeviceInfo]\nVendorName={hostile}\nProductName={hostile}\nOrderCode={hostile}\n\
-         [MandatoryObjects]\nSupportedObjects=1\n1=0x1000\n[1000]\nParameterName={hostile}\nDataType=0x0009\nAccessType=ro\n\
-         DefaultValue={hostile}\nDenotation={hostile}\n[Comments]\nLines=1\nLine1={hostile}\n"
-    );
-    let xml = hostile.replace('&', "&amp;").replace('<', "&lt;");
-    let esi = std::fs::read_to_string(root().join("tests/data/coupler.esi.xml")).expect("an ESI");
-    let esi = esi.replace("</Name>", &format!("{xml}</Name>")).replace("</Comment>", &format!("{xml}</Comment>"));
-    let gsdml = std::fs::read_to_string(root().join("tests/data/drive.gsdml.xml")).expect("a GSDML");
-    let gsdml = gsdml.replace(" Value=\"", &format!(" Value=\"{}", xml.replace('"', "&quot;")));
-    let table = format!(
-        "lexibus = 1\n[device]\nname = \"{HOSTILE}\"\nvendor = \"{HOSTILE}\"\ndoc = \"{HOSTILE}\"\nbuses = [\"modbus\", \"serial\"]\n\
-         doubt = {{ says = \"{HOSTILE}\", chose = \"{HOSTILE}\", why = \"{HOSTILE}\" }}\n[manual]\nlanguage = \"it\"\n\
-         [spaces.register]\nmodbus = {{ table = \"holding\" }}\n[[chapters]]\ntitle = \"{HOSTILE}\"\ndoc = \"{HOSTILE}\"\n[chapters.registers]\n\
-         \"{HOSTILE}\" = {{ reg = 1, type = \"u16\", access = \"rw\", unit = \"{HOSTILE}\", orig = \"{HOSTILE}\", doc = \"{HOSTILE}\", \
-         effects = [\"{HOSTILE}\"], bits = {{ 0 = {{ name = \"{HOSTILE}\", doc = \"{HOSTILE}\" }}, \"2-1\" = {{ name = \"x\", values = {{ 1 = \"{HOSTILE}\" }} }} }} }}\n\
-         mode = {{ reg = 2, type = \"u16\", access = \"rw\", enum = {{ 1 = \"{HOSTILE}\" }} }}\n\
-         [codes.\"{HOSTILE}\"]\ncolumns = [\"{HOSTILE}\"]\n[codes.\"{HOSTILE}\".rows]\n1 = {{ name = \"{HOSTILE}\", doc = \"{HOSTILE}\", cells = [\"{HOSTILE}\"] }}\n\
-         [machines.\"{HOSTILE}\"]\nstatus = \"mode\"\ndoc = \"{HOSTILE}\"\n[machines.\"{HOSTILE}\".states]\n\"{HOSTILE}\" = {{ mask = 1, value = 1 }}\n\
-         [procedures.\"{HOSTILE}\"]\ndoc = \"{HOSTILE}\"\nsteps = [{{ manual = \"{HOSTILE}\" }}]\n\
-         [[messages]]\nname = \"{HOSTILE}\"\ndoc = \"{HOSTILE}\"\nrequest = [{{ field = \"{HOSTILE}\", type = \"u8\", doc = \"{HOSTILE}\" }}]\n"
-    );
-    let pages = site(vec![
-        (hostile.clone(), Source::new("h.eds", eds.into())),
-        ("esi".to_owned(), Source::new("h.xml", esi.into())),
-        ("gsdml".to_owned(), Source::new("h.xml", gsdml.into())),
-        ("table".to_owned(), Source::new("h.toml", table.into())),
-    ]);
+    let pages = site(Format::Html, hostile());
     let mut shown = 0;
     for page in pages.iter().filter(|page| page.path.ends_with(".html")) {
         assert_eq!(page.text.matches("<script").count(), 1, "{}", page.path);
@@ -147,7 +50,7 @@ fn nothing_of_a_description_is_markup() {
 
 #[test]
 fn nothing_comes_from_elsewhere() {
-    for page in files(&ALL) {
+    for page in files(Format::Html, &ALL) {
         for attribute in ["src", "href"] {
             assert!(values(&page.text, attribute).iter().all(|link| !link.contains("//")), "{}", page.path);
         }
@@ -174,7 +77,7 @@ fn two_thousand_registers_are_small() {
         "lexibus = 1\n[device]\nname = \"Big\"\nbuses = [\"modbus\"]\n[spaces.register]\nmodbus = {{ table = \"holding\" }}\n\
          [[chapters]]\ntitle = \"Registers\"\n[chapters.registers]\n{rows}"
     );
-    let pages = site(vec![("big".to_owned(), Source::new("big.toml", table.into()))]);
+    let pages = site(Format::Html, vec![("big".to_owned(), Source::new("big.toml", table.into()))]);
     let size: usize = pages.iter().map(|page| page.text.len()).sum();
     assert!(size < 3_000_000, "{size} bytes");
     assert!(pages.len() < 20, "{} files", pages.len());
@@ -187,8 +90,32 @@ fn a_page_of_registers() {
                  speed = { reg = 1, type = \"i16\", access = \"rw\", unit = \"rpm\", scale = 0.1, min = -300, max = 300, default = 0, orig = \"velocità\", cite = 4, save = true }\n\
                  control = { reg = 2, type = \"u8\", access = \"rw\", bits = { 0 = \"on\", \"3-2\" = { name = \"mode\", values = { 1 = \"slow\" } } }, \
                  doubt = { says = \"Two tables differ\", chose = \"the first\", why = \"it has more\" } }\n";
-    let pages = site(vec![("pump".to_owned(), Source::new("pump.toml", table.into()))]);
+    let pages = site(Format::Html, vec![("pump".to_owned(), Source::new("pump.toml", table.into()))]);
     let page = pages.iter().find(|page| page.path == "pump/control.html").expect("the chapter");
     let (_, content) = page.text.split_once("<main").expect("the content");
     insta::assert_snapshot!(content);
+}
+
+#[test]
+fn repairs_stand_where_they_matter() {
+    let eds = "[DeviceInfo]\nProductName=Pump\n[ManufacturerObjects]\nSupportedObjects=2\n1=0x2000\n2=0x2001\n\
+               [2000]\nParameterName=Gain\nDataType=6\nAccessType=rw\nDefaultValue=012\n\
+               [2001]\nParameterName=Level\nDataType=6\nAccessType=ro\n";
+    for (format, page, all) in [
+        (Format::Html, "pump/manufacturer-objects.html", "pump/findings.html"),
+        (Format::Markdown, "pump/manufacturer-objects.md", "pump/findings.md"),
+    ] {
+        let pages = site(format, vec![("pump".to_owned(), Source::new("pump.eds", eds.into()))]);
+        let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
+        let (gain, level) = text(page).split_once("id=\"0x2001\"").expect("two objects");
+        assert!(gain.contains("Repaired") && gain.contains("(pump.eds:11:14, EDS020)"), "{gain}");
+        assert!(!level.contains("Repaired"), "{level}");
+        assert!(text(all).contains("EDS020"), "{}", text(all));
+        let first =
+            pages.iter().find(|page| page.path.starts_with("pump/index") || page.path.starts_with("pump/README"));
+        assert!(first.expect("a first page").text.contains(all.trim_start_matches("pump/")));
+    }
+    // What has none has no page of them.
+    let pages = files(Format::Html, &["dictionaries/demo-drive.eds"]);
+    assert!(pages.iter().all(|page| !page.path.ends_with("findings.html")));
 }

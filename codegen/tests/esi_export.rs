@@ -230,7 +230,7 @@ fn every_table_with_objects_has_an_esi() {
 
 #[test]
 fn the_documentation_lists_every_note() {
-    let documentation = include_str!("../../docs/diagnostics.md");
+    let documentation = include_str!("../../docs/src/diagnostics.md");
     for kind in NoteKind::ALL {
         assert!(documentation.contains(&format!("| `{}` | {} |", kind.name(), kind.text())), "{kind:?}");
     }
@@ -239,8 +239,8 @@ fn the_documentation_lists_every_note() {
 #[test]
 fn the_documentation_lists_every_option() {
     for (documentation, keys) in [
-        (include_str!("../../docs/ethercat.md"), Options::KEYS),
-        (include_str!("../../docs/profinet.md"), lexibus_codegen::backend::gsdml::Options::KEYS),
+        (include_str!("../../docs/src/esi.md"), Options::KEYS),
+        (include_str!("../../docs/src/gsdml.md"), lexibus_codegen::backend::gsdml::Options::KEYS),
     ] {
         for (key, what) in keys {
             assert!(documentation.contains(&format!("| `{key}` | {} |", what.trim_end_matches('.'))), "{key}");

@@ -48,7 +48,7 @@ fn motor(node: u32) -> HsdMotor<Parameters<Line, Protocol, MAX_DATA>> {
     HsdMotor::on(SerialLine::new(FromStd::new(near), messages::FRAMING), node)
 }
 
-/// The sample of docs/buses.md, line by line.
+/// The sample of docs/src/serial.md, line by line.
 #[test]
 fn the_sample_of_the_documentation() -> Result<(), Box<dyn std::error::Error>> {
     let port = served(Duration::from_secs(5));
@@ -60,9 +60,9 @@ fn the_sample_of_the_documentation() -> Result<(), Box<dyn std::error::Error>> {
     motor.kp_vel().write_scaled(1.5)?; // a parameter, through the messages of its space
     motor.cmd_chg_par_n(&[objects::KP_VEL.setting(150)?, objects::LOW_SLIM.setting(-5)?]).send()?;
 
-    let (guide, own) = (include_str!("../../docs/buses.md"), include_str!("line.rs"));
+    let (guide, own) = (include_str!("../../docs/src/serial.md"), include_str!("line.rs"));
     let (_, behind) = guide.split_once("let line = SerialLine").ok_or("the sample")?;
-    let sample = format!("let line = SerialLine{}", behind.split("```").next().unwrap_or_default());
+    let sample = format!("let line = SerialLine{}", behind.split("\n# ").next().unwrap_or_default());
     assert_eq!(sample.lines().count(), 7);
     for line in sample.lines() {
         assert!(own.contains(&format!("    {line}\n")), "{line}");

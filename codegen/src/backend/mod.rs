@@ -5,11 +5,12 @@ pub mod eds;
 pub mod esi;
 pub mod gsdml;
 pub mod json;
+mod markdown;
 mod note;
 mod options;
 mod registers;
 pub mod rust;
-mod words;
+pub(crate) mod words;
 mod xml;
 
 pub use note::{Export, Note, NoteKind};

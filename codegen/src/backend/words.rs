@@ -1,13 +1,13 @@
 //! Sentences about elements of the IR, for documentation of any kind.
 
 use crate::ir::{
-    Availability, Behaviour, CompactString, Condition, Device, Documentation, Doubt, ItemVariant, Limits, LocalText,
-    Quantity, Scale, Storage, Value,
+    Availability, Behaviour, CompactString, Condition, Device, Direction, Documentation, Doubt, ItemVariant, Limits,
+    LocalText, Quantity, Scale, Step, Storage, Value,
 };
 
 /// Makes sentences. Every text of a source goes through `escape` on its way into one.
 #[derive(Clone, Copy)]
-pub(super) struct Words<'w> {
+pub(crate) struct Words<'w> {
     /// The text as the output shows it literally, on one line.
     pub escape: fn(&str) -> String,
     /// A link to the element of this name that shows the name; `None` where the output has no such element.
@@ -15,11 +15,19 @@ pub(super) struct Words<'w> {
 }
 
 /// For an output without links.
-pub(super) const NO_LINK: &dyn Fn(&str) -> Option<String> = &|_| None;
+pub(crate) const NO_LINK: &dyn Fn(&str) -> Option<String> = &|_| None;
+
+/// Sentences as they are.
+pub(crate) const PLAIN: Words<'static> = Words { escape: one_line, link: NO_LINK };
+
+/// A text without breaks of lines.
+pub(crate) fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
 
 /// What is known of the manual that a description was taken from.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Manual {
+pub(crate) struct Manual {
     /// Its language, where it isn't the one of the description.
     pub language: String,
     /// What places in it are: `line` or `page`.
@@ -118,6 +126,28 @@ impl Words<'_> {
 
     fn values(&self, values: &[Value]) -> String {
         values.iter().map(|value| self.value(value)).collect::<Vec<_>>().join(" or ")
+    }
+
+    /// What a step of a procedure does.
+    pub fn step(&self, own: &Step) -> String {
+        let value = |value| self.value(value);
+        let name = |name: &str| self.escaped(name);
+        match own {
+            Step::Write(item, to) => format!("Write {} to {}.", value(to), name(item)),
+            Step::WriteBits(item, mask, to) => format!("Write {} to the bits 0x{mask:X} of {}.", value(to), name(item)),
+            Step::WriteArgument(item, argument) => format!("Write {} to {}.", name(argument), name(item)),
+            Step::Read(item) => format!("Read {}.", name(item)),
+            Step::WaitFor(item, mask, to, limit) => {
+                let bits = if *mask == u64::MAX { String::new() } else { self.escaped(&format!(" & 0x{mask:X}")) };
+                let limit = limit.map(|limit| format!(", at most {limit} ms")).unwrap_or_default();
+                format!("Wait until {}{bits} is {}{limit}.", name(item), value(to))
+            }
+            Step::Delay(milliseconds) => format!("Wait {milliseconds} ms."),
+            Step::Send(message) => format!("Send {}.", name(message)),
+            Step::Exchange(Direction::Receive) => "Send the outputs once.".to_owned(),
+            Step::Exchange(Direction::Transmit) => "Take the inputs once.".to_owned(),
+            Step::Manual(text) => sentence(&name(text)),
+        }
     }
 
     /// A value; of a long text or block of bytes, the start.

@@ -47,6 +47,9 @@ pub(super) enum Command {
     Explain {
         /// Identifier or name of the code, such as EDS020 or octal-number.
         code: Option<String>,
+        /// How it is printed.
+        #[arg(long, value_enum, value_name = "FORMAT", default_value_t = ExplainFormat::Text)]
+        format: ExplainFormat,
     },
     /// Print a completion script for a shell.
     Completions {
@@ -128,6 +131,14 @@ pub(super) enum Colour {
     Never,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ExplainFormat {
+    /// For people; without a code, a line a code.
+    Text,
+    /// Markdown, each code with its explanation.
+    Markdown,
+}
+
 #[derive(Debug, Args)]
 pub(super) struct Diff {
     /// The old description.
@@ -165,6 +176,20 @@ pub(super) struct Docs {
     /// The folder to write to.
     #[arg(short, long, value_name = "FOLDER")]
     pub out: PathBuf,
+    /// What the pages are written in.
+    #[arg(long, value_enum, value_name = "FORMAT", default_value_t = DocsFormat::Html)]
+    pub format: DocsFormat,
+    /// Write nothing; fail where a page isn't what would be written.
+    #[arg(long)]
+    pub check: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum DocsFormat {
+    /// A site that opens from disk, with drawings and a search.
+    Html,
+    /// Pages for repositories and for mdBook.
+    Markdown,
 }
 
 #[derive(Debug, Args)]

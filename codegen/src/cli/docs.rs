@@ -1,37 +1,51 @@
-//! `lexibus docs`: a site of documentation.
+//! `lexibus docs`: a site of documentation, or pages of Markdown.
 
 use std::path::Path;
 
-use super::args::Docs;
-use super::inputs;
+use super::args::{Docs, DocsFormat};
+use super::output::difference;
 use super::report::Reporter;
-use super::Failure;
-use crate::backend::docs::{Page, Site};
+use super::{inputs, Failure};
+use crate::backend::docs::{Format, Page, Site};
 use crate::builder::write_if_changed;
 
 pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
     let options = docs.inputs.options()?;
     let mut reporter = Reporter::new(&docs.inputs, false);
-    let mut site = Site::default();
+    let mut site = Site::new(match docs.format {
+        DocsFormat::Html => Format::Html,
+        DocsFormat::Markdown => Format::Markdown,
+    });
+    let put = |pages: &[Page], reporter: &mut Reporter| {
+        for page in pages {
+            let path = docs.out.join(&page.path);
+            let error = if docs.check { difference(&path, &page.text) } else { write(&path, page).err() };
+            if let Some(error) = error {
+                reporter.error(&error);
+            }
+        }
+    };
     inputs::each(&docs.inputs, &options, |input, compilation| {
         reporter.report(&compilation)?;
-        if let Some(catalog) = compilation.catalog.as_ref().filter(|_| compilation.is_usable()) {
-            let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-            write(&docs.out, &site.add(&stem, catalog), &mut reporter);
-        }
+        let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        put(&site.add_compilation(&stem, &compilation), &mut reporter);
         Ok(())
     })?;
-    write(&docs.out, &site.finish(), &mut reporter);
+    put(&site.finish(), &mut reporter);
     reporter.finish()
 }
 
-fn write(out: &Path, pages: &[Page], reporter: &mut Reporter) {
-    for page in pages {
-        let path = out.join(&page.path);
-        let folder = path.parent().map_or(Ok(()), std::fs::create_dir_all);
-        if let Err(error) = folder.and_then(|()| write_if_changed(&path, &page.text)) {
-            reporter.error(&format!("can't write {}: {error}", path.display()));
-            return;
-        }
+/// Writes a page. A file that somebody else wrote is left alone.
+fn write(path: &Path, page: &Page) -> Result<(), String> {
+    let is_foreign = std::fs::read_to_string(path).is_ok_and(|text| !page.replaces(&text));
+    if is_foreign {
+        return Err(format!(
+            "{} is there already and was not written by `lexibus docs`: choose a folder of its own with --out",
+            path.display()
+        ));
     }
+    let folder = path.parent().map_or(Ok(()), std::fs::create_dir_all);
+    folder
+        .and_then(|()| write_if_changed(path, &page.text))
+        .map_err(|error| format!("can't write {}: {error}", path.display()))
 }

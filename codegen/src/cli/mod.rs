@@ -23,7 +23,7 @@ use clap::CommandFactory;
 use crate::backend::json;
 use crate::compile::{self, Options};
 use crate::diagnostics::{codes, render};
-use args::{Arguments, Command, InfoFormat, Inputs};
+use args::{Arguments, Command, ExplainFormat, InfoFormat, Inputs};
 use report::Reporter;
 
 /// The input, or the output that was to be checked, has errors.
@@ -82,7 +82,7 @@ fn run(arguments: Arguments) -> Result<bool, Failure> {
         Command::New(new) => new::run(&new),
         Command::Import(import) => import::run(&import),
         Command::Schema(schema) => schema::run(&schema),
-        Command::Explain { code } => explain(code.as_deref()),
+        Command::Explain { code, format } => explain(code.as_deref(), format),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "lexibus", &mut script);
@@ -134,10 +134,12 @@ fn dump_files(inputs: &Inputs) -> Result<bool, Failure> {
     reporter.finish()
 }
 
-fn explain(code: Option<&str>) -> Result<bool, Failure> {
+fn explain(code: Option<&str>, format: ExplainFormat) -> Result<bool, Failure> {
     let text = match code {
+        None if format == ExplainFormat::Markdown => render::markdown::catalogue(),
         None => render::catalogue(),
         Some(name) => match codes::find(name) {
+            Some(code) if format == ExplainFormat::Markdown => render::markdown::explain(code),
             Some(code) => render::explain(code),
             None => {
                 let hint = codes::similar(name).map_or(String::new(), |similar| format!("; did you mean `{similar}`?"));

@@ -16,6 +16,7 @@
 //! ```
 
 mod items;
+mod machines;
 mod messages;
 mod pdos;
 mod types;
@@ -194,6 +195,7 @@ fn device(old: &Device, new: &Device, changes: &mut Changes) {
     changes.fact("the device", "name", (title(old), title(new)), renamed(&title(old), &title(new)));
     Scope::of_device(old).compare(&Scope::of_device(new), changes);
     messages::compare(old, new, changes);
+    machines::compare(old, new, changes);
     types::codes(&old.code_tables, &new.code_tables, changes);
 }
 

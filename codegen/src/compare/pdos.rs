@@ -1,6 +1,7 @@
 //! Layouts of process data.
 
 use super::{pairs, types, Changes, Judgement, Scope};
+use crate::backend::words::PLAIN;
 use crate::ir::{Direction, Pdo, PdoEntry, PdoEntryKind, ProcessImage, TypeDef};
 
 pub(super) fn compare(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
@@ -13,8 +14,16 @@ pub(super) fn compare(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
             changes.existence(&element, was.is_some(), is.is_some());
             continue;
         };
-        let layouts = (layout(&was.entries, old.types), layout(&is.entries, new.types));
+        let layouts = layouts((&was.entries, old.types), (&is.entries, new.types));
         changes.fact(&element, "layout", layouts, Judgement::Breaking);
+        let fixed = |own: &Pdo| if own.fixed { "fixed" } else { "variable" }.to_owned();
+        let judgement = if is.fixed { Judgement::Breaking } else { Judgement::Compatible };
+        changes.fact(&element, "mapping", (fixed(was), fixed(is)), judgement);
+        let cob_id = |own: &Pdo| {
+            let id = own.communication.as_ref().and_then(|own| own.cob_id.as_ref());
+            id.map(|id| PLAIN.value(id)).unwrap_or_default()
+        };
+        changes.fact(&element, "COB-ID", (cob_id(was), cob_id(is)), Judgement::Compatible);
         let manager = |own: &Pdo| own.sync_manager.map(|own| own.to_string()).unwrap_or_default();
         changes.fact(&element, "sync manager", (manager(was), manager(is)), Judgement::Compatible);
         let excludes = |own: &Pdo| own.excludes.iter().map(|own| format!("0x{own:04X}")).collect::<Vec<_>>().join(", ");
@@ -33,7 +42,7 @@ fn images(old: &Scope<'_>, new: &Scope<'_>, changes: &mut Changes) {
             Some(is) => {
                 let lengths = (was.length.to_string(), is.length.to_string());
                 changes.fact(&element, "length", lengths, Judgement::Breaking);
-                let layouts = (layout(&was.fields, old.types), layout(&is.fields, new.types));
+                let layouts = layouts((&was.fields, old.types), (&is.fields, new.types));
                 changes.fact(&element, "layout", layouts, Judgement::Breaking);
             }
             None => changes.existence(&element, true, false),
@@ -52,9 +61,32 @@ fn name(own: &ProcessImage) -> &str {
     }
 }
 
-/// What stands where: `0: UNSIGNED16 Controlword, 16: INTEGER32 Target position`.
-fn layout(entries: &[PdoEntry], types: &[TypeDef]) -> String {
+/// What stands where, of both: `0: UNSIGNED16 Controlword, 16: INTEGER32 Target position`. What both begin or end with is left out of
+/// long ones.
+fn layouts(
+    (old, old_types): (&[PdoEntry], &[TypeDef]),
+    (new, new_types): (&[PdoEntry], &[TypeDef]),
+) -> (String, String) {
+    let (mut old, mut new) = (layout(old, old_types), layout(new, new_types));
+    if old == new {
+        return (String::new(), String::new());
+    }
+    let first = old.iter().zip(&new).take_while(|(one, other)| one == other).count();
+    let rest = (old.len() - first).min(new.len() - first);
+    let last = old.iter().rev().zip(new.iter().rev()).take(rest).take_while(|(one, other)| one == other).count();
+    let shorten = |list: &mut Vec<String>| {
+        if last > 1 {
+            list.splice(list.len() - last.., ["…".to_owned()]);
+        }
+        if first > 1 {
+            list.splice(..first, ["…".to_owned()]);
+        }
+        list.join(", ")
+    };
+    (shorten(&mut old), shorten(&mut new))
+}
+
+fn layout(entries: &[PdoEntry], types: &[TypeDef]) -> Vec<String> {
     let own = entries.iter().filter(|own| own.kind != PdoEntryKind::Padding);
-    let entry = |own: &PdoEntry| format!("{}: {} {}", own.bit_offset, types::written(types, own.ty), own.name);
-    own.map(entry).collect::<Vec<_>>().join(", ")
+    own.map(|own| format!("{}: {} {}", own.bit_offset, types::written(types, own.ty), own.name)).collect()
 }

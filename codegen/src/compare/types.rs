@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{renamed, Changes, Judgement};
+use crate::backend::words::PLAIN;
 use crate::ir::{BitMeaning, CodeTable, EnumValue, Shape, Type, TypeDef};
 use crate::passes::owner::Owner;
 
@@ -46,8 +47,7 @@ pub(super) fn compare(
         (Shape::BitField { fields: old, .. }, Shape::BitField { fields: new, .. }) => {
             let key = |own: &crate::ir::BitFieldEntry| {
                 let is_reserved = matches!(own.meaning, BitMeaning::Reserved { .. });
-                let when = own.when.as_ref().map(|own| format!("{:?}", own.values)).unwrap_or_default();
-                (!is_reserved).then(|| (format!("bits {}+{} {when}", own.offset, own.bits), own.name.to_string()))
+                (!is_reserved).then(|| (bits(own), own.name.to_string()))
             };
             named(old.iter().filter_map(key), new.iter().filter_map(key), element, Judgement::Compatible, changes);
             for (one, other) in old
@@ -63,6 +63,14 @@ pub(super) fn compare(
     }
 }
 
+/// `bit 4`, `bits 7 to 4 while Mode is 1`.
+fn bits(own: &crate::ir::BitFieldEntry) -> String {
+    let last = u32::from(own.offset) + u32::from(own.bits).max(1) - 1;
+    let bits = if own.bits > 1 { format!("bits {last} to {}", own.offset) } else { format!("bit {last}") };
+    let when = own.when.as_ref().map(|own| format!(" while {}", PLAIN.holds(own)));
+    bits + &when.unwrap_or_default()
+}
+
 fn values(old: &[EnumValue], new: &[EnumValue], element: &str, changes: &mut Changes) {
     let key = |own: &EnumValue| (format!("value {}", own.value), own.name.to_string());
     // A further variant: whoever matched all of them has one to add.
@@ -70,7 +78,7 @@ fn values(old: &[EnumValue], new: &[EnumValue], element: &str, changes: &mut Cha
 }
 
 /// Names by what they stand for.
-fn named(
+pub(super) fn named(
     old: impl Iterator<Item = (String, String)>,
     new: impl Iterator<Item = (String, String)>,
     element: &str,

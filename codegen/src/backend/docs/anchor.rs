@@ -9,9 +9,16 @@ const LONGEST: usize = 40;
 #[derive(Debug, Default)]
 pub(super) struct Names {
     given: HashSet<String>,
+    /// What addresses begin with.
+    prefix: String,
 }
 
 impl Names {
+    /// Addresses of what is within the element with the address `anchor`.
+    pub fn within(anchor: &str) -> Self {
+        Names { prefix: format!("{anchor}."), ..Names::default() }
+    }
+
     /// The name of a file for `text`: small letters, digits and `-`.
     pub fn file(&mut self, text: &str) -> String {
         let mut name = String::new();
@@ -31,7 +38,7 @@ impl Names {
     pub fn anchor(&mut self, text: &str) -> String {
         let is_plain = |letter: &char| letter.is_alphanumeric() || matches!(letter, '_' | '-' | '.' | ':');
         let name: String = text.trim().chars().map(|letter| if is_plain(&letter) { letter } else { '_' }).collect();
-        self.once(if name.is_empty() { "_" } else { &name }, '.')
+        self.once(&format!("{}{}", self.prefix, if name.is_empty() { "_" } else { &name }), '.')
     }
 
     /// `name`, with a number behind it where it was given before.
@@ -58,6 +65,7 @@ mod tests {
         assert_eq!((names.file("a"), names.file("A"), names.file("?")), ("a".into(), "a-2".into(), "device".into()));
         assert_eq!(names.anchor("0x6040:01"), "0x6040:01");
         assert_eq!(names.anchor("\"><script>"), "___script_");
+        assert_eq!(Names::within("module-1").anchor("0x6040"), "module-1.0x6040");
         assert_eq!((names.anchor("x y"), names.anchor("x_y")), ("x_y".into(), "x_y.2".into()));
     }
 }

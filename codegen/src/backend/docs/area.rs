@@ -1,9 +1,9 @@
 //! Pages of items: a chapter of registers, or a range of objects.
 
 use super::anchor::Names;
-use super::entry::{self, Calls, Doubt, Row, Rows};
+use super::entry::{self, Doubt, Known, Row, Rows};
+use super::findings::Finding;
 use super::words::{self, PLAIN};
-use crate::backend::words::Manual;
 use crate::ir::{Group, GroupKind, Item, TypeDef};
 
 /// So many items are on a page.
@@ -37,6 +37,7 @@ pub(super) struct Section {
     pub names: Vec<(String, String)>,
     pub facts: Vec<String>,
     pub doubts: Vec<Doubt>,
+    pub findings: Vec<Finding>,
     pub rows: Vec<Row>,
 }
 
@@ -50,11 +51,11 @@ struct Part<'g> {
 pub(super) fn areas(
     groups: &[Group],
     types: &[TypeDef],
-    (manual, calls): (&Manual, &Calls),
+    known: Known<'_>,
     files: &mut Names,
     prefix: &str,
 ) -> Vec<Area> {
-    parts(groups).iter().flat_map(|part| pages(part, types, (manual, calls), files, prefix)).collect()
+    parts(groups).iter().flat_map(|part| pages(part, types, known, files, prefix)).collect()
 }
 
 /// A part for each chapter and image, and for each range of objects (CiA 301 7.4.1).
@@ -86,13 +87,7 @@ fn range_of(index: u16) -> &'static str {
     }
 }
 
-fn pages(
-    part: &Part<'_>,
-    types: &[TypeDef],
-    (manual, calls): (&Manual, &Calls),
-    files: &mut Names,
-    prefix: &str,
-) -> Vec<Area> {
+fn pages(part: &Part<'_>, types: &[TypeDef], known: Known<'_>, files: &mut Names, prefix: &str) -> Vec<Area> {
     let mut names = Names::default();
     let mut sections: Vec<Section> = Vec::new();
     let mut areas: Vec<Vec<Section>> = Vec::new();
@@ -109,7 +104,7 @@ fn pages(
                 areas.push(std::mem::take(&mut sections));
                 (names, shown, count) = (Names::default(), Vec::new(), 0);
             }
-            let mut rows = Rows { types, manual, names: &mut names, calls, shown };
+            let mut rows = Rows { types, known, names: &mut names, shown };
             sections.push(section(group, items, &mut rows));
             shown = rows.shown;
             count += items.len();
@@ -124,7 +119,7 @@ fn pages(
             _ => format!("{} ({} of {several})", part.title, at + 1),
         };
         let mut facts = about.map(|group| PLAIN.description(group.documentation.as_deref())).unwrap_or_default();
-        facts.extend(about.and_then(|group| PLAIN.place(manual, group.documentation.as_deref(), &group.names)));
+        facts.extend(about.and_then(|group| PLAIN.place(known.manual, group.documentation.as_deref(), &group.names)));
         Area {
             file: files.file(&format!("{prefix}{}", part.title)),
             title,
@@ -151,7 +146,7 @@ fn section(group: &Group, items: &[Item], rows: &mut Rows<'_>) -> Section {
         return Section::plain(vec![row]);
     }
     let mut facts = PLAIN.description(group.documentation.as_deref());
-    facts.extend(PLAIN.place(rows.manual, group.documentation.as_deref(), &group.names));
+    facts.extend(PLAIN.place(rows.known.manual, group.documentation.as_deref(), &group.names));
     let anchor = rows.names.anchor(&number);
     let sub = |item: &Item| item.object().map_or_else(String::new, |(index, sub)| format!("0x{index:04X}:{sub:02X}"));
     Section {
@@ -161,6 +156,7 @@ fn section(group: &Group, items: &[Item], rows: &mut Rows<'_>) -> Section {
         names: words::names(&group.names),
         facts,
         doubts: entry::doubts(&group.doubts),
+        findings: rows.known.findings.of_group(group),
         rows: items.iter().map(|item| rows.row(item, sub(item), false)).collect(),
     }
 }
@@ -175,6 +171,7 @@ impl Section {
             names: Vec::new(),
             facts: Vec::new(),
             doubts: Vec::new(),
+            findings: Vec::new(),
             rows,
         }
     }

@@ -13,6 +13,9 @@ const ROW: u32 = 16;
 /// Width of a bit.
 const CELL: u32 = 40;
 
+/// First bit and number of bits of the rows of drawings.
+pub(super) type Grids = BTreeSet<(u32, u32)>;
+
 /// A bit field, ready to be drawn and listed.
 #[derive(Debug)]
 pub(super) struct Bits {
@@ -66,7 +69,7 @@ pub(super) fn of_type(types: &[TypeDef], ty: Type) -> (Option<Bits>, Vec<Label>)
 }
 
 /// The rows that drawings have: first bit and number of bits of each, for the grid behind it.
-pub(super) fn grids<'b>(drawings: impl Iterator<Item = &'b Bits>) -> BTreeSet<(u32, u32)> {
+pub(super) fn grids<'b>(drawings: impl Iterator<Item = &'b Bits>) -> Grids {
     drawings.flat_map(|own| &own.rows).map(|row| (row.first, row.bits)).collect()
 }
 

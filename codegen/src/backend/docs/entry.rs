@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use super::anchor::Names;
 use super::bits::{self, Bits, Label};
+use super::findings::{Finding, Findings};
 use super::words::{self, PLAIN};
 use crate::backend::words::Manual;
 use crate::ir::{Item, Type, TypeDef};
@@ -26,6 +27,7 @@ pub(super) struct Row {
     /// Further addresses, with their bus.
     pub elsewhere: Vec<String>,
     pub doubts: Vec<Doubt>,
+    pub findings: Vec<Finding>,
     /// How a program reaches it.
     pub rust: String,
     pub bits: Option<Bits>,
@@ -49,6 +51,7 @@ impl Row {
         !self.facts.is_empty()
             || !self.elsewhere.is_empty()
             || !self.doubts.is_empty()
+            || !self.findings.is_empty()
             || !self.rust.is_empty()
             || self.bits.is_some()
             || !self.labels.is_empty()
@@ -67,13 +70,20 @@ fn call_of(item: &Item, call: &str) -> String {
     }
 }
 
+/// What is known of a description beside its items.
+#[derive(Clone, Copy)]
+pub(super) struct Known<'d> {
+    pub manual: &'d Manual,
+    /// How programs reach items.
+    pub calls: &'d Calls,
+    pub findings: &'d Findings,
+}
+
 /// What rows of one page have in common.
 pub(super) struct Rows<'p> {
     pub types: &'p [TypeDef],
-    pub manual: &'p Manual,
     pub names: &'p mut Names,
-    /// How programs reach items.
-    pub calls: &'p Calls,
+    pub known: Known<'p>,
     /// The types whose bits or values the page has already, with the address and name of the row.
     pub shown: Vec<(Type, String, String)>,
 }
@@ -109,7 +119,8 @@ impl Rows<'_> {
             facts: self.facts(item),
             elsewhere,
             doubts: doubts(&item.doubts),
-            rust: self.calls.get(&std::ptr::from_ref(item)).map(|call| call_of(item, call)).unwrap_or_default(),
+            findings: self.known.findings.of_item(item),
+            rust: self.known.calls.get(&std::ptr::from_ref(item)).map(|call| call_of(item, call)).unwrap_or_default(),
             bits: drawn,
             labels,
             same_as,
@@ -138,7 +149,7 @@ impl Rows<'_> {
         let unit = item.quantity.as_ref().map_or("", |own| own.unit.as_str());
         facts.extend(item.variants.iter().map(|own| PLAIN.variant(own, unit)));
         facts.extend(item.availability.as_ref().map(|own| PLAIN.availability(own)));
-        facts.extend(PLAIN.place(self.manual, item.documentation.as_deref(), &item.names));
+        facts.extend(PLAIN.place(self.known.manual, item.documentation.as_deref(), &item.names));
         let configured = item.configured.as_ref().and_then(|own| own.value.as_ref());
         facts.extend(configured.map(|value| format!("Configured to {}.", PLAIN.value(value))));
         facts.retain(|fact| !fact.is_empty());

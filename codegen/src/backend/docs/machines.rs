@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 
 use super::words::{self, PLAIN};
-use crate::backend::words::{sentence, Manual};
-use crate::ir::{Outcome, Pattern, Procedure, StateMachine, Step, Transition};
+use crate::backend::words::Manual;
+use crate::ir::{Outcome, Pattern, Procedure, StateMachine, Transition};
 
 /// Size of a state in the diagram, and the room between two.
 const WIDTH: u32 = 170;
@@ -21,6 +21,8 @@ pub(super) struct Machine {
     pub title: String,
     pub facts: Vec<String>,
     pub diagram: Option<Diagram>,
+    /// The state after power-on.
+    pub initial: Option<String>,
     pub states: Vec<Named>,
     pub commands: Vec<Named>,
     pub transitions: Vec<Way>,
@@ -100,6 +102,7 @@ pub(super) fn machine(own: &StateMachine, manual: &Manual) -> Machine {
         title: own.name.to_string(),
         facts,
         diagram: diagram(own),
+        initial: own.initial.as_ref().map(ToString::to_string),
         states: own.states.iter().map(named).collect(),
         commands: own.commands.iter().map(named).collect(),
         transitions: own.transitions.iter().map(way).collect(),
@@ -262,25 +265,5 @@ pub(super) fn sequence(own: &Procedure, manual: &Manual) -> Sequence {
         facts.push(format!("Given: {}.", arguments.join(", ")));
     }
     facts.extend(PLAIN.place(manual, own.documentation.as_deref(), &own.names));
-    Sequence { name: own.name.to_string(), facts, steps: own.steps.iter().map(step).collect() }
-}
-
-fn step(own: &Step) -> String {
-    let value = |value| PLAIN.value(value);
-    match own {
-        Step::Write(item, to) => format!("Write {} to {item}.", value(to)),
-        Step::WriteBits(item, mask, to) => format!("Write {} to the bits 0x{mask:X} of {item}.", value(to)),
-        Step::WriteArgument(item, argument) => format!("Write {argument} to {item}."),
-        Step::Read(item) => format!("Read {item}."),
-        Step::WaitFor(item, mask, to, limit) => {
-            let bits = if *mask == u64::MAX { String::new() } else { format!(" & 0x{mask:X}") };
-            let limit = limit.map(|limit| format!(", at most {limit} ms")).unwrap_or_default();
-            format!("Wait until {item}{bits} is {}{limit}.", value(to))
-        }
-        Step::Delay(milliseconds) => format!("Wait {milliseconds} ms."),
-        Step::Send(message) => format!("Send {message}."),
-        Step::Exchange(crate::ir::Direction::Receive) => "Send the outputs once.".to_owned(),
-        Step::Exchange(crate::ir::Direction::Transmit) => "Take the inputs once.".to_owned(),
-        Step::Manual(text) => sentence(text),
-    }
+    Sequence { name: own.name.to_string(), facts, steps: own.steps.iter().map(|own| PLAIN.step(own)).collect() }
 }

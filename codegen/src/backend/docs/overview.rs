@@ -1,6 +1,7 @@
 //! What a device is, on its first page.
 
 use super::entry::{self, Doubt};
+use super::modules::Slot;
 use super::words::PLAIN;
 use crate::backend::words::Manual;
 use crate::ir::{Device, DistributedClocks, EtherCatSettings, FileInfo, ProfinetSettings};
@@ -14,6 +15,16 @@ pub(super) struct Overview {
     /// Models, with their constants.
     pub models: Vec<Model>,
     pub doubts: Vec<Doubt>,
+}
+
+/// Where on its further pages a device has what.
+#[derive(Debug)]
+pub(super) struct Contents {
+    /// Areas of items: file, title and number of items.
+    pub areas: Vec<(String, String, usize)>,
+    /// Cyclic data: address and title.
+    pub frames: Vec<(String, String)>,
+    pub slots: Vec<Slot>,
 }
 
 /// A model of a family.

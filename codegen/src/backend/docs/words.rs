@@ -1,16 +1,8 @@
 //! Words of documentation pages. Templates escape them.
 
-use crate::backend::words::{Words, NO_LINK};
+pub(super) use crate::backend::words::{one_line, PLAIN};
 use crate::ir::{Binding, Item, ObjectBuses, RegisterSpace, Texts, Type, TypeDef, Value};
 use crate::passes::owner::Owner;
-
-/// Sentences as they are.
-pub(super) const PLAIN: Words<'static> = Words { escape: one_line, link: NO_LINK };
-
-/// A text without breaks of lines.
-pub(super) fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
 
 /// The basic type below; of arrays and records, nothing is known.
 pub(super) fn basic(types: &[TypeDef], ty: Type) -> Type {

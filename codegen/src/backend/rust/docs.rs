@@ -9,6 +9,7 @@ use super::place::Place;
 use super::quantity;
 use super::scope::Scope;
 use super::value_type;
+use crate::backend::markdown;
 pub(super) use crate::backend::words::sentence;
 use crate::backend::words::{Words, NO_LINK};
 use crate::ir::{Binding, Condition, Documentation, Item, Limits, Type, Value};
@@ -23,31 +24,7 @@ pub(super) fn linked(link: &dyn Fn(&str) -> Option<String>) -> Words<'_> {
 
 /// Text as one line of Markdown without any markup.
 pub(super) fn escape(text: &str) -> String {
-    let mut escaped = String::with_capacity(text.len() + 8);
-    let mut start = true;
-    let mut letters = text.trim().chars().peekable();
-    while let Some(letter) = letters.next() {
-        match letter {
-            '\\' | '`' | '*' | '_' | '[' | ']' | '<' | '>' | '&' | '~' | '|' | '$' | '#' | '{' | '}' => {
-                escaped.push('\\');
-                escaped.push(letter);
-            }
-            '-' | '+' | '=' | ':' if start => {
-                escaped.push('\\');
-                escaped.push(letter);
-            }
-            // `1.` and `1)` would begin a list, `http://` a link.
-            '.' | ')' if escaped.bytes().all(|byte| byte.is_ascii_digit()) && !escaped.is_empty() => {
-                escaped.push('\\');
-                escaped.push(letter);
-            }
-            ':' if letters.peek() == Some(&'/') => escaped.push_str("\\:"),
-            _ if literal::is_harmless(letter) => escaped.push(letter),
-            _ => escaped.push(' '),
-        }
-        start = false;
-    }
-    escaped
+    markdown::escape(text, literal::is_harmless)
 }
 
 /// The lines about an item, for the constant that stands `here`: its name, then its address, type, access and values, then what

@@ -1,4 +1,4 @@
-//! Findings as text: for a terminal, as JSON lines, as SARIF; and the catalogue of codes for people.
+//! Findings as text: for a terminal, as JSON lines, as SARIF; and the catalogue of codes for people, and as Markdown.
 //!
 //! Every function here takes the [`Diagnostic`](super::Diagnostic)s as they are and the list of
 //! [`Source`](crate::source::Source)s that their spans index. None panics, whatever a span says: an offset outside of
@@ -6,6 +6,7 @@
 //! a finding without a place.
 
 pub mod json;
+pub mod markdown;
 mod place;
 pub mod sarif;
 pub mod terminal;
@@ -29,13 +30,9 @@ pub fn summary(errors: usize, warnings: usize) -> String {
 
 /// What `lexibus explain` prints about a code, wrapped at 80 columns and ended by a line feed.
 pub fn explain(code: &Code) -> String {
-    let class = match code.class {
-        Class::Error => "always an error",
-        Class::Repair => "an error in strict mode",
-        Class::Lint => "an error only where its level says so",
-    };
+    let (class, strictness) = (code.class.name(), strictness(code.class));
     let mut text = wrapped(&format!("{}: {}", code.id, code.summary));
-    text += &format!("\nname:   {}\nclass:  {} ({class})\nlevel:  {}\n", code.name, code.class.name(), level(code));
+    text += &format!("\nname:   {}\nclass:  {class} ({strictness})\nlevel:  {}\n", code.name, level(code));
     for paragraph in code.explanation.lines().filter(|line| !line.is_empty()) {
         text.push('\n');
         text += &wrapped(paragraph);
@@ -52,6 +49,15 @@ pub fn catalogue() -> String {
         format!("{:ids$}  {:names$}  {class:6}  {level:5}  {}\n", code.id, code.name, code.summary)
     };
     CODES.iter().map(line).collect()
+}
+
+/// When findings of this class are errors.
+fn strictness(class: Class) -> &'static str {
+    match class {
+        Class::Error => "always an error",
+        Class::Repair => "an error in strict mode",
+        Class::Lint => "an error only where its level says so",
+    }
 }
 
 /// The default level as a user would set it.

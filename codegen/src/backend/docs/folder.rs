@@ -1,0 +1,276 @@
+//! The pages of a catalogue, in a folder of their own.
+
+use std::collections::HashMap;
+
+use super::anchor::Names;
+use super::area::{self, Area};
+use super::codes::{self, Codes};
+use super::entry::{Known, Row};
+use super::findings::Findings;
+use super::format::{Around, Catalogue, Frameset, List, Listed, Pages};
+use super::machines;
+use super::modules::{self, ModuleModel};
+use super::overview::{self, Contents};
+use super::process::{self, Frame};
+use super::protocol::{self, Protocol};
+use super::search::{Entry, Index};
+use super::Page;
+use crate::backend::rust;
+use crate::backend::words::Manual;
+use crate::ir::{Catalog, Device};
+
+/// The folder of a catalogue.
+pub(super) struct Folder {
+    pub format: &'static dyn Pages,
+    files: Names,
+    pub pages: Vec<Page>,
+    pub index: Index,
+    pub listed: Catalogue,
+    findings: Findings,
+}
+
+/// What a device has beside items, and the files that it goes to.
+struct Parts {
+    areas: Vec<Area>,
+    frames: Vec<Frame>,
+    process: Option<String>,
+    protocol: Option<(String, Protocol)>,
+    machines: Option<String>,
+    codes: Option<(String, Vec<Codes>)>,
+}
+
+impl Folder {
+    pub fn new(format: &'static dyn Pages, findings: Findings) -> Self {
+        let mut files = Names::default();
+        files.file(format.first());
+        Folder { format, files, pages: Vec::new(), index: Index::default(), listed: Catalogue::default(), findings }
+    }
+
+    /// All pages of a catalogue that is called `title`.
+    pub fn catalog(&mut self, title: &str, catalog: &Catalog) {
+        let is_alone = catalog.devices.len() == 1;
+        // Pages of devices lead to those that all of them share, whose names are known first therefore.
+        let (modules, files) = self.modules(catalog);
+        let findings = (!self.findings.list.is_empty()).then(|| self.file("Findings"));
+        self.listed.shared.extend(files.iter().cloned());
+        self.listed.shared.extend(findings.iter().map(|file| (file.clone(), "Findings".to_owned())));
+        for device in &catalog.devices {
+            self.device(device, catalog, is_alone);
+        }
+        let title = self.listed.devices.first().filter(|_| is_alone).map_or(title, |own| own.title.as_str()).to_owned();
+        let set = Frameset { title, links: self.around(), languages: Vec::new() };
+        self.module_pages(&modules, &files, &set);
+        if let Some(file) = &findings {
+            let text = self.format.findings(Around { set: &set, file }, &self.findings.list);
+            self.page(file, text);
+        }
+        if !is_alone {
+            self.list(&set);
+        }
+    }
+
+    /// The pages of a device that is alone, and those that all devices share.
+    fn around(&self) -> Vec<(String, String)> {
+        let first = |own: &Listed| [(own.path.clone(), "Overview".to_owned())].into_iter().chain(own.pages.clone());
+        let alone = match self.listed.devices.as_slice() {
+            [only] => Some(first(only)),
+            _ => None,
+        };
+        alone.into_iter().flatten().chain(self.listed.shared.iter().cloned()).collect()
+    }
+
+    fn page(&mut self, file: &str, text: String) {
+        self.pages.push(Page::new(file, text));
+    }
+
+    /// The name of a new file for `title`.
+    fn file(&mut self, title: &str) -> String {
+        self.files.file(title) + self.format.ending()
+    }
+
+    fn device(&mut self, device: &Device, catalog: &Catalog, is_alone: bool) {
+        let (format, title) = (self.format, title(device));
+        let own = if is_alone { format.first().to_owned() } else { self.files.file(&title) };
+        let first = own.clone() + format.ending();
+        let prefix = if is_alone { String::new() } else { format!("{own}-") };
+        let manual = Manual::of(device);
+        let (parts, pages) = self.parts(device, &manual, &prefix);
+        let mut links = vec![(first.clone(), "Overview".to_owned())];
+        links.extend(pages.iter().chain(&self.listed.shared).cloned());
+        let set = Frameset { title: title.clone(), links, languages: languages(device) };
+        let own = overview::overview(device, catalog.files.first(), &manual);
+        let text = format.overview(Around { set: &set, file: &first }, &own, &contents(device, &parts));
+        self.page(&first, text);
+        self.index.page(&first, &title);
+        for own in &parts.areas {
+            self.page(&own.file, format.area(Around { set: &set, file: &own.file }, own));
+            self.index.page(&own.file, &title);
+            index_area(&mut self.index, own);
+        }
+        self.further(device, &parts, &set, &manual);
+        self.listed.devices.push(Listed { title, vendor: device.identity.vendor_name.to_string(), path: first, pages });
+    }
+
+    /// What there is to write of a device, and the further pages that it gives.
+    fn parts(&mut self, device: &Device, manual: &Manual, prefix: &str) -> (Parts, Vec<(String, String)>) {
+        let calls = rust::calls(device).into_iter().map(|(item, call)| (std::ptr::from_ref(item), call)).collect();
+        let known = Known { manual, calls: &calls, findings: &self.findings };
+        let mut areas = area::areas(&device.groups, &device.types, known, &mut self.files, prefix);
+        for own in &mut areas {
+            own.file += self.format.ending();
+        }
+        let mut pages: Vec<_> = areas.iter().map(|own| (own.file.clone(), own.title.clone())).collect();
+        let mut further = |has: bool, title: &str| {
+            let file = has.then(|| self.file(&format!("{prefix}{title}")));
+            pages.extend(file.clone().map(|file| (file, title.to_owned())));
+            file
+        };
+        let frames = process::frames(&device.process_data, &device.types);
+        let protocol = protocol::protocol(device, manual);
+        let tables = codes::tables(&device.code_tables, manual);
+        let parts = Parts {
+            process: further(!frames.is_empty() || !device.process_data.sync_managers.is_empty(), "Process data"),
+            protocol: further(protocol.is_some(), "Messages").zip(protocol),
+            machines: further(!device.machines.is_empty() || !device.procedures.is_empty(), "States and procedures"),
+            codes: further(!tables.is_empty(), "Codes").map(|file| (file, tables)),
+            areas,
+            frames,
+        };
+        (parts, pages)
+    }
+
+    /// The pages behind those of items.
+    fn further(&mut self, device: &Device, parts: &Parts, set: &Frameset, manual: &Manual) {
+        let format = self.format;
+        if let Some(file) = &parts.process {
+            let sync_managers = process::sync_managers(&device.process_data);
+            self.page(file, format.process(Around { set, file }, &parts.frames, &sync_managers));
+            self.index.page(file, &set.title);
+            for own in &parts.frames {
+                self.index.entry(&found(&own.anchor, &own.anchor, &own.title));
+            }
+        }
+        if let Some((file, own)) = &parts.protocol {
+            self.page(file, format.protocol(Around { set, file }, own));
+            self.index.page(file, &set.title);
+            for own in &own.messages {
+                let words = own.facts.first().map_or("", String::as_str);
+                self.index.entry(&Entry { names: &own.names, words, ..found(&own.anchor, "message", &own.name) });
+            }
+        }
+        if let Some(file) = &parts.machines {
+            let machines: Vec<_> = device.machines.iter().map(|own| machines::machine(own, manual)).collect();
+            let sequences: Vec<_> = device.procedures.iter().map(|own| machines::sequence(own, manual)).collect();
+            self.page(file, format.machines(Around { set, file }, &machines, &sequences));
+        }
+        if let Some((file, tables)) = &parts.codes {
+            self.page(file, format.codes(Around { set, file }, tables));
+            self.index.page(file, &set.title);
+            for own in tables.iter().flat_map(|table| &table.rows) {
+                let entry = found(&own.anchor, &own.number, &own.name);
+                self.index.entry(&Entry { names: &own.names, words: &own.facts, ..entry });
+            }
+        }
+    }
+
+    /// The modules, and the files and titles of their pages.
+    fn modules(&mut self, catalog: &Catalog) -> (Vec<ModuleModel>, Vec<(String, String)>) {
+        let mut all = modules::modules(catalog, &self.findings);
+        let count = all.len().div_ceil(modules::PAGE);
+        let name = |at: usize| match count {
+            1 => "Modules".to_owned(),
+            _ => format!("Modules ({} of {count})", at + 1),
+        };
+        let files: Vec<(String, String)> = (0..count).map(|at| (self.file("modules"), name(at))).collect();
+        link_parts(&mut all, &files);
+        (all, files)
+    }
+
+    fn module_pages(&mut self, all: &[ModuleModel], files: &[(String, String)], set: &Frameset) {
+        for ((file, _), modules) in files.iter().zip(all.chunks(modules::PAGE)) {
+            self.page(file, self.format.modules(Around { set, file }, modules));
+            self.index.page(file, &set.title);
+            for own in modules {
+                let words = own.facts.first().map_or("", String::as_str);
+                self.index.entry(&Entry { names: &own.names, words, ..found(&own.anchor, &own.number, &own.name) });
+                for (_, section) in &own.sections {
+                    index_rows(&mut self.index, &section.rows);
+                }
+            }
+        }
+    }
+
+    /// The first page of a catalogue of several devices.
+    fn list(&mut self, set: &Frameset) {
+        let file = format!("{}{}", self.format.first(), self.format.ending());
+        let list = List { devices: &self.listed.devices, root: "..", index: "" };
+        let text = self.format.list(Around { set, file: &file }, list);
+        self.page(&file, text);
+    }
+}
+
+/// Makes links of the addresses of submodules, which may be on another page.
+fn link_parts(modules: &mut [ModuleModel], files: &[(String, String)]) {
+    let places: HashMap<String, usize> =
+        modules.iter().enumerate().map(|(at, own)| (own.anchor.clone(), at / modules::PAGE)).collect();
+    for (at, own) in modules.iter_mut().enumerate() {
+        for (_, anchor) in &mut own.parts {
+            let page = places.get(anchor).copied().filter(|page| *page != at / modules::PAGE);
+            let file = page.and_then(|page| files.get(page)).map_or("", |(file, _)| file.as_str());
+            *anchor = format!("{file}#{anchor}");
+        }
+    }
+}
+
+fn contents(device: &Device, parts: &Parts) -> Contents {
+    let of_frame = |(file, own): (&String, &Frame)| (format!("{file}#{}", own.anchor), own.title.clone());
+    Contents {
+        areas: parts.areas.iter().map(|own| (own.file.clone(), own.title.clone(), own.count())).collect(),
+        frames: parts
+            .process
+            .iter()
+            .flat_map(|file| parts.frames.iter().map(move |own| (file, own)))
+            .map(of_frame)
+            .collect(),
+        slots: modules::slots(device),
+    }
+}
+
+fn found<'e>(anchor: &'e str, number: &'e str, name: &'e str) -> Entry<'e> {
+    Entry { anchor, number, name, names: &[], unit: "", words: "" }
+}
+
+fn index_area(index: &mut Index, own: &Area) {
+    for section in &own.sections {
+        if let Some(anchor) = &section.anchor {
+            index.entry(&Entry { names: &section.names, ..found(anchor, &section.number, &section.name) });
+        }
+        index_rows(index, &section.rows);
+    }
+}
+
+fn index_rows(index: &mut Index, rows: &[Row]) {
+    for row in rows {
+        let words = row.facts.first().map_or("", String::as_str);
+        let entry = found(&row.anchor, &row.number, &row.name);
+        index.entry(&Entry { names: &row.names, unit: &row.unit, words, ..entry });
+    }
+}
+
+fn title(device: &Device) -> String {
+    let names = [&device.name, &device.identity.product_name, &device.identity.order_code, &device.id];
+    names.into_iter().find(|name| !name.trim().is_empty()).map_or_else(|| "Device".to_owned(), ToString::to_string)
+}
+
+/// The languages of the names of items.
+fn languages(device: &Device) -> Vec<String> {
+    let groups = device
+        .groups
+        .iter()
+        .flat_map(|group| group.names.iter().chain(group.items.iter().flat_map(|item| item.names.iter())));
+    let messages = device.messages.iter().flat_map(|message| message.names.iter());
+    let mut languages: Vec<String> = groups.chain(messages).map(|own| own.language.to_string()).collect();
+    languages.sort();
+    languages.dedup();
+    languages
+}

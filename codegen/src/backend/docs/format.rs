@@ -1,0 +1,113 @@
+//! What a format of documentation has to write: a text for each kind of page.
+
+use super::area::Area;
+use super::codes::Codes;
+use super::findings::Finding;
+use super::html::Html;
+use super::machines::{Machine, Sequence};
+use super::markdown::Markdown;
+use super::modules::ModuleModel;
+use super::overview::{Contents, Overview};
+use super::process::{Frame, SyncManager};
+use super::protocol::Protocol;
+use super::Page;
+
+/// The format of a documentation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Format {
+    /// Pages that open from disk, with drawings and a search.
+    #[default]
+    Html,
+    /// Pages for repositories and for `mdBook`, with a `SUMMARY.md`.
+    Markdown,
+}
+
+impl Format {
+    pub(super) fn pages(self) -> &'static dyn Pages {
+        match self {
+            Format::Html => &Html,
+            Format::Markdown => &Markdown,
+        }
+    }
+}
+
+/// What each page of a catalogue has around it.
+#[derive(Debug, Default)]
+pub(super) struct Frameset {
+    /// The catalogue, or the device of it.
+    pub title: String,
+    /// Files and titles of the pages.
+    pub links: Vec<(String, String)>,
+    /// Languages of names.
+    pub languages: Vec<String>,
+}
+
+/// A page in its catalogue.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Around<'p> {
+    pub set: &'p Frameset,
+    /// The name of its file.
+    pub file: &'p str,
+}
+
+/// The pages of a catalogue, as lists of contents have them.
+#[derive(Debug, Default)]
+pub(super) struct Catalogue {
+    pub title: String,
+    /// Its folder, with a `/` behind it.
+    pub folder: String,
+    pub devices: Vec<Listed>,
+    /// Pages that all its devices share: files and titles.
+    pub shared: Vec<(String, String)>,
+}
+
+/// A device in the list of all.
+#[derive(Clone, Debug)]
+pub(super) struct Listed {
+    pub title: String,
+    pub vendor: String,
+    /// Its first page.
+    pub path: String,
+    /// Its further pages: files and titles.
+    pub pages: Vec<(String, String)>,
+}
+
+impl Catalogue {
+    /// The devices, their first pages as seen from the folder of the site.
+    pub fn in_site(&self) -> impl Iterator<Item = Listed> + '_ {
+        self.devices.iter().map(|own| Listed { path: format!("{}{}", self.folder, own.path), ..own.clone() })
+    }
+}
+
+/// A list of devices.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct List<'p> {
+    pub devices: &'p [Listed],
+    /// The way to the folder of the site.
+    pub root: &'p str,
+    /// The folder of the index, where that isn't the page's.
+    pub index: &'p str,
+}
+
+/// Writes pages.
+pub(super) trait Pages {
+    /// How names of files end, with the dot.
+    fn ending(&self) -> &'static str;
+    /// The name of the first page of a folder, without ending.
+    fn first(&self) -> &'static str;
+
+    fn overview(&self, around: Around<'_>, own: &Overview, contents: &Contents) -> String;
+    fn area(&self, around: Around<'_>, own: &Area) -> String;
+    fn process(&self, around: Around<'_>, frames: &[Frame], sync_managers: &[SyncManager]) -> String;
+    fn protocol(&self, around: Around<'_>, own: &Protocol) -> String;
+    fn codes(&self, around: Around<'_>, tables: &[Codes]) -> String;
+    fn machines(&self, around: Around<'_>, machines: &[Machine], sequences: &[Sequence]) -> String;
+    fn modules(&self, around: Around<'_>, modules: &[ModuleModel]) -> String;
+    fn findings(&self, around: Around<'_>, findings: &[Finding]) -> String;
+    fn list(&self, around: Around<'_>, list: List<'_>) -> String;
+
+    /// What the pages of one catalogue share, beside them.
+    fn of_catalog(&self, search: &dyn Fn() -> String) -> Vec<Page>;
+    /// What all pages share. `search` is the index of all, where a catalogue's isn't enough.
+    fn of_site(&self, catalogs: &[Catalogue], search: Option<&dyn Fn() -> String>) -> Vec<Page>;
+}

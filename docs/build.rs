@@ -1,0 +1,17 @@
+//! Bindings of the descriptions that the chapters use.
+
+use lexibus_codegen::{BuildError, Builder, Level, Presence};
+
+fn main() -> Result<(), BuildError> {
+    let builder = Builder::new().table(Presence::Always);
+    for description in ["examples/pump.eds", "examples/motor.toml", "../examples/inverter.toml"] {
+        builder.compile(description)?;
+    }
+    // These are there to have something to warn of.
+    let lenient = builder.level("warnings", Level::Allow);
+    lenient.compile_as("examples/station.gsdml.xml", "station.rs")?;
+    lenient.compile("../tests/data/press.toml")?;
+    lenient.compile_as("../tests/data/coupler.esi.xml", "coupler.rs")?;
+    lenient.compile_as("../tests/data/one-drive.toml", "one_drive.rs")?;
+    lenient.compile_as("../tests/data/safe.gsdml.xml", "safe.rs")
+}

@@ -1,0 +1,157 @@
+//! The book as mdBook builds it: without a warning, with each file a chapter, and with links that lead somewhere.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
+
+use mdbook_driver::MDBook;
+use mdbook_driver::config::Config;
+use tracing::field::{Field, Visit};
+use tracing::span::{Attributes, Id, Record};
+use tracing::{Event, Level, Metadata, Subscriber};
+
+/// Links to files of the repository begin so; they are looked for on the disk.
+const REPOSITORY: &str = "https://github.com/lexibus/lexibus/blob/main/";
+
+fn docs() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Keeps what mdBook warns of.
+#[derive(Clone, Default)]
+struct Warnings(Arc<Mutex<Vec<String>>>);
+
+impl Subscriber for Warnings {
+    fn enabled(&self, metadata: &Metadata<'_>) -> bool {
+        *metadata.level() <= Level::WARN
+    }
+
+    fn new_span(&self, _: &Attributes<'_>) -> Id {
+        Id::from_u64(1)
+    }
+
+    fn record(&self, _: &Id, _: &Record<'_>) {}
+
+    fn record_follows_from(&self, _: &Id, _: &Id) {}
+
+    fn event(&self, event: &Event<'_>) {
+        let mut message = Message::default();
+        event.record(&mut message);
+        if let Ok(mut list) = self.0.lock() {
+            list.push(message.0);
+        }
+    }
+
+    fn enter(&self, _: &Id) {}
+
+    fn exit(&self, _: &Id) {}
+}
+
+/// The fields of an event, in a line.
+#[derive(Default)]
+struct Message(String);
+
+impl Visit for Message {
+    fn record_debug(&mut self, _: &Field, value: &dyn std::fmt::Debug) {
+        self.0 += &format!("{value:?} ");
+    }
+}
+
+/// Builds the book into a folder of this test's own.
+fn build() -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("book");
+    let _ = fs::remove_dir_all(&folder);
+    let mut config = Config::from_disk(docs().join("book.toml")).expect("the configuration of the book");
+    config.build.build_dir = folder.clone();
+    let warnings = Warnings::default();
+    tracing::subscriber::with_default(warnings.clone(), || {
+        MDBook::load_with_config(docs(), config).and_then(|book| book.build()).expect("the book is built");
+    });
+    let list = warnings.0.lock().expect("the warnings");
+    assert!(list.is_empty(), "{list:#?}");
+    folder
+}
+
+/// The values of an attribute in a page.
+fn attributes<'p>(page: &'p str, name: &str) -> Vec<&'p str> {
+    let start = format!(" {name}=\"");
+    page.split(&start).skip(1).filter_map(|rest| rest.split('"').next()).collect()
+}
+
+/// The chapters as they were built, by their names; each has what `SUMMARY.md` named.
+fn pages(folder: &Path) -> BTreeMap<String, String> {
+    let names = fs::read_dir(folder).expect("the book").map(|entry| entry.expect("a page").path());
+    let pages = names.filter(|path| path.extension().is_some_and(|extension| extension == "html"));
+    let own = |path: &PathBuf| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let read = |path: PathBuf| (own(&path), fs::read_to_string(&path).expect("a page"));
+    let is_chapter = |name: &str| !["print.html", "404.html", "toc.html"].contains(&name);
+    pages.map(read).filter(|(name, _)| is_chapter(name)).collect()
+}
+
+/// What is wrong with a link of a page; `None` where it leads somewhere.
+fn fault(link: &str, page: &str, anchors: &BTreeMap<&str, BTreeSet<&str>>, folder: &Path) -> Option<&'static str> {
+    if let Some(path) = link.strip_prefix(REPOSITORY) {
+        let path = path.split('#').next().unwrap_or_default();
+        return (!docs().join("..").join(path).exists()).then_some("the repository has no such file");
+    }
+    if link.contains("://") || link.starts_with("javascript:") {
+        return None;
+    }
+    let (path, anchor) = link.split_once('#').unwrap_or((link, ""));
+    let path = if path.is_empty() { page } else { path };
+    match anchors.get(path) {
+        Some(own) => (!anchor.is_empty() && !own.contains(anchor)).then_some("the page has no such anchor"),
+        None => (path.contains("..") || !folder.join(path).exists()).then_some("the book has no such page"),
+    }
+}
+
+#[test]
+fn the_book_is_built_and_its_links_lead_somewhere() {
+    let folder = build();
+    let pages = pages(&folder);
+    let ids = |text| attributes(text, "id").into_iter().collect();
+    let anchors: BTreeMap<&str, BTreeSet<&str>> = pages.iter().map(|(name, text)| (name.as_str(), ids(text))).collect();
+    let (mut faults, mut count) = (Vec::new(), 0);
+    for (name, text) in &pages {
+        // What mdBook puts around a chapter is its own.
+        let content = text.split("<main>").nth(1).and_then(|rest| rest.split("</main>").next()).expect("a chapter");
+        for link in attributes(content, "href").into_iter().chain(attributes(content, "src")) {
+            count += 1;
+            if let Some(fault) = fault(link, name, &anchors, &folder) {
+                faults.push(format!("{name}: {link}: {fault}"));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+    assert!(count > 500 && pages.len() > 20, "{count} links on {} pages", pages.len());
+}
+
+#[test]
+fn every_file_is_a_chapter_and_its_examples_are_compiled() {
+    let summary = fs::read_to_string(docs().join("src/SUMMARY.md")).expect("the summary");
+    let tests = fs::read_to_string(docs().join("lib.rs")).expect("the list of chapters");
+    let mut count = 0;
+    for entry in fs::read_dir(docs().join("src")).expect("the chapters") {
+        let name = entry.expect("a chapter").file_name().to_string_lossy().into_owned();
+        if name == "SUMMARY.md" {
+            continue;
+        }
+        assert!(summary.contains(&format!("]({name})")), "{name} isn't in SUMMARY.md");
+        assert!(tests.contains(&format!("include_str!(\"src/{name}\")")), "{name} isn't in lib.rs");
+        count += 1;
+    }
+    assert_eq!(summary.matches("](").count(), count, "a chapter of SUMMARY.md has no file, or stands there twice");
+}
+
+/// A reader who copies an example gets one that was compiled.
+#[test]
+fn no_example_is_left_out() {
+    for entry in fs::read_dir(docs().join("src")).expect("the chapters") {
+        let path = entry.expect("a chapter").path();
+        let text = fs::read_to_string(&path).expect("a chapter");
+        for line in text.lines().filter(|line| line.starts_with("```rust")) {
+            assert!(!line.contains("ignore"), "{}: {line}", path.display());
+        }
+    }
+}
