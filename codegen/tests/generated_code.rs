@@ -5,7 +5,7 @@ mod corpus_support;
 
 use std::path::Path;
 
-use compile_support::{compile, compile_in};
+use compile_support::{compile, compile_in, document};
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
@@ -51,6 +51,7 @@ fn no_name_or_text_breaks_out_of_the_code() {
         let compilation = check(Source::new("nasty \"*/.eds", NASTY_NAMES.into()), &options);
         let text = compilation.rust(&options.rust).expect("bindings");
         compile("nasty names", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
+        document("nasty names", &[&text]).unwrap_or_else(|message| panic!("{message}\n{text}"));
     }
 }
 
@@ -97,6 +98,7 @@ fn pdos_of_every_shape_compile() {
         assert!(text.contains(&format!("pub struct TxPdo{number} ")), "{text}");
     }
     compile("shapes", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
+    document("shapes", &[&text]).unwrap_or_else(|message| panic!("{message}\n{text}"));
 }
 
 #[test]
@@ -159,5 +161,6 @@ fn process_data_of_any_name_and_length_compile() {
         // An image that no number of bits measures isn't there.
         assert_eq!(text.contains("pub mod image {"), has_image);
         compile("lengths", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
+        document("lengths", &[&text]).unwrap_or_else(|message| panic!("{message}\n{text}"));
     }
 }

@@ -2,7 +2,7 @@
 
 mod compile_support;
 
-use compile_support::compile;
+use compile_support::{compile, document};
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
@@ -27,6 +27,7 @@ fn rust(name: &str, lines: &str) -> String {
         text = compilation.rust(&options).unwrap_or_else(|| panic!("{said:#?}"));
         compile(name, &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
     }
+    document(name, &[&text]).unwrap_or_else(|message| panic!("{message}\n{text}"));
     assert_eq!(said, Vec::<String>::new(), "{name}");
     text
 }

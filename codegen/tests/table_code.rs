@@ -5,7 +5,7 @@ mod compile_support;
 
 use std::path::Path;
 
-use compile_support::compile;
+use compile_support::{compile, document};
 use lexibus_codegen::compile::{check, Options};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
@@ -134,6 +134,7 @@ fn names_that_mislead() {
     for accessors in [true, false] {
         let text = bindings(Source::new("wild.toml", table.clone().into()), RustOptions { accessors, ..everything() });
         compile("wild", &text).unwrap_or_else(|message| panic!("{message}\n{text}"));
+        document("wild", &[&text]).unwrap_or_else(|message| panic!("{message}\n{text}"));
     }
 }
 

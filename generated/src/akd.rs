@@ -438,6 +438,8 @@ impl<C> Akd<C> {
     /// Note: The reply has length 0x0E, for byte 2 to byte 15 (L1230-1231), and as many data as the request. Chosen: 0x0A (the length of the request is that of the data from byte 6 on).
     ///
     /// Note: The reply has 0x20 in byte 7, and calls it an SDO response (L1237); type 2 is the request, 3 the response (L1149-1150, L1188-1189). Chosen: 0x30 (the table of types has it so).
+    ///
+    /// Sends [`messages::Sdo`].
     pub fn sdo(
         &mut self,
         message: messages::Sdo,
@@ -459,162 +461,228 @@ impl<C> Akd<C> {
         self.client
     }
     /// AL control: memory 0x0120.
+    ///
+    /// State that the master asks for
+    ///
+    /// Constant: [`objects::AL_CONTROL`]. Values: [`AlControl`](types::AlControl).
     pub fn al_control(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::AlControl, rt::OnEsc> {
         objects::AL_CONTROL.at(&mut self.client)
     }
     /// AL status: memory 0x0130.
+    ///
+    /// State that the drive is in
+    ///
+    /// Constant: [`objects::AL_STATUS`]. Values: [`AlStatus`](types::AlStatus).
     pub fn al_status(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::AlStatus, rt::OnEsc> {
         objects::AL_STATUS.at(&mut self.client)
     }
     /// AL status code: memory 0x0134.
+    ///
+    /// Why a change of state was refused; all bits of both bytes are the code
+    ///
+    /// Constant: [`objects::AL_STATUS_CODE`]. Values: [`AlStatusCode`](types::AlStatusCode).
     pub fn al_status_code(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::AlStatusCode, rt::OnEsc> {
         objects::AL_STATUS_CODE.at(&mut self.client)
     }
     /// Interrupt enable: memory 0x0204.
+    ///
+    /// Which events of the slave controller the drive has switched on, by bits that are 1; EEPROM emulation and SyncManager 2 interrupt its processor
+    ///
+    /// Constant: [`objects::INTERRUPT_ENABLE`]. Values: [`InterruptEnable`](types::InterruptEnable).
     pub fn interrupt_enable(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::InterruptEnable, rt::OnEsc> {
         objects::INTERRUPT_ENABLE.at(&mut self.client)
     }
     /// AL event request: memory 0x0220.
+    ///
+    /// Events that the slave controller signals to the drive
+    ///
+    /// Constant: [`objects::AL_EVENT_REQUEST`]. Values: [`AlEventRequest`](types::AlEventRequest).
     pub fn al_event_request(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::AlEventRequest, rt::OnEsc> {
         objects::AL_EVENT_REQUEST.at(&mut self.client)
     }
     /// SyncManager 0: memory 0x0800.
+    ///
+    /// Sync manager of the mailbox to the drive
+    ///
+    /// Constant: [`objects::SYNC_MANAGER_0`].
     pub fn sync_manager_0(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
         objects::SYNC_MANAGER_0.at(&mut self.client)
     }
     /// SyncManager 1: memory 0x0808.
+    ///
+    /// Sync manager of the mailbox from the drive
+    ///
+    /// Constant: [`objects::SYNC_MANAGER_1`].
     pub fn sync_manager_1(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
         objects::SYNC_MANAGER_1.at(&mut self.client)
     }
     /// SyncManager 2: memory 0x0810.
+    ///
+    /// Sync manager of the set-points
+    ///
+    /// Constant: [`objects::SYNC_MANAGER_2`].
     pub fn sync_manager_2(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
         objects::SYNC_MANAGER_2.at(&mut self.client)
     }
     /// SyncManager 3: memory 0x0818.
+    ///
+    /// Sync manager of the actual values
+    ///
+    /// Constant: [`objects::SYNC_MANAGER_3`].
     pub fn sync_manager_3(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
         objects::SYNC_MANAGER_3.at(&mut self.client)
     }
     /// SyncManager 4: memory 0x0820.
+    /// Constant: [`objects::SYNC_MANAGER_4`].
     pub fn sync_manager_4(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
         objects::SYNC_MANAGER_4.at(&mut self.client)
     }
     /// SyncManager 5: memory 0x0828.
+    /// Constant: [`objects::SYNC_MANAGER_5`].
     pub fn sync_manager_5(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
         objects::SYNC_MANAGER_5.at(&mut self.client)
     }
     /// SyncManager 6: memory 0x0830.
+    /// Constant: [`objects::SYNC_MANAGER_6`].
     pub fn sync_manager_6(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
         objects::SYNC_MANAGER_6.at(&mut self.client)
     }
     /// SyncManager 7: memory 0x0838.
+    /// Constant: [`objects::SYNC_MANAGER_7`].
     pub fn sync_manager_7(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
         objects::SYNC_MANAGER_7.at(&mut self.client)
     }
     /// SyncManager 8: memory 0x0840.
+    /// Constant: [`objects::SYNC_MANAGER_8`].
     pub fn sync_manager_8(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
         objects::SYNC_MANAGER_8.at(&mut self.client)
     }
     /// ProcOut buffer: memory 0x1100.
+    ///
+    /// Set-points from the master: 64 bytes at most, as many as the assigned PDOs have
+    ///
+    /// Constant: [`objects::PROC_OUT_BUFFER`].
     pub fn proc_out_buffer(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
         objects::PROC_OUT_BUFFER.at(&mut self.client)
     }
     /// ProcIn buffer: memory 0x1140.
+    ///
+    /// Actual values of the drive: 64 bytes at most, as many as the assigned PDOs have
+    ///
+    /// Constant: [`objects::PROC_IN_BUFFER`].
     pub fn proc_in_buffer(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, rt::OctetString, rt::OnEsc> {
         objects::PROC_IN_BUFFER.at(&mut self.client)
     }
     /// Mailbox out buffer: memory 0x1800.
+    ///
+    /// Requests to the drive, of which it reads 16 bytes
+    ///
+    /// Constant: [`objects::MAILBOX_OUT_BUFFER`].
     pub fn mailbox_out_buffer(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OctetString, rt::OnEsc> {
         objects::MAILBOX_OUT_BUFFER.at(&mut self.client)
     }
     /// Mailbox in buffer: memory 0x1C00.
+    ///
+    /// Replies of the drive, of 16 bytes
+    ///
+    /// Constant: [`objects::MAILBOX_IN_BUFFER`].
     pub fn mailbox_in_buffer(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, rt::OctetString, rt::OnEsc> {
         objects::MAILBOX_IN_BUFFER.at(&mut self.client)
     }
     /// RxPDO mapping 1: 0x1600.
+    /// Constants: [`objects::rx_pdo_mapping_1`].
     pub fn rx_pdo_mapping_1(&mut self) -> objects::rx_pdo_mapping_1::Accessors<'_, C> {
         objects::rx_pdo_mapping_1::Accessors {
             client: &mut self.client,
         }
     }
     /// RxPDO mapping 2: 0x1601.
+    /// Constants: [`objects::rx_pdo_mapping_2`].
     pub fn rx_pdo_mapping_2(&mut self) -> objects::rx_pdo_mapping_2::Accessors<'_, C> {
         objects::rx_pdo_mapping_2::Accessors {
             client: &mut self.client,
         }
     }
     /// RxPDO mapping 3: 0x1602.
+    /// Constants: [`objects::rx_pdo_mapping_3`].
     pub fn rx_pdo_mapping_3(&mut self) -> objects::rx_pdo_mapping_3::Accessors<'_, C> {
         objects::rx_pdo_mapping_3::Accessors {
             client: &mut self.client,
         }
     }
     /// RxPDO mapping 4: 0x1603.
+    /// Constants: [`objects::rx_pdo_mapping_4`].
     pub fn rx_pdo_mapping_4(&mut self) -> objects::rx_pdo_mapping_4::Accessors<'_, C> {
         objects::rx_pdo_mapping_4::Accessors {
             client: &mut self.client,
         }
     }
     /// TxPDO mapping 1: 0x1A00.
+    /// Constants: [`objects::tx_pdo_mapping_1`].
     pub fn tx_pdo_mapping_1(&mut self) -> objects::tx_pdo_mapping_1::Accessors<'_, C> {
         objects::tx_pdo_mapping_1::Accessors {
             client: &mut self.client,
         }
     }
     /// TxPDO mapping 2: 0x1A01.
+    /// Constants: [`objects::tx_pdo_mapping_2`].
     pub fn tx_pdo_mapping_2(&mut self) -> objects::tx_pdo_mapping_2::Accessors<'_, C> {
         objects::tx_pdo_mapping_2::Accessors {
             client: &mut self.client,
         }
     }
     /// TxPDO mapping 3: 0x1A02.
+    /// Constants: [`objects::tx_pdo_mapping_3`].
     pub fn tx_pdo_mapping_3(&mut self) -> objects::tx_pdo_mapping_3::Accessors<'_, C> {
         objects::tx_pdo_mapping_3::Accessors {
             client: &mut self.client,
         }
     }
     /// TxPDO mapping 4: 0x1A03.
+    /// Constants: [`objects::tx_pdo_mapping_4`].
     pub fn tx_pdo_mapping_4(&mut self) -> objects::tx_pdo_mapping_4::Accessors<'_, C> {
         objects::tx_pdo_mapping_4::Accessors {
             client: &mut self.client,
         }
     }
     /// Sync manager 2 assignment: 0x1C12.
+    /// Constants: [`objects::sync_manager_2_assignment`].
     pub fn sync_manager_2_assignment(
         &mut self,
     ) -> objects::sync_manager_2_assignment::Accessors<'_, C> {
@@ -623,6 +691,7 @@ impl<C> Akd<C> {
         }
     }
     /// Sync manager 3 assignment: 0x1C13.
+    /// Constants: [`objects::sync_manager_3_assignment`].
     pub fn sync_manager_3_assignment(
         &mut self,
     ) -> objects::sync_manager_3_assignment::Accessors<'_, C> {
@@ -630,79 +699,95 @@ impl<C> Akd<C> {
             client: &mut self.client,
         }
     }
-    /// Second position feedback: 0x2050.
+    /// Second position feedback: 0x2050:00.
+    /// Constant: [`objects::SECOND_POSITION_FEEDBACK`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     pub fn second_position_feedback(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCoE> {
         objects::SECOND_POSITION_FEEDBACK.at(&mut self.client)
     }
-    /// Latch position, rising edge: 0x20A0.
+    /// Latch position, rising edge: 0x20A0:00.
+    ///
+    /// Position captured on the rising edge
+    ///
+    /// Constant: [`objects::LATCH_POSITION_RISING_EDGE`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20).
     pub fn latch_position_rising_edge(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCoE> {
         objects::LATCH_POSITION_RISING_EDGE.at(&mut self.client)
     }
-    /// Latch control word: 0x20A4.
+    /// Latch control word: 0x20A4:00.
+    /// Constant: [`objects::LATCH_CONTROL_WORD`]. Values: [`LatchControl`](types::LatchControl). Carried by [`RxPdo1720`](pdo::RxPdo1720), [`RxPdo1722`](pdo::RxPdo1722), [`RxPdo1723`](pdo::RxPdo1723).
     pub fn latch_control_word(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::LatchControl, rt::OnCoE> {
         objects::LATCH_CONTROL_WORD.at(&mut self.client)
     }
-    /// Latch status word: 0x20A5.
+    /// Latch status word: 0x20A5:00.
+    /// Constant: [`objects::LATCH_STATUS_WORD`]. Values: [`LatchStatus`](types::LatchStatus). Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     pub fn latch_status_word(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::LatchStatus, rt::OnCoE> {
         objects::LATCH_STATUS_WORD.at(&mut self.client)
     }
-    /// Analogue input value: 0x3470.
+    /// Analogue input value: 0x3470:00.
+    /// Constant: [`objects::ANALOGUE_INPUT_VALUE`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     pub fn analogue_input_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i16, rt::OnCoE> {
         objects::ANALOGUE_INPUT_VALUE.at(&mut self.client)
     }
-    /// Control word: 0x6040.
+    /// Control word: 0x6040:00.
+    /// Constant: [`objects::CONTROL_WORD`]. Values: [`ControlWord`](types::ControlWord). Carried by [`RxPdo1701`](pdo::RxPdo1701), [`RxPdo1702`](pdo::RxPdo1702), [`RxPdo1703`](pdo::RxPdo1703), [`RxPdo1720`](pdo::RxPdo1720), [`RxPdo1721`](pdo::RxPdo1721), [`RxPdo1722`](pdo::RxPdo1722), [`RxPdo1723`](pdo::RxPdo1723), [`RxPdo1724`](pdo::RxPdo1724) and 1 more.
     pub fn control_word(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ControlWord, rt::OnCoE> {
         objects::CONTROL_WORD.at(&mut self.client)
     }
-    /// Status word: 0x6041.
+    /// Status word: 0x6041:00.
+    /// Constant: [`objects::STATUS_WORD`]. Values: [`StatusWord`](types::StatusWord). Carried by [`TxPdo1B01`](pdo::TxPdo1B01), [`TxPdo1B02`](pdo::TxPdo1B02), [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B21`](pdo::TxPdo1B21), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23), [`TxPdo1B24`](pdo::TxPdo1B24), [`TxPdo1A00`](pdo::TxPdo1A00).
     pub fn status_word(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::StatusWord, rt::OnCoE> {
         objects::STATUS_WORD.at(&mut self.client)
     }
-    /// Modes of operation: 0x6060.
+    /// Modes of operation: 0x6060:00.
+    /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`ModesOfOperation`](types::ModesOfOperation).
     pub fn modes_of_operation(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ModesOfOperation, rt::OnCoE> {
         objects::MODES_OF_OPERATION.at(&mut self.client)
     }
-    /// Internal position actual value: 0x6063.
+    /// Internal position actual value: 0x6063:00.
+    /// Constant: [`objects::INTERNAL_POSITION_ACTUAL_VALUE`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B21`](pdo::TxPdo1B21), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     pub fn internal_position_actual_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCoE> {
         objects::INTERNAL_POSITION_ACTUAL_VALUE.at(&mut self.client)
     }
-    /// Velocity actual value: 0x606C.
+    /// Velocity actual value: 0x606C:00.
+    /// Constant: [`objects::VELOCITY_ACTUAL_VALUE`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     pub fn velocity_actual_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCoE> {
         objects::VELOCITY_ACTUAL_VALUE.at(&mut self.client)
     }
-    /// Torque actual value: 0x6077.
+    /// Torque actual value: 0x6077:00.
+    /// Constant: [`objects::TORQUE_ACTUAL_VALUE`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     pub fn torque_actual_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, rt::Scaled<i16, 1, 10>, rt::OnCoE> {
         objects::TORQUE_ACTUAL_VALUE.at(&mut self.client)
     }
-    /// Torque feed-forward: 0x60B2.
+    /// Torque feed-forward: 0x60B2:00.
+    /// Constant: [`objects::TORQUE_FEED_FORWARD`]. Carried by [`RxPdo1720`](pdo::RxPdo1720), [`RxPdo1721`](pdo::RxPdo1721), [`RxPdo1722`](pdo::RxPdo1722), [`RxPdo1723`](pdo::RxPdo1723), [`RxPdo1724`](pdo::RxPdo1724).
     pub fn torque_feed_forward(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 10>, rt::OnCoE> {
         objects::TORQUE_FEED_FORWARD.at(&mut self.client)
     }
     /// Interpolation data record: 0x60C1.
+    /// Constants: [`objects::interpolation_data_record`].
     pub fn interpolation_data_record(
         &mut self,
     ) -> objects::interpolation_data_record::Accessors<'_, C> {
@@ -711,6 +796,7 @@ impl<C> Akd<C> {
         }
     }
     /// Interpolation time period: 0x60C2.
+    /// Constants: [`objects::interpolation_time_period`].
     pub fn interpolation_time_period(
         &mut self,
     ) -> objects::interpolation_time_period::Accessors<'_, C> {
@@ -718,25 +804,29 @@ impl<C> Akd<C> {
             client: &mut self.client,
         }
     }
-    /// Following error actual value: 0x60F4.
+    /// Following error actual value: 0x60F4:00.
+    /// Constant: [`objects::FOLLOWING_ERROR_ACTUAL_VALUE`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     pub fn following_error_actual_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCoE> {
         objects::FOLLOWING_ERROR_ACTUAL_VALUE.at(&mut self.client)
     }
-    /// Digital inputs: 0x60FD.
+    /// Digital inputs: 0x60FD:00.
+    /// Constant: [`objects::DIGITAL_INPUTS`]. Values: [`DigitalInputs`](types::DigitalInputs). Carried by [`TxPdo1B20`](pdo::TxPdo1B20), [`TxPdo1B22`](pdo::TxPdo1B22), [`TxPdo1B23`](pdo::TxPdo1B23).
     pub fn digital_inputs(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::DigitalInputs, rt::OnCoE> {
         objects::DIGITAL_INPUTS.at(&mut self.client)
     }
     /// Digital outputs: 0x60FE.
+    /// Constants: [`objects::digital_outputs`].
     pub fn digital_outputs(&mut self) -> objects::digital_outputs::Accessors<'_, C> {
         objects::digital_outputs::Accessors {
             client: &mut self.client,
         }
     }
-    /// Velocity command value: 0x60FF.
+    /// Velocity command value: 0x60FF:00.
+    /// Constant: [`objects::VELOCITY_COMMAND_VALUE`]. Carried by [`RxPdo1702`](pdo::RxPdo1702).
     pub fn velocity_command_value(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnCoE> {
@@ -771,6 +861,8 @@ pub mod messages {
     /// Note: The reply has length 0x0E, for byte 2 to byte 15 (L1230-1231), and as many data as the request. Chosen: 0x0A (the length of the request is that of the data from byte 6 on).
     ///
     /// Note: The reply has 0x20 in byte 7, and calls it an SDO response (L1237); type 2 is the request, 3 the response (L1149-1150, L1188-1189). Chosen: 0x30 (the table of types has it so).
+    ///
+    /// Answered by [`SdoReply`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Sdo {
         /// address: UNSIGNED16.
@@ -947,6 +1039,14 @@ pub mod types {
     /// CommunicationState.
     ///
     /// Manual, line 609-613, 621-625.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 1 | [`Init`](Self::Init) |
+    /// | 2 | [`PreOperational`](Self::PreOperational) |
+    /// | 3 | [`Bootstrap`](Self::Bootstrap) |
+    /// | 4 | [`SafeOperational`](Self::SafeOperational) |
+    /// | 8 | [`Operational`](Self::Operational) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CommunicationState {
         /// 1: init. Manual, line 609, 621: Inizializzazione.
@@ -998,6 +1098,14 @@ pub mod types {
     /// AlStatusCode.
     ///
     /// Manual, line 636-641.
+    ///
+    /// Values of [`AL_STATUS_CODE`](super::objects::AL_STATUS_CODE).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`NoError`](Self::NoError) | In any state, which stays. |
+    /// | 17 | [`InvalidRequestedStateChange`](Self::InvalidRequestedStateChange) | Of I to S, I to O, P to O, O to B, S to B and P to B; the state stays, with the error bit. |
+    /// | 23 | [`InvalidSyncManagerConfiguration`](Self::InvalidSyncManagerConfiguration) | Of I to P and P to S; the state stays, with the error bit. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum AlStatusCode {
         /// 0: no error. In any state, which stays. Manual, line 637: Nessun errore.
@@ -1039,6 +1147,11 @@ pub mod types {
         }
     }
     /// ControlWord target.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Absolute`](Self::Absolute) |
+    /// | 1 | [`Relative`](Self::Relative) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ControlWordTarget {
         /// 0: absolute.
@@ -1074,6 +1187,17 @@ pub mod types {
     /// ModesOfOperation.
     ///
     /// Manual, line 711-716, 1006-1008.
+    ///
+    /// Values of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 1 | [`ProfilePosition`](Self::ProfilePosition) |  |
+    /// | 3 | [`ProfileVelocity`](Self::ProfileVelocity) | Cyclic velocities from the master. |
+    /// | 4 | [`ProfileTorque`](Self::ProfileTorque) |  |
+    /// | 6 | [`Homing`](Self::Homing) | The drive's own homing. |
+    /// | 7 | [`InterpolatedPosition`](Self::InterpolatedPosition) | Cyclic positions from the master, between which the drive interpolates. |
+    /// | 8 | [`CyclicSynchronousPosition`](Self::CyclicSynchronousPosition) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModesOfOperation {
         /// 1: profile position. Manual, line 711: Modalità di posizione del profilo (pp).
@@ -1127,6 +1251,13 @@ pub mod types {
         }
     }
     /// LatchControl read.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 1 | [`Latch1Rising`](Self::Latch1Rising) |
+    /// | 2 | [`Latch1Falling`](Self::Latch1Falling) |
+    /// | 3 | [`Latch2Rising`](Self::Latch2Rising) |
+    /// | 4 | [`Latch2Falling`](Self::Latch2Falling) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum LatchControlRead {
         /// 1: latch 1 rising. Manual, line 1081: Lettura del blocco esterno 1 (tempi di aumento positivi).
@@ -1172,6 +1303,13 @@ pub mod types {
         }
     }
     /// LatchStatus acquired.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 1 | [`Latch1Rising`](Self::Latch1Rising) |
+    /// | 2 | [`Latch1Falling`](Self::Latch1Falling) |
+    /// | 3 | [`Latch2Rising`](Self::Latch2Rising) |
+    /// | 4 | [`Latch2Falling`](Self::Latch2Falling) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum LatchStatusAcquired {
         /// 1: latch 1 rising. Manual, line 1096: Blocco esterno del valore di acquisizione 1 (tempi di aumento positivi).
@@ -1217,6 +1355,11 @@ pub mod types {
         }
     }
     /// Synchronisation.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`On`](Self::On) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Synchronisation {
         /// 0: off.
@@ -1254,6 +1397,11 @@ pub mod types {
         }
     }
     /// Synchronisation supervision.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`On`](Self::On) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum SynchronisationSupervision {
         /// 0: off.
@@ -1291,6 +1439,12 @@ pub mod types {
         }
     }
     /// MailboxType protocol.
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 1 | [`AoE`](Self::AoE) | ADS over EtherCAT: reserved. |
+    /// | 2 | [`EoE`](Self::EoE) | Ethernet over EtherCAT: reserved. |
+    /// | 3 | [`CoE`](Self::CoE) | CAN application protocol over EtherCAT. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum MailboxTypeProtocol {
         /// 1: AoE. Must not be used. ADS over EtherCAT: reserved.
@@ -1334,6 +1488,17 @@ pub mod types {
     /// CoeService.
     ///
     /// Manual, line 1147-1155, 1186-1194.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Reserved`](Self::Reserved) |
+    /// | 1 | [`Emergency`](Self::Emergency) |
+    /// | 2 | [`SdoRequest`](Self::SdoRequest) |
+    /// | 3 | [`SdoResponse`](Self::SdoResponse) |
+    /// | 4 | [`TxPdo`](Self::TxPdo) |
+    /// | 5 | [`RxPdo`](Self::RxPdo) |
+    /// | 6 | [`TxPdoRemoteRequest`](Self::TxPdoRemoteRequest) |
+    /// | 7 | [`RxPdoRemoteRequest`](Self::RxPdoRemoteRequest) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CoeService {
         /// 0: reserved. Must not be used. Manual, line 1147, 1186: Riserva.
@@ -1397,6 +1562,14 @@ pub mod types {
     /// SdoCommand.
     ///
     /// Manual, line 1156-1158.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 35 | [`Write4Bytes`](Self::Write4Bytes) |
+    /// | 39 | [`Write3Bytes`](Self::Write3Bytes) |
+    /// | 43 | [`Write2Bytes`](Self::Write2Bytes) |
+    /// | 47 | [`Write1Byte`](Self::Write1Byte) |
+    /// | 64 | [`Read`](Self::Read) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum SdoCommand {
         /// 35: write 4 bytes. Manual, line 1157.
@@ -1448,6 +1621,15 @@ pub mod types {
     /// SdoResult.
     ///
     /// Manual, line 1195-1198.
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 67 | [`Read4Bytes`](Self::Read4Bytes) |  |
+    /// | 71 | [`Read3Bytes`](Self::Read3Bytes) |  |
+    /// | 75 | [`Read2Bytes`](Self::Read2Bytes) |  |
+    /// | 79 | [`Read1Byte`](Self::Read1Byte) |  |
+    /// | 96 | [`Written`](Self::Written) |  |
+    /// | 128 | [`Error`](Self::Error) | Of reading or writing. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum SdoResult {
         /// 67: read 4 bytes. Manual, line 1197.
@@ -1503,6 +1685,15 @@ pub mod types {
     /// AlControl.
     ///
     /// Manual, line 607-616.
+    ///
+    /// Values of [`AL_CONTROL`](super::objects::AL_CONTROL).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–3 | [`request`](Self::request) | State that is asked for. Values: [`CommunicationState`]. |
+    /// | 4 | [`acknowledge`](Self::acknowledge) | Acknowledges an error. Acts on the change from 0 to 1. |
+    /// | 5–7 | reserved |  |
+    /// | 8–15 | [`application_specific`](Self::application_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct AlControl(u16);
     impl AlControl {
@@ -1577,6 +1768,15 @@ pub mod types {
     /// AlStatus.
     ///
     /// Manual, line 619-628.
+    ///
+    /// Values of [`AL_STATUS`](super::objects::AL_STATUS).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–3 | [`current`](Self::current) | State that the drive is in. Values: [`CommunicationState`]. |
+    /// | 4 | [`error`](Self::error) | The change of state failed, as one that is forbidden; the AL status code says why. |
+    /// | 5–7 | reserved |  |
+    /// | 8–15 | [`application_specific`](Self::application_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct AlStatus(u16);
     impl AlStatus {
@@ -1651,6 +1851,23 @@ pub mod types {
     /// InterruptEnable.
     ///
     /// Manual, line 565-578.
+    ///
+    /// Values of [`INTERRUPT_ENABLE`](super::objects::INTERRUPT_ENABLE).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`al_control_event`](Self::al_control_event) |  |
+    /// | 1 | reserved |  |
+    /// | 2 | [`dc_sync0`](Self::dc_sync0) |  |
+    /// | 3 | [`dc_sync1`](Self::dc_sync1) |  |
+    /// | 4 | [`sync_manager_activation_changed`](Self::sync_manager_activation_changed) |  |
+    /// | 5 | [`eeprom_emulation`](Self::eeprom_emulation) |  |
+    /// | 6–7 | reserved |  |
+    /// | 8 | [`sync_manager_0`](Self::sync_manager_0) | Mailbox out: requests to the drive. |
+    /// | 9 | [`sync_manager_1`](Self::sync_manager_1) | Mailbox in: replies of the drive. |
+    /// | 10 | [`sync_manager_2`](Self::sync_manager_2) | Process data out: cyclic set-points. |
+    /// | 11 | [`sync_manager_3`](Self::sync_manager_3) | Process data in: cyclic actual values. |
+    /// | 12–15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct InterruptEnable(u16);
     impl InterruptEnable {
@@ -1784,6 +2001,23 @@ pub mod types {
     /// AlEventRequest.
     ///
     /// Manual, line 582-598.
+    ///
+    /// Values of [`AL_EVENT_REQUEST`](super::objects::AL_EVENT_REQUEST).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`al_control_event`](Self::al_control_event) | The master asks for another state. |
+    /// | 1 | reserved |  |
+    /// | 2 | [`dc_sync0`](Self::dc_sync0) |  |
+    /// | 3 | [`dc_sync1`](Self::dc_sync1) |  |
+    /// | 4 | [`sync_manager_activation_changed`](Self::sync_manager_activation_changed) |  |
+    /// | 5 | [`eeprom_emulation`](Self::eeprom_emulation) | By which the drive is identified on the network. |
+    /// | 6–7 | reserved |  |
+    /// | 8 | [`sync_manager_0`](Self::sync_manager_0) | Request in the mailbox. |
+    /// | 9 | [`sync_manager_1`](Self::sync_manager_1) | Reply in the mailbox. |
+    /// | 10 | [`sync_manager_2`](Self::sync_manager_2) | Cyclic set-points. |
+    /// | 11 | [`sync_manager_3`](Self::sync_manager_3) | Cyclic actual values. |
+    /// | 12–15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct AlEventRequest(u16);
     impl AlEventRequest {
@@ -1917,6 +2151,24 @@ pub mod types {
     /// ControlWord.
     ///
     /// Manual, line 682-691, 704-724.
+    ///
+    /// Values of [`CONTROL_WORD`](super::objects::CONTROL_WORD).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`switch_on`](Self::switch_on) |  |
+    /// | 1 | [`disable_voltage`](Self::disable_voltage) | 0 disables the voltage. Holds while the bit is 0. |
+    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 commands a quick stop. Holds while the bit is 0. |
+    /// | 3 | [`enable_operation`](Self::enable_operation) | The change from 0 to 1 lets set-points through. |
+    /// | 4 | [`in_profile_position().new_set_point()`](ControlWordInProfilePosition::new_set_point) | Acts on the change from 0 to 1. |
+    /// | 4 | [`in_homing().homing_operation_start()`](ControlWordInHoming::homing_operation_start) | Acts on the change from 0 to 1. |
+    /// | 5 | [`in_profile_position().change_set_immediately()`](ControlWordInProfilePosition::change_set_immediately) |  |
+    /// | 6 | [`in_profile_position().target()`](ControlWordInProfilePosition::target) | Values: [`ControlWordTarget`]. |
+    /// | 7 | [`fault_reset`](Self::fault_reset) | Of faults only. Acts on the change from 0 to 1. |
+    /// | 8 | [`halt`](Self::halt) | The drive stops in every mode and keeps the set-points of the mode. |
+    /// | 9–10 | reserved |  |
+    /// | 11–12 | reserved |  |
+    /// | 13–15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ControlWord(u16);
     impl ControlWord {
@@ -1986,11 +2238,11 @@ pub mod types {
         pub const fn with_halt(self, value: bool) -> Self {
             Self((self.0 & !0x100) | ((value as u16) << 8))
         }
-        /// The bits that have their meaning while Modes of operation is profile position (1).
+        /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
         pub const fn in_profile_position(self) -> ControlWordInProfilePosition {
             ControlWordInProfilePosition(self.0)
         }
-        /// The bits that have their meaning while Modes of operation is homing (6).
+        /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
         pub const fn in_homing(self) -> ControlWordInHoming {
             ControlWordInHoming(self.0)
         }
@@ -2021,7 +2273,7 @@ pub mod types {
             bits.finish()
         }
     }
-    /// [`ControlWord`] while Modes of operation is profile position (1).
+    /// [`ControlWord`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
     #[derive(Clone, Copy)]
     pub struct ControlWordInProfilePosition(u16);
     impl ControlWordInProfilePosition {
@@ -2057,7 +2309,7 @@ pub mod types {
             Self((self.0 & !0x40) | (((value.raw() as u16) << 6) & 0x40))
         }
     }
-    /// [`ControlWord`] while Modes of operation is homing (6).
+    /// [`ControlWord`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
     #[derive(Clone, Copy)]
     pub struct ControlWordInHoming(u16);
     impl ControlWordInHoming {
@@ -2079,7 +2331,26 @@ pub mod types {
     ///
     /// Manual, line 729-738, 754-764.
     ///
+    /// Values of [`STATUS_WORD`](super::objects::STATUS_WORD).
+    ///
     /// Bits 0x200 are written as 1.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`ready_to_switch_on`](Self::ready_to_switch_on) |  |
+    /// | 1 | [`switched_on`](Self::switched_on) |  |
+    /// | 2 | [`operation_enabled`](Self::operation_enabled) |  |
+    /// | 3 | [`fault`](Self::fault) |  |
+    /// | 4 | [`voltage_enabled`](Self::voltage_enabled) | There is voltage on the DC link. |
+    /// | 5 | [`quick_stop`](Self::quick_stop) | 0 while a quick stop is active. Holds while the bit is 0. |
+    /// | 6 | [`switch_on_disabled`](Self::switch_on_disabled) |  |
+    /// | 7 | [`warning`](Self::warning) | For one of several reasons. |
+    /// | 8 | reserved |  |
+    /// | 9 | reserved | Written as 1. |
+    /// | 10 | [`target_reached`](Self::target_reached) |  |
+    /// | 11 | [`internal_limit_active`](Self::internal_limit_active) | A movement is or was limited; by what depends on the mode. |
+    /// | 12–13 | reserved |  |
+    /// | 14–15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct StatusWord(u16);
     impl StatusWord {
@@ -2222,6 +2493,19 @@ pub mod types {
     /// LatchControl.
     ///
     /// Manual, line 1071-1085.
+    ///
+    /// Values of [`LATCH_CONTROL_WORD`](super::objects::LATCH_CONTROL_WORD).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`enable_latch_1_rising`](Self::enable_latch_1_rising) |  |
+    /// | 1 | [`enable_latch_1_falling`](Self::enable_latch_1_falling) |  |
+    /// | 2 | [`enable_latch_2_rising`](Self::enable_latch_2_rising) |  |
+    /// | 3 | [`enable_latch_2_falling`](Self::enable_latch_2_falling) |  |
+    /// | 4 | reserved |  |
+    /// | 5–7 | reserved |  |
+    /// | 8–12 | [`read`](Self::read) | Which captured position is read; a number, of which 3 has two bits. Values: [`LatchControlRead`]. |
+    /// | 13–15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct LatchControl(u16);
     impl LatchControl {
@@ -2311,6 +2595,22 @@ pub mod types {
     /// LatchStatus.
     ///
     /// Manual, line 1087-1103.
+    ///
+    /// Values of [`LATCH_STATUS_WORD`](super::objects::LATCH_STATUS_WORD).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`latch_1_rising_valid`](Self::latch_1_rising_valid) |  |
+    /// | 1 | [`latch_1_falling_valid`](Self::latch_1_falling_valid) |  |
+    /// | 2 | [`latch_2_rising_valid`](Self::latch_2_rising_valid) |  |
+    /// | 3 | [`latch_2_falling_valid`](Self::latch_2_falling_valid) |  |
+    /// | 4 | reserved |  |
+    /// | 5–7 | reserved |  |
+    /// | 8–11 | [`acquired`](Self::acquired) | Which captured position is there; a number, of which 3 has two bits. Values: [`LatchStatusAcquired`]. |
+    /// | 12 | [`digital_input_4`](Self::digital_input_4) |  |
+    /// | 13 | [`digital_input_3`](Self::digital_input_3) |  |
+    /// | 14 | [`digital_input_2`](Self::digital_input_2) |  |
+    /// | 15 | [`digital_input_1`](Self::digital_input_1) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct LatchStatus(u16);
     impl LatchStatus {
@@ -2440,6 +2740,14 @@ pub mod types {
     /// PdoMapping.
     ///
     /// Manual, line 927-928, 934-935.
+    ///
+    /// Values of [`rx_pdo_mapping_1::ENTRY_1`](super::objects::rx_pdo_mapping_1::ENTRY_1), [`rx_pdo_mapping_1::ENTRY_2`](super::objects::rx_pdo_mapping_1::ENTRY_2), [`rx_pdo_mapping_1::ENTRY_3`](super::objects::rx_pdo_mapping_1::ENTRY_3), [`rx_pdo_mapping_1::ENTRY_4`](super::objects::rx_pdo_mapping_1::ENTRY_4), [`rx_pdo_mapping_2::ENTRY_1`](super::objects::rx_pdo_mapping_2::ENTRY_1), [`rx_pdo_mapping_2::ENTRY_2`](super::objects::rx_pdo_mapping_2::ENTRY_2), [`rx_pdo_mapping_2::ENTRY_3`](super::objects::rx_pdo_mapping_2::ENTRY_3), [`rx_pdo_mapping_2::ENTRY_4`](super::objects::rx_pdo_mapping_2::ENTRY_4) and 24 more.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–7 | [`length`](Self::length) | In bits. |
+    /// | 8–15 | [`sub_index`](Self::sub_index) |  |
+    /// | 16–31 | [`index`](Self::index) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct PdoMapping(u32);
     impl PdoMapping {
@@ -2514,6 +2822,11 @@ pub mod types {
     /// MailboxRouting.
     ///
     /// Manual, line 1141, 1180.
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0–5 | [`channel`](Self::channel) |
+    /// | 6–7 | [`priority`](Self::priority) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct MailboxRouting(u8);
     impl MailboxRouting {
@@ -2575,6 +2888,11 @@ pub mod types {
     /// Manual, line 1142-1143, 1181-1182.
     ///
     /// Bits 0xF0 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–3 | [`protocol`](Self::protocol) | Values: [`MailboxTypeProtocol`]. |
+    /// | 4–7 | reserved | Written as 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct MailboxType(u8);
     impl MailboxType {
@@ -2629,6 +2947,12 @@ pub mod types {
     /// Manual, line 1144-1155, 1183-1194.
     ///
     /// Bits 0xE00 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–8 | [`pdo_number`](Self::pdo_number) | Of PDOs only: byte 6 with bit 0 of byte 7 on top. |
+    /// | 9–11 | reserved | Written as 0. |
+    /// | 12–15 | [`service`](Self::service) | Values: [`CoeService`]. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct CoeHeader(u16);
     impl CoeHeader {
@@ -2694,6 +3018,16 @@ pub mod types {
         }
     }
     /// DigitalInputs.
+    ///
+    /// Values of [`DIGITAL_INPUTS`](super::objects::DIGITAL_INPUTS).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | [`negative_limit_switch`](Self::negative_limit_switch) |
+    /// | 1 | [`positive_limit_switch`](Self::positive_limit_switch) |
+    /// | 2 | [`home_switch`](Self::home_switch) |
+    /// | 3 | [`interlock`](Self::interlock) |
+    /// | 16–31 | [`manufacturer_specific`](Self::manufacturer_specific) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DigitalInputs(u32);
     impl DigitalInputs {
@@ -2786,6 +3120,13 @@ pub mod types {
         }
     }
     /// DigitalOutputs.
+    ///
+    /// Values of [`digital_outputs::PHYSICAL_OUTPUTS`](super::objects::digital_outputs::PHYSICAL_OUTPUTS).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`brake`](Self::brake) | Set, the brake is applied. |
+    /// | 16–31 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DigitalOutputs(u32);
     impl DigitalOutputs {
@@ -2847,7 +3188,19 @@ pub mod types {
             bits.finish()
         }
     }
-    /// States of al, as AL status tells them.
+    /// States of al, as [AL status](super::objects::AL_STATUS) tells them.
+    ///
+    /// States of the EtherCAT communication. Bit 4 of the status tells that a change was refused, and the AL status code why.
+    ///
+    /// Manual, line 600-604, 646-659.
+    ///
+    /// | State | Mask | Value |
+    /// |---|---|---|
+    /// | [`Init`](Self::Init) | 0xF | 0x1 |
+    /// | [`PreOperational`](Self::PreOperational) | 0xF | 0x2 |
+    /// | [`Bootstrap`](Self::Bootstrap) | 0xF | 0x3 |
+    /// | [`SafeOperational`](Self::SafeOperational) | 0xF | 0x4 |
+    /// | [`Operational`](Self::Operational) | 0xF | 0x8 |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum AlState {
         /// init: 0x1 of the bits 0xF.
@@ -2951,21 +3304,35 @@ pub mod types {
             rt::Step::toward(Self::TRANSITIONS, self as u8, target as u8)
         }
     }
-    /// Commands of al, as AL control takes them.
+    /// Commands of al, as [AL control](super::objects::AL_CONTROL) takes them.
+    ///
+    /// States of the EtherCAT communication. Bit 4 of the status tells that a change was refused, and the AL status code why.
+    ///
+    /// Manual, line 600-604, 646-659.
+    ///
+    /// | Command | Mask | Value |
+    /// |---|---|---|
+    /// | [`RequestInit`](Self::RequestInit) | 0xF | 0x1 |
+    /// | [`RequestPreOperational`](Self::RequestPreOperational) | 0xF | 0x2 |
+    /// | [`RequestBootstrap`](Self::RequestBootstrap) | 0xF | 0x3 |
+    /// | [`RequestSafeOperational`](Self::RequestSafeOperational) | 0xF | 0x4 |
+    /// | [`RequestOperational`](Self::RequestOperational) | 0xF | 0x8 |
     ///
     /// Transitions:
     ///
-    /// - init to bootstrap, on request\_bootstrap
-    /// - bootstrap to init, on request\_init
-    /// - init to pre\_operational, on request\_pre\_operational. The drive checks start address and length of sync managers 0 and 1, and gets ready for requests.
-    /// - pre\_operational to init, on request\_init
-    /// - pre\_operational to safe\_operational, on request\_safe\_operational. The drive checks start address and length of sync managers 2 and 3.
-    /// - safe\_operational to pre\_operational, on request\_pre\_operational
-    /// - safe\_operational to init, on request\_init
-    /// - safe\_operational to operational, on request\_operational. The drive lets the event of sync manager 2 interrupt it.
-    /// - operational to safe\_operational, on request\_safe\_operational. The event of sync manager 2 interrupts no more.
-    /// - operational to pre\_operational, on request\_pre\_operational. The event of sync manager 2 interrupts no more.
-    /// - operational to init, on request\_init. The event of sync manager 2 interrupts no more.
+    /// | From | To | By | Meaning |
+    /// |---|---|---|---|
+    /// | [`Init`](AlState::Init) | [`Bootstrap`](AlState::Bootstrap) | [`RequestBootstrap`](AlCommand::RequestBootstrap) |  |
+    /// | [`Bootstrap`](AlState::Bootstrap) | [`Init`](AlState::Init) | [`RequestInit`](AlCommand::RequestInit) |  |
+    /// | [`Init`](AlState::Init) | [`PreOperational`](AlState::PreOperational) | [`RequestPreOperational`](AlCommand::RequestPreOperational) | The drive checks start address and length of sync managers 0 and 1, and gets ready for requests. |
+    /// | [`PreOperational`](AlState::PreOperational) | [`Init`](AlState::Init) | [`RequestInit`](AlCommand::RequestInit) |  |
+    /// | [`PreOperational`](AlState::PreOperational) | [`SafeOperational`](AlState::SafeOperational) | [`RequestSafeOperational`](AlCommand::RequestSafeOperational) | The drive checks start address and length of sync managers 2 and 3. |
+    /// | [`SafeOperational`](AlState::SafeOperational) | [`PreOperational`](AlState::PreOperational) | [`RequestPreOperational`](AlCommand::RequestPreOperational) |  |
+    /// | [`SafeOperational`](AlState::SafeOperational) | [`Init`](AlState::Init) | [`RequestInit`](AlCommand::RequestInit) |  |
+    /// | [`SafeOperational`](AlState::SafeOperational) | [`Operational`](AlState::Operational) | [`RequestOperational`](AlCommand::RequestOperational) | The drive lets the event of sync manager 2 interrupt it. |
+    /// | [`Operational`](AlState::Operational) | [`SafeOperational`](AlState::SafeOperational) | [`RequestSafeOperational`](AlCommand::RequestSafeOperational) | The event of sync manager 2 interrupts no more. |
+    /// | [`Operational`](AlState::Operational) | [`PreOperational`](AlState::PreOperational) | [`RequestPreOperational`](AlCommand::RequestPreOperational) | The event of sync manager 2 interrupts no more. |
+    /// | [`Operational`](AlState::Operational) | [`Init`](AlState::Init) | [`RequestInit`](AlCommand::RequestInit) | The event of sync manager 2 interrupts no more. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum AlCommand {
         /// request init: 0x1 of the bits 0xF.
@@ -3008,7 +3375,22 @@ pub mod types {
             Self((self.0 & !command.mask()) | command.value())
         }
     }
-    /// States of drive, as Status word tells them.
+    /// States of drive, as [Status word](super::objects::STATUS_WORD) tells them.
+    ///
+    /// The states of DS402, by the patterns of the manual. Switch on is also disable operation or enable operation: the state decides.
+    ///
+    /// Manual, line 663-677, 693-702, 740-752.
+    ///
+    /// | State | Mask | Value | Meaning |
+    /// |---|---|---|---|
+    /// | [`NotReadyToSwitchOn`](Self::NotReadyToSwitchOn) | 0x4F | 0 | The drive is starting, or has an error. |
+    /// | [`SwitchOnDisabled`](Self::SwitchOnDisabled) | 0x4F | 0x40 | The drive can't be enabled, as without mains. |
+    /// | [`ReadyToSwitchOn`](Self::ReadyToSwitchOn) | 0x6F | 0x21 | The drive can be enabled by the control word. |
+    /// | [`SwitchedOn`](Self::SwitchedOn) | 0x6F | 0x23 | The drive is enabled, and set-points aren't let through yet. |
+    /// | [`OperationEnabled`](Self::OperationEnabled) | 0x6F | 0x27 | Set-points are let through. |
+    /// | [`Fault`](Self::Fault) | 0x4F | 0x8 | The drive is stopped and disabled. |
+    /// | [`FaultReactionActive`](Self::FaultReactionActive) | 0x4F | 0xF | The drive stops with an emergency ramp. |
+    /// | [`QuickStopActive`](Self::QuickStopActive) | 0x6F | 0x7 | The drive stops with the quick stop ramp. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DriveState {
         /// not ready to switch on: 0 of the bits 0x4F. The drive is starting, or has an error.
@@ -3157,28 +3539,44 @@ pub mod types {
             rt::Step::toward(Self::TRANSITIONS, self as u8, target as u8)
         }
     }
-    /// Commands of drive, as Control word takes them.
+    /// Commands of drive, as [Control word](super::objects::CONTROL_WORD) takes them.
+    ///
+    /// The states of DS402, by the patterns of the manual. Switch on is also disable operation or enable operation: the state decides.
+    ///
+    /// Manual, line 663-677, 693-702, 740-752.
+    ///
+    /// | Command | Mask | Value | Meaning |
+    /// |---|---|---|---|
+    /// | [`Shutdown`](Self::Shutdown) | 0x7 | 0x6 |  |
+    /// | [`SwitchOn`](Self::SwitchOn) | 0x7 | 0x7 |  |
+    /// | [`DisableVoltage`](Self::DisableVoltage) | 0x2 | 0 |  |
+    /// | [`QuickStop`](Self::QuickStop) | 0x6 | 0x2 |  |
+    /// | [`DisableOperation`](Self::DisableOperation) | 0xF | 0x7 |  |
+    /// | [`EnableOperation`](Self::EnableOperation) | 0xF | 0xF |  |
+    /// | [`FaultReset`](Self::FaultReset) | 0x80 | 0x80 | Acts on the change of bit 7 from 0 to 1. |
     ///
     /// Transitions:
     ///
-    /// - 1: not\_ready\_to\_switch\_on to switch\_on\_disabled, by itself. The drive does it by itself after its start.
-    /// - 2: switch\_on\_disabled to ready\_to\_switch\_on, on shutdown
-    /// - 3: ready\_to\_switch\_on to switched\_on, on switch\_on
-    /// - 4: switched\_on to operation\_enabled, on enable\_operation
-    /// - 5: operation\_enabled to switched\_on, on disable\_operation
-    /// - 6: switched\_on to ready\_to\_switch\_on, on shutdown
-    /// - 7: ready\_to\_switch\_on to switch\_on\_disabled, on disable\_voltage
-    /// - 7: ready\_to\_switch\_on to switch\_on\_disabled, on quick\_stop
-    /// - 8: operation\_enabled to ready\_to\_switch\_on, on shutdown
-    /// - 9: operation\_enabled to switch\_on\_disabled, on disable\_voltage
-    /// - 10: switched\_on to switch\_on\_disabled, on disable\_voltage
-    /// - 10: switched\_on to switch\_on\_disabled, on quick\_stop
-    /// - 11: operation\_enabled to quick\_stop\_active, on quick\_stop
-    /// - 12: quick\_stop\_active to switch\_on\_disabled, on disable\_voltage
-    /// - 13: any state to fault\_reaction\_active, by itself. On a fault, from any state.
-    /// - 14: fault\_reaction\_active to fault, by itself. The drive does it by itself when its reaction to the fault is done.
-    /// - 15: fault to switch\_on\_disabled, on fault\_reset
-    /// - 16: quick\_stop\_active to operation\_enabled, on enable\_operation
+    /// | No. | From | To | By | Meaning |
+    /// |---|---|---|---|---|
+    /// | 1 | [`NotReadyToSwitchOn`](DriveState::NotReadyToSwitchOn) | [`SwitchOnDisabled`](DriveState::SwitchOnDisabled) | itself | The drive does it by itself after its start. |
+    /// | 2 | [`SwitchOnDisabled`](DriveState::SwitchOnDisabled) | [`ReadyToSwitchOn`](DriveState::ReadyToSwitchOn) | [`Shutdown`](DriveCommand::Shutdown) |  |
+    /// | 3 | [`ReadyToSwitchOn`](DriveState::ReadyToSwitchOn) | [`SwitchedOn`](DriveState::SwitchedOn) | [`SwitchOn`](DriveCommand::SwitchOn) |  |
+    /// | 4 | [`SwitchedOn`](DriveState::SwitchedOn) | [`OperationEnabled`](DriveState::OperationEnabled) | [`EnableOperation`](DriveCommand::EnableOperation) |  |
+    /// | 5 | [`OperationEnabled`](DriveState::OperationEnabled) | [`SwitchedOn`](DriveState::SwitchedOn) | [`DisableOperation`](DriveCommand::DisableOperation) |  |
+    /// | 6 | [`SwitchedOn`](DriveState::SwitchedOn) | [`ReadyToSwitchOn`](DriveState::ReadyToSwitchOn) | [`Shutdown`](DriveCommand::Shutdown) |  |
+    /// | 7 | [`ReadyToSwitchOn`](DriveState::ReadyToSwitchOn) | [`SwitchOnDisabled`](DriveState::SwitchOnDisabled) | [`DisableVoltage`](DriveCommand::DisableVoltage) |  |
+    /// | 7 | [`ReadyToSwitchOn`](DriveState::ReadyToSwitchOn) | [`SwitchOnDisabled`](DriveState::SwitchOnDisabled) | [`QuickStop`](DriveCommand::QuickStop) |  |
+    /// | 8 | [`OperationEnabled`](DriveState::OperationEnabled) | [`ReadyToSwitchOn`](DriveState::ReadyToSwitchOn) | [`Shutdown`](DriveCommand::Shutdown) |  |
+    /// | 9 | [`OperationEnabled`](DriveState::OperationEnabled) | [`SwitchOnDisabled`](DriveState::SwitchOnDisabled) | [`DisableVoltage`](DriveCommand::DisableVoltage) |  |
+    /// | 10 | [`SwitchedOn`](DriveState::SwitchedOn) | [`SwitchOnDisabled`](DriveState::SwitchOnDisabled) | [`DisableVoltage`](DriveCommand::DisableVoltage) |  |
+    /// | 10 | [`SwitchedOn`](DriveState::SwitchedOn) | [`SwitchOnDisabled`](DriveState::SwitchOnDisabled) | [`QuickStop`](DriveCommand::QuickStop) |  |
+    /// | 11 | [`OperationEnabled`](DriveState::OperationEnabled) | [`QuickStopActive`](DriveState::QuickStopActive) | [`QuickStop`](DriveCommand::QuickStop) |  |
+    /// | 12 | [`QuickStopActive`](DriveState::QuickStopActive) | [`SwitchOnDisabled`](DriveState::SwitchOnDisabled) | [`DisableVoltage`](DriveCommand::DisableVoltage) |  |
+    /// | 13 | any state | [`FaultReactionActive`](DriveState::FaultReactionActive) | itself | On a fault, from any state. |
+    /// | 14 | [`FaultReactionActive`](DriveState::FaultReactionActive) | [`Fault`](DriveState::Fault) | itself | The drive does it by itself when its reaction to the fault is done. |
+    /// | 15 | [`Fault`](DriveState::Fault) | [`SwitchOnDisabled`](DriveState::SwitchOnDisabled) | [`FaultReset`](DriveCommand::FaultReset) |  |
+    /// | 16 | [`QuickStopActive`](DriveState::QuickStopActive) | [`OperationEnabled`](DriveState::OperationEnabled) | [`EnableOperation`](DriveCommand::EnableOperation) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DriveCommand {
         /// shutdown: 0x6 of the bits 0x7.
@@ -3240,6 +3638,8 @@ pub mod codes {
     /// Manual, line 636-641.
     ///
     /// Further columns: change of state, resulting state.
+    ///
+    /// As a type: [`AlStatus`].
     pub static AL_STATUS: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             0,
@@ -3270,6 +3670,12 @@ pub mod codes {
         ),
     ];
     /// A code of [`AL_STATUS`].
+    ///
+    /// | Code | Name |
+    /// |---|---|
+    /// | 0 | [`NoError`](Self::NoError) |
+    /// | 0x11 | [`InvalidRequestedStateChange`](Self::InvalidRequestedStateChange) |
+    /// | 0x17 | [`InvalidSyncManagerConfiguration`](Self::InvalidSyncManagerConfiguration) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum AlStatus {
         /// 0: no error. Manual, line 637: Nessun errore.
@@ -3310,6 +3716,8 @@ pub mod codes {
     /// Manual, line 1004-1008.
     ///
     /// Further columns: DRV.OPMODE, DRV.CMDSOURCE.
+    ///
+    /// As a type: [`OperatingModes`].
     pub static OPERATING_MODES: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             3,
@@ -3334,6 +3742,12 @@ pub mod codes {
         ),
     ];
     /// A code of [`OPERATING_MODES`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 3 | [`ProfileVelocity`](Self::ProfileVelocity) | Cyclic velocities from the master. |
+    /// | 7 | [`InterpolatedPosition`](Self::InterpolatedPosition) | Cyclic positions from the master. |
+    /// | 6 | [`Homing`](Self::Homing) | The drive's own homing. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum OperatingModes {
         /// 3: profile velocity. Cyclic velocities from the master. Manual, line 1006: Velocità del profilo.
@@ -3372,6 +3786,8 @@ pub mod codes {
     /// The one fault that the manual names.
     ///
     /// Manual, line 1261.
+    ///
+    /// As a type: [`Faults`].
     pub static FAULTS: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             0x7D,
@@ -3382,6 +3798,10 @@ pub mod codes {
         ),
     ];
     /// A code of [`FAULTS`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0x7D | [`SynchronisationLost`](Self::SynchronisationLost) | F125: more than three SYNC messages of CANopen, or seven frames of EtherCAT, were missed while the … |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Faults {
         /// 0x7D: synchronisation lost. F125: more than three SYNC messages of CANopen, or seven frames of EtherCAT, were missed while the drive was enabled and FBUS.PARAM04 was 1. Manual, line 1261: Sincronizzazione persa.
@@ -3408,6 +3828,8 @@ pub mod codes {
         }
     }
     /// drive errors.
+    ///
+    /// As a type: [`DriveErrors`].
     pub static DRIVE_ERRORS: &[rt::codes::Code] = &[
         rt::codes::Code::new(0x2310, 0x2310, "continuous over-current", "", &[]),
         rt::codes::Code::new(0x2320, 0x2320, "short circuit or earth leakage", "", &[]),
@@ -3444,6 +3866,42 @@ pub mod codes {
         rt::codes::Code::new(0xF004, 0xF004, "control", "", &[]),
     ];
     /// A code of [`DRIVE_ERRORS`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0x2310 | [`ContinuousOverCurrent`](Self::ContinuousOverCurrent) |  |
+    /// | 0x2320 | [`ShortCircuitOrEarthLeakage`](Self::ShortCircuitOrEarthLeakage) |  |
+    /// | 0x2330 | [`EarthLeakage`](Self::EarthLeakage) |  |
+    /// | 0x3110 | [`MainsOverVoltage`](Self::MainsOverVoltage) |  |
+    /// | 0x3120 | [`MainsUnderVoltage`](Self::MainsUnderVoltage) |  |
+    /// | 0x3130 | [`PhaseFailure`](Self::PhaseFailure) |  |
+    /// | 0x3210 | [`DcLinkOverVoltage`](Self::DcLinkOverVoltage) |  |
+    /// | 0x3220 | [`DcLinkUnderVoltage`](Self::DcLinkUnderVoltage) |  |
+    /// | 0x4110 | [`AmbientTemperatureTooHigh`](Self::AmbientTemperatureTooHigh) |  |
+    /// | 0x4210 | [`DeviceTemperatureTooHigh`](Self::DeviceTemperatureTooHigh) |  |
+    /// | 0x4310 | [`DriveTemperatureTooHigh`](Self::DriveTemperatureTooHigh) |  |
+    /// | 0x5530 | [`NonVolatileMemory`](Self::NonVolatileMemory) |  |
+    /// | 0x6010 | [`SoftwareResetByTheWatchdog`](Self::SoftwareResetByTheWatchdog) |  |
+    /// | 0x6310 | [`LossOfParameters`](Self::LossOfParameters) |  |
+    /// | 0x6320 | [`ParameterError`](Self::ParameterError) |  |
+    /// | 0x7110 | [`BrakeChopper`](Self::BrakeChopper) |  |
+    /// | 0x7121 | [`MotorBlocked`](Self::MotorBlocked) |  |
+    /// | 0x7122 | [`MotorErrorOrCommutation`](Self::MotorErrorOrCommutation) | motor error, or commutation. |
+    /// | 0x7305 | [`IncrementalSensor1`](Self::IncrementalSensor1) |  |
+    /// | 0x7306 | [`IncrementalSensor2`](Self::IncrementalSensor2) |  |
+    /// | 0x7310 | [`SpeedSensor`](Self::SpeedSensor) |  |
+    /// | 0x7320 | [`PositionSensor`](Self::PositionSensor) |  |
+    /// | 0x8311 | [`TorqueTooHigh`](Self::TorqueTooHigh) |  |
+    /// | 0x8331 | [`TorqueFault`](Self::TorqueFault) |  |
+    /// | 0x8400 | [`VelocityController`](Self::VelocityController) |  |
+    /// | 0x8500 | [`PositionController`](Self::PositionController) |  |
+    /// | 0x8600 | [`PositioningController`](Self::PositioningController) |  |
+    /// | 0x8611 | [`FollowingError`](Self::FollowingError) |  |
+    /// | 0x8612 | [`ReferenceLimit`](Self::ReferenceLimit) |  |
+    /// | 0xF001 | [`Deceleration`](Self::Deceleration) |  |
+    /// | 0xF002 | [`SubSynchronousRun`](Self::SubSynchronousRun) |  |
+    /// | 0xF003 | [`StrokeOperation`](Self::StrokeOperation) |  |
+    /// | 0xF004 | [`Control`](Self::Control) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DriveErrors {
         /// 0x2310: continuous over-current.
@@ -3598,6 +4056,8 @@ pub mod codes {
         }
     }
     /// emergency.
+    ///
+    /// As a type: [`Emergency`].
     pub static EMERGENCY: &[rt::codes::Code] = &[
         rt::codes::Code::new(0, 0, "no error", "Or an error is gone.", &[]),
         rt::codes::Code::new(0x1000, 0x10FF, "generic error", "", &[]),
@@ -3654,6 +4114,44 @@ pub mod codes {
         rt::codes::Code::new(0xFF00, 0xFFFF, "device specific", "", &[]),
     ];
     /// A code of [`EMERGENCY`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`NoError`](Self::NoError) | Or an error is gone. |
+    /// | 0x1000 to 0x10FF | [`GenericError`](Self::GenericError) |  |
+    /// | 0x2000 to 0x20FF | [`Current`](Self::Current) |  |
+    /// | 0x2100 to 0x21FF | [`CurrentOnTheInputSide`](Self::CurrentOnTheInputSide) |  |
+    /// | 0x2200 to 0x22FF | [`CurrentInsideTheDevice`](Self::CurrentInsideTheDevice) |  |
+    /// | 0x2300 to 0x23FF | [`CurrentOnTheOutputSide`](Self::CurrentOnTheOutputSide) |  |
+    /// | 0x3000 to 0x30FF | [`Voltage`](Self::Voltage) |  |
+    /// | 0x3100 to 0x31FF | [`MainsVoltage`](Self::MainsVoltage) |  |
+    /// | 0x3200 to 0x32FF | [`VoltageInsideTheDevice`](Self::VoltageInsideTheDevice) |  |
+    /// | 0x3300 to 0x33FF | [`OutputVoltage`](Self::OutputVoltage) |  |
+    /// | 0x4000 to 0x40FF | [`Temperature`](Self::Temperature) |  |
+    /// | 0x4100 to 0x41FF | [`AmbientTemperature`](Self::AmbientTemperature) |  |
+    /// | 0x4200 to 0x42FF | [`DeviceTemperature`](Self::DeviceTemperature) |  |
+    /// | 0x5000 to 0x50FF | [`HardwareOfTheDevice`](Self::HardwareOfTheDevice) |  |
+    /// | 0x6000 to 0x60FF | [`SoftwareOfTheDevice`](Self::SoftwareOfTheDevice) |  |
+    /// | 0x6100 to 0x61FF | [`InternalSoftware`](Self::InternalSoftware) |  |
+    /// | 0x6200 to 0x62FF | [`UserSoftware`](Self::UserSoftware) |  |
+    /// | 0x6300 to 0x63FF | [`DataSet`](Self::DataSet) |  |
+    /// | 0x7000 to 0x70FF | [`AdditionalModules`](Self::AdditionalModules) |  |
+    /// | 0x8000 to 0x80FF | [`Monitoring`](Self::Monitoring) |  |
+    /// | 0x8100 | [`Communication`](Self::Communication) |  |
+    /// | 0x8110 | [`CanOverrun`](Self::CanOverrun) | Objects were lost. |
+    /// | 0x8120 | [`CanErrorPassive`](Self::CanErrorPassive) |  |
+    /// | 0x8130 | [`LifeGuardingOrHeartbeat`](Self::LifeGuardingOrHeartbeat) |  |
+    /// | 0x8140 | [`RecoveredFromBusOff`](Self::RecoveredFromBusOff) |  |
+    /// | 0x8150 | [`TwoNodesWithOneIdentifier`](Self::TwoNodesWithOneIdentifier) |  |
+    /// | 0x8200 | [`Protocol`](Self::Protocol) |  |
+    /// | 0x8210 | [`PdoTooShort`](Self::PdoTooShort) | It wasn't processed. |
+    /// | 0x8220 | [`PdoTooLong`](Self::PdoTooLong) | More was received than is mapped. |
+    /// | 0x8230 | [`DestinationOfAMultiplexedPdoDoesnTExist`](Self::DestinationOfAMultiplexedPdoDoesnTExist) | destination of a multiplexed PDO doesn't exist. |
+    /// | 0x8240 | [`SyncOfAnotherLength`](Self::SyncOfAnotherLength) |  |
+    /// | 0x8250 | [`RpdoTimeout`](Self::RpdoTimeout) |  |
+    /// | 0x9000 to 0x90FF | [`ExternalError`](Self::ExternalError) |  |
+    /// | 0xF000 to 0xF0FF | [`AdditionalFunctions`](Self::AdditionalFunctions) |  |
+    /// | 0xFF00 to 0xFFFF | [`DeviceSpecific`](Self::DeviceSpecific) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Emergency {
         /// 0: no error. Or an error is gone.
@@ -3822,6 +4320,12 @@ pub mod procedures {
     /// Assigns the fixed mapping 0x1701 of position set-points.
     ///
     /// Manual, line 770-774: selezionare la mappatura fissa 0x1701.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [0x1C12:0](super::objects::sync_manager_2_assignment::NUMBER_OF_ENTRIES) | 0 |
+    /// | [0x1C12:1](super::objects::sync_manager_2_assignment::PDO_1) | 5889 |
+    /// | [0x1C12:0](super::objects::sync_manager_2_assignment::NUMBER_OF_ENTRIES) | 1 |
     pub const ASSIGN_1701: [rt::SdoWrite; 3] = [
         rt::SdoWrite::new_u8(0x1C12, 0x00, 0x00),
         rt::SdoWrite::new_u16(0x1C12, 0x01, 0x1701),
@@ -3830,6 +4334,32 @@ pub mod procedures {
     /// The start-up list of the example of free mapping: status word and internal position in 0x1A00, control word and position set-point in 0x1600; then interpolated position at 2 ms. On the change from pre-operational to safe-operational.
     ///
     /// Manual, line 918-946: elenco di avvio SDO.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [0x1C12:0](super::objects::sync_manager_2_assignment::NUMBER_OF_ENTRIES) | 0 |
+    /// | [0x1C13:0](super::objects::sync_manager_3_assignment::NUMBER_OF_ENTRIES) | 0 |
+    /// | [0x1A00:0](super::objects::tx_pdo_mapping_1::NUMBER_OF_ENTRIES) | 0 |
+    /// | [0x1A00:1](super::objects::tx_pdo_mapping_1::ENTRY_1) | 0x60410010 |
+    /// | [0x1A00:2](super::objects::tx_pdo_mapping_1::ENTRY_2) | 0x60630020 |
+    /// | [0x1A00:0](super::objects::tx_pdo_mapping_1::NUMBER_OF_ENTRIES) | 2 |
+    /// | [0x1A01:0](super::objects::tx_pdo_mapping_2::NUMBER_OF_ENTRIES) | 0 |
+    /// | [0x1A02:0](super::objects::tx_pdo_mapping_3::NUMBER_OF_ENTRIES) | 0 |
+    /// | [0x1A03:0](super::objects::tx_pdo_mapping_4::NUMBER_OF_ENTRIES) | 0 |
+    /// | [0x1600:0](super::objects::rx_pdo_mapping_1::NUMBER_OF_ENTRIES) | 0 |
+    /// | [0x1600:1](super::objects::rx_pdo_mapping_1::ENTRY_1) | 0x60400010 |
+    /// | [0x1600:2](super::objects::rx_pdo_mapping_1::ENTRY_2) | 0x60C10120 |
+    /// | [0x1600:0](super::objects::rx_pdo_mapping_1::NUMBER_OF_ENTRIES) | 2 |
+    /// | [0x1601:0](super::objects::rx_pdo_mapping_2::NUMBER_OF_ENTRIES) | 0 |
+    /// | [0x1602:0](super::objects::rx_pdo_mapping_3::NUMBER_OF_ENTRIES) | 0 |
+    /// | [0x1603:0](super::objects::rx_pdo_mapping_4::NUMBER_OF_ENTRIES) | 0 |
+    /// | [0x1C12:1](super::objects::sync_manager_2_assignment::PDO_1) | 5632 |
+    /// | [0x1C12:0](super::objects::sync_manager_2_assignment::NUMBER_OF_ENTRIES) | 1 |
+    /// | [0x1C13:1](super::objects::sync_manager_3_assignment::PDO_1) | 6656 |
+    /// | [0x1C13:0](super::objects::sync_manager_3_assignment::NUMBER_OF_ENTRIES) | 1 |
+    /// | [Modes of operation](super::objects::MODES_OF_OPERATION) | 7 |
+    /// | [0x60C2:1](super::objects::interpolation_time_period::INTERPOLATION_TIME_UNITS) | 2 |
+    /// | [0x60C2:2](super::objects::interpolation_time_period::INTERPOLATION_TIME_INDEX) | 253 |
     pub const FREE_MAPPING: [rt::SdoWrite; 23] = [
         rt::SdoWrite::new_u8(0x1C12, 0x00, 0x00),
         rt::SdoWrite::new_u8(0x1C13, 0x00, 0x00),
@@ -3928,6 +4458,7 @@ pub mod objects {
     /// AL control.
     ///
     /// UNSIGNED16, rw.
+    /// Accessor: [`al_control`](super::Akd::al_control). Values: [`AlControl`](super::types::AlControl).
     ///
     /// State that the master asks for
     ///
@@ -3949,6 +4480,7 @@ pub mod objects {
     /// AL status.
     ///
     /// UNSIGNED16, ro.
+    /// Accessor: [`al_status`](super::Akd::al_status). Values: [`AlStatus`](super::types::AlStatus).
     ///
     /// State that the drive is in
     ///
@@ -3970,6 +4502,7 @@ pub mod objects {
     /// AL status code.
     ///
     /// UNSIGNED16, ro.
+    /// Accessor: [`al_status_code`](super::Akd::al_status_code). Values: [`AlStatusCode`](super::types::AlStatusCode).
     ///
     /// Why a change of state was refused; all bits of both bytes are the code
     ///
@@ -3991,6 +4524,7 @@ pub mod objects {
     /// Interrupt enable.
     ///
     /// UNSIGNED16, ro.
+    /// Accessor: [`interrupt_enable`](super::Akd::interrupt_enable). Values: [`InterruptEnable`](super::types::InterruptEnable).
     ///
     /// Which events of the slave controller the drive has switched on, by bits that are 1; EEPROM emulation and SyncManager 2 interrupt its processor
     ///
@@ -4012,6 +4546,7 @@ pub mod objects {
     /// AL event request.
     ///
     /// UNSIGNED16, rw.
+    /// Accessor: [`al_event_request`](super::Akd::al_event_request). Values: [`AlEventRequest`](super::types::AlEventRequest).
     ///
     /// Events that the slave controller signals to the drive
     ///
@@ -4033,6 +4568,7 @@ pub mod objects {
     /// SyncManager 0.
     ///
     /// OCTET_STRING, rw.
+    /// Accessor: [`sync_manager_0`](super::Akd::sync_manager_0).
     ///
     /// Sync manager of the mailbox to the drive
     ///
@@ -4052,6 +4588,7 @@ pub mod objects {
     /// SyncManager 1.
     ///
     /// OCTET_STRING, rw.
+    /// Accessor: [`sync_manager_1`](super::Akd::sync_manager_1).
     ///
     /// Sync manager of the mailbox from the drive
     ///
@@ -4071,6 +4608,7 @@ pub mod objects {
     /// SyncManager 2.
     ///
     /// OCTET_STRING, rw.
+    /// Accessor: [`sync_manager_2`](super::Akd::sync_manager_2).
     ///
     /// Sync manager of the set-points
     ///
@@ -4090,6 +4628,7 @@ pub mod objects {
     /// SyncManager 3.
     ///
     /// OCTET_STRING, rw.
+    /// Accessor: [`sync_manager_3`](super::Akd::sync_manager_3).
     ///
     /// Sync manager of the actual values
     ///
@@ -4109,6 +4648,7 @@ pub mod objects {
     /// SyncManager 4.
     ///
     /// OCTET_STRING, rw.
+    /// Accessor: [`sync_manager_4`](super::Akd::sync_manager_4).
     ///
     /// The device's own side has it ro.
     ///
@@ -4128,6 +4668,7 @@ pub mod objects {
     /// SyncManager 5.
     ///
     /// OCTET_STRING, rw.
+    /// Accessor: [`sync_manager_5`](super::Akd::sync_manager_5).
     ///
     /// The device's own side has it ro.
     ///
@@ -4145,6 +4686,7 @@ pub mod objects {
     /// SyncManager 6.
     ///
     /// OCTET_STRING, rw.
+    /// Accessor: [`sync_manager_6`](super::Akd::sync_manager_6).
     ///
     /// The device's own side has it ro.
     ///
@@ -4162,6 +4704,7 @@ pub mod objects {
     /// SyncManager 7.
     ///
     /// OCTET_STRING, rw.
+    /// Accessor: [`sync_manager_7`](super::Akd::sync_manager_7).
     ///
     /// The device's own side has it ro.
     ///
@@ -4179,6 +4722,7 @@ pub mod objects {
     /// SyncManager 8.
     ///
     /// OCTET_STRING, rw.
+    /// Accessor: [`sync_manager_8`](super::Akd::sync_manager_8).
     ///
     /// The device's own side has it ro.
     ///
@@ -4198,6 +4742,7 @@ pub mod objects {
     /// ProcOut buffer.
     ///
     /// OCTET_STRING, rw.
+    /// Accessor: [`proc_out_buffer`](super::Akd::proc_out_buffer).
     ///
     /// Set-points from the master: 64 bytes at most, as many as the assigned PDOs have
     ///
@@ -4217,6 +4762,7 @@ pub mod objects {
     /// ProcIn buffer.
     ///
     /// OCTET_STRING, ro.
+    /// Accessor: [`proc_in_buffer`](super::Akd::proc_in_buffer).
     ///
     /// Actual values of the drive: 64 bytes at most, as many as the assigned PDOs have
     ///
@@ -4236,6 +4782,7 @@ pub mod objects {
     /// Mailbox out buffer.
     ///
     /// OCTET_STRING, rw.
+    /// Accessor: [`mailbox_out_buffer`](super::Akd::mailbox_out_buffer).
     ///
     /// Requests to the drive, of which it reads 16 bytes
     ///
@@ -4257,6 +4804,7 @@ pub mod objects {
     /// Mailbox in buffer.
     ///
     /// OCTET_STRING, ro.
+    /// Accessor: [`mailbox_in_buffer`](super::Akd::mailbox_in_buffer).
     ///
     /// Replies of the drive, of 16 bytes
     ///
@@ -4283,6 +4831,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1600:00, UNSIGNED8, rw, range 0 to 4.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// 0 clears the mapping
         ///
@@ -4298,6 +4847,7 @@ pub mod objects {
         /// Entry 1.
         ///
         /// 0x1600:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_1: super::ReadWrite<
@@ -4307,6 +4857,7 @@ pub mod objects {
         /// Entry 2.
         ///
         /// 0x1600:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_2: super::ReadWrite<
@@ -4316,6 +4867,7 @@ pub mod objects {
         /// Entry 3.
         ///
         /// 0x1600:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_3: super::ReadWrite<
@@ -4325,6 +4877,7 @@ pub mod objects {
         /// Entry 4.
         ///
         /// 0x1600:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_4: super::ReadWrite<
@@ -4337,12 +4890,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1600:00.
+            ///
+            /// 0 clears the mapping
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1600:01.
+            /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4354,6 +4912,7 @@ pub mod objects {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1600:02.
+            /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4365,6 +4924,7 @@ pub mod objects {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1600:03.
+            /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4376,6 +4936,7 @@ pub mod objects {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1600:04.
+            /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4396,6 +4957,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1601:00, UNSIGNED8, rw, range 0 to 4.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// 0 clears the mapping
         ///
@@ -4411,6 +4973,7 @@ pub mod objects {
         /// Entry 1.
         ///
         /// 0x1601:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_1: super::ReadWrite<
@@ -4420,6 +4983,7 @@ pub mod objects {
         /// Entry 2.
         ///
         /// 0x1601:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_2: super::ReadWrite<
@@ -4429,6 +4993,7 @@ pub mod objects {
         /// Entry 3.
         ///
         /// 0x1601:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_3: super::ReadWrite<
@@ -4438,6 +5003,7 @@ pub mod objects {
         /// Entry 4.
         ///
         /// 0x1601:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_4: super::ReadWrite<
@@ -4450,12 +5016,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1601:00.
+            ///
+            /// 0 clears the mapping
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1601:01.
+            /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4467,6 +5038,7 @@ pub mod objects {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1601:02.
+            /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4478,6 +5050,7 @@ pub mod objects {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1601:03.
+            /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4489,6 +5062,7 @@ pub mod objects {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1601:04.
+            /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4509,6 +5083,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1602:00, UNSIGNED8, rw, range 0 to 4.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// 0 clears the mapping
         ///
@@ -4524,6 +5099,7 @@ pub mod objects {
         /// Entry 1.
         ///
         /// 0x1602:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_1: super::ReadWrite<
@@ -4533,6 +5109,7 @@ pub mod objects {
         /// Entry 2.
         ///
         /// 0x1602:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_2: super::ReadWrite<
@@ -4542,6 +5119,7 @@ pub mod objects {
         /// Entry 3.
         ///
         /// 0x1602:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_3: super::ReadWrite<
@@ -4551,6 +5129,7 @@ pub mod objects {
         /// Entry 4.
         ///
         /// 0x1602:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_4: super::ReadWrite<
@@ -4563,12 +5142,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1602:00.
+            ///
+            /// 0 clears the mapping
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1602:01.
+            /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4580,6 +5164,7 @@ pub mod objects {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1602:02.
+            /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4591,6 +5176,7 @@ pub mod objects {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1602:03.
+            /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4602,6 +5188,7 @@ pub mod objects {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1602:04.
+            /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4622,6 +5209,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1603:00, UNSIGNED8, rw, range 0 to 4.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// 0 clears the mapping
         ///
@@ -4637,6 +5225,7 @@ pub mod objects {
         /// Entry 1.
         ///
         /// 0x1603:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_1: super::ReadWrite<
@@ -4646,6 +5235,7 @@ pub mod objects {
         /// Entry 2.
         ///
         /// 0x1603:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_2: super::ReadWrite<
@@ -4655,6 +5245,7 @@ pub mod objects {
         /// Entry 3.
         ///
         /// 0x1603:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_3: super::ReadWrite<
@@ -4664,6 +5255,7 @@ pub mod objects {
         /// Entry 4.
         ///
         /// 0x1603:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 934, 935.
         pub const ENTRY_4: super::ReadWrite<
@@ -4676,12 +5268,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1603:00.
+            ///
+            /// 0 clears the mapping
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1603:01.
+            /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4693,6 +5290,7 @@ pub mod objects {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1603:02.
+            /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4704,6 +5302,7 @@ pub mod objects {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1603:03.
+            /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4715,6 +5314,7 @@ pub mod objects {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1603:04.
+            /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4735,6 +5335,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1A00:00, UNSIGNED8, rw, range 0 to 4.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// 0 clears the mapping
         ///
@@ -4750,6 +5351,7 @@ pub mod objects {
         /// Entry 1.
         ///
         /// 0x1A00:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_1: super::ReadWrite<
@@ -4759,6 +5361,7 @@ pub mod objects {
         /// Entry 2.
         ///
         /// 0x1A00:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_2: super::ReadWrite<
@@ -4768,6 +5371,7 @@ pub mod objects {
         /// Entry 3.
         ///
         /// 0x1A00:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_3: super::ReadWrite<
@@ -4777,6 +5381,7 @@ pub mod objects {
         /// Entry 4.
         ///
         /// 0x1A00:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_4: super::ReadWrite<
@@ -4789,12 +5394,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A00:00.
+            ///
+            /// 0 clears the mapping
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1A00:01.
+            /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4806,6 +5416,7 @@ pub mod objects {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1A00:02.
+            /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4817,6 +5428,7 @@ pub mod objects {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1A00:03.
+            /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4828,6 +5440,7 @@ pub mod objects {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1A00:04.
+            /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4848,6 +5461,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1A01:00, UNSIGNED8, rw, range 0 to 4.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// 0 clears the mapping
         ///
@@ -4863,6 +5477,7 @@ pub mod objects {
         /// Entry 1.
         ///
         /// 0x1A01:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_1: super::ReadWrite<
@@ -4872,6 +5487,7 @@ pub mod objects {
         /// Entry 2.
         ///
         /// 0x1A01:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_2: super::ReadWrite<
@@ -4881,6 +5497,7 @@ pub mod objects {
         /// Entry 3.
         ///
         /// 0x1A01:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_3: super::ReadWrite<
@@ -4890,6 +5507,7 @@ pub mod objects {
         /// Entry 4.
         ///
         /// 0x1A01:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_4: super::ReadWrite<
@@ -4902,12 +5520,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A01:00.
+            ///
+            /// 0 clears the mapping
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1A01:01.
+            /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4919,6 +5542,7 @@ pub mod objects {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1A01:02.
+            /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4930,6 +5554,7 @@ pub mod objects {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1A01:03.
+            /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4941,6 +5566,7 @@ pub mod objects {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1A01:04.
+            /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -4961,6 +5587,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1A02:00, UNSIGNED8, rw, range 0 to 4.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// 0 clears the mapping
         ///
@@ -4976,6 +5603,7 @@ pub mod objects {
         /// Entry 1.
         ///
         /// 0x1A02:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_1: super::ReadWrite<
@@ -4985,6 +5613,7 @@ pub mod objects {
         /// Entry 2.
         ///
         /// 0x1A02:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_2: super::ReadWrite<
@@ -4994,6 +5623,7 @@ pub mod objects {
         /// Entry 3.
         ///
         /// 0x1A02:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_3: super::ReadWrite<
@@ -5003,6 +5633,7 @@ pub mod objects {
         /// Entry 4.
         ///
         /// 0x1A02:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_4: super::ReadWrite<
@@ -5015,12 +5646,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A02:00.
+            ///
+            /// 0 clears the mapping
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1A02:01.
+            /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -5032,6 +5668,7 @@ pub mod objects {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1A02:02.
+            /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -5043,6 +5680,7 @@ pub mod objects {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1A02:03.
+            /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -5054,6 +5692,7 @@ pub mod objects {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1A02:04.
+            /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -5074,6 +5713,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1A03:00, UNSIGNED8, rw, range 0 to 4.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// 0 clears the mapping
         ///
@@ -5089,6 +5729,7 @@ pub mod objects {
         /// Entry 1.
         ///
         /// 0x1A03:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_1: super::ReadWrite<
@@ -5098,6 +5739,7 @@ pub mod objects {
         /// Entry 2.
         ///
         /// 0x1A03:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_2: super::ReadWrite<
@@ -5107,6 +5749,7 @@ pub mod objects {
         /// Entry 3.
         ///
         /// 0x1A03:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_3: super::ReadWrite<
@@ -5116,6 +5759,7 @@ pub mod objects {
         /// Entry 4.
         ///
         /// 0x1A03:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::entry_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Manual, line 927, 928.
         pub const ENTRY_4: super::ReadWrite<
@@ -5128,12 +5772,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A03:00.
+            ///
+            /// 0 clears the mapping
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Entry 1: 0x1A03:01.
+            /// Constant: [`ENTRY_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -5145,6 +5794,7 @@ pub mod objects {
                 ENTRY_1.at(self.client)
             }
             /// Entry 2: 0x1A03:02.
+            /// Constant: [`ENTRY_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -5156,6 +5806,7 @@ pub mod objects {
                 ENTRY_2.at(self.client)
             }
             /// Entry 3: 0x1A03:03.
+            /// Constant: [`ENTRY_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -5167,6 +5818,7 @@ pub mod objects {
                 ENTRY_3.at(self.client)
             }
             /// Entry 4: 0x1A03:04.
+            /// Constant: [`ENTRY_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn entry_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -5187,6 +5839,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1C12:00, UNSIGNED8, rw, range 0 to 4.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// 0 clears the assignment
         ///
@@ -5202,6 +5855,7 @@ pub mod objects {
         /// PDO 1.
         ///
         /// 0x1C12:01, UNSIGNED16, rw, default 5889.
+        /// Accessor: [`Accessors::pdo_1`].
         ///
         /// The only one of a fixed mapping
         ///
@@ -5215,6 +5869,7 @@ pub mod objects {
         /// PDO 2.
         ///
         /// 0x1C12:02, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::pdo_2`].
         ///
         /// Manual, line 809.
         pub const PDO_2: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
@@ -5225,6 +5880,7 @@ pub mod objects {
         /// PDO 3.
         ///
         /// 0x1C12:03, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::pdo_3`].
         ///
         /// Manual, line 809.
         pub const PDO_3: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
@@ -5235,6 +5891,7 @@ pub mod objects {
         /// PDO 4.
         ///
         /// 0x1C12:04, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::pdo_4`].
         ///
         /// Manual, line 809.
         pub const PDO_4: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
@@ -5248,24 +5905,35 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1C12:00.
+            ///
+            /// 0 clears the assignment
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// PDO 1: 0x1C12:01.
+            ///
+            /// The only one of a fixed mapping
+            ///
+            /// Constant: [`PDO_1`].
             pub fn pdo_1(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_1.at(self.client)
             }
             /// PDO 2: 0x1C12:02.
+            /// Constant: [`PDO_2`].
             pub fn pdo_2(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_2.at(self.client)
             }
             /// PDO 3: 0x1C12:03.
+            /// Constant: [`PDO_3`].
             pub fn pdo_3(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_3.at(self.client)
             }
             /// PDO 4: 0x1C12:04.
+            /// Constant: [`PDO_4`].
             pub fn pdo_4(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_4.at(self.client)
             }
@@ -5279,6 +5947,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1C13:00, UNSIGNED8, rw, range 0 to 4.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// 0 clears the assignment
         ///
@@ -5294,6 +5963,7 @@ pub mod objects {
         /// PDO 1.
         ///
         /// 0x1C13:01, UNSIGNED16, rw, default 6913.
+        /// Accessor: [`Accessors::pdo_1`].
         ///
         /// The only one of a fixed mapping
         ///
@@ -5307,6 +5977,7 @@ pub mod objects {
         /// PDO 2.
         ///
         /// 0x1C13:02, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::pdo_2`].
         ///
         /// Manual, line 810.
         pub const PDO_2: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
@@ -5317,6 +5988,7 @@ pub mod objects {
         /// PDO 3.
         ///
         /// 0x1C13:03, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::pdo_3`].
         ///
         /// Manual, line 810.
         pub const PDO_3: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
@@ -5327,6 +5999,7 @@ pub mod objects {
         /// PDO 4.
         ///
         /// 0x1C13:04, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::pdo_4`].
         ///
         /// Manual, line 810.
         pub const PDO_4: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
@@ -5340,24 +6013,35 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1C13:00.
+            ///
+            /// 0 clears the assignment
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// PDO 1: 0x1C13:01.
+            ///
+            /// The only one of a fixed mapping
+            ///
+            /// Constant: [`PDO_1`].
             pub fn pdo_1(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_1.at(self.client)
             }
             /// PDO 2: 0x1C13:02.
+            /// Constant: [`PDO_2`].
             pub fn pdo_2(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_2.at(self.client)
             }
             /// PDO 3: 0x1C13:03.
+            /// Constant: [`PDO_3`].
             pub fn pdo_3(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_3.at(self.client)
             }
             /// PDO 4: 0x1C13:04.
+            /// Constant: [`PDO_4`].
             pub fn pdo_4(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 PDO_4.at(self.client)
             }
@@ -5366,6 +6050,7 @@ pub mod objects {
     /// Second position feedback.
     ///
     /// 0x2050:00, INTEGER32, ro, mappable into TPDOs.
+    /// Accessor: [`second_position_feedback`](super::Akd::second_position_feedback). Carried by [`TxPdo1B20`](super::pdo::TxPdo1B20), [`TxPdo1B22`](super::pdo::TxPdo1B22), [`TxPdo1B23`](super::pdo::TxPdo1B23).
     ///
     /// Manual, line 995: Seconda retroazione di posizione.
     ///
@@ -5379,6 +6064,7 @@ pub mod objects {
     /// Latch position, rising edge.
     ///
     /// 0x20A0:00, INTEGER32, ro, mappable into TPDOs.
+    /// Accessor: [`latch_position_rising_edge`](super::Akd::latch_position_rising_edge). Carried by [`TxPdo1B20`](super::pdo::TxPdo1B20).
     ///
     /// Position captured on the rising edge
     ///
@@ -5392,6 +6078,7 @@ pub mod objects {
     /// Latch control word.
     ///
     /// 0x20A4:00, UNSIGNED16, rw, mappable into RPDOs.
+    /// Accessor: [`latch_control_word`](super::Akd::latch_control_word). Values: [`LatchControl`](super::types::LatchControl). Carried by [`RxPdo1720`](super::pdo::RxPdo1720), [`RxPdo1722`](super::pdo::RxPdo1722), [`RxPdo1723`](super::pdo::RxPdo1723).
     ///
     /// Manual, line 985, 1071-1085: Parola di controllo del blocco.
     pub const LATCH_CONTROL_WORD: ReadWrite<super::types::LatchControl, rt::OnCoE> = ReadWriteNamedLatchControlOnCoE::flagged_coe_object(
@@ -5403,6 +6090,7 @@ pub mod objects {
     /// Latch status word.
     ///
     /// 0x20A5:00, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`latch_status_word`](super::Akd::latch_status_word). Values: [`LatchStatus`](super::types::LatchStatus). Carried by [`TxPdo1B20`](super::pdo::TxPdo1B20), [`TxPdo1B22`](super::pdo::TxPdo1B22), [`TxPdo1B23`](super::pdo::TxPdo1B23).
     ///
     /// Manual, line 1000, 1087-1103: Stato del blocco.
     pub const LATCH_STATUS_WORD: ReadOnly<super::types::LatchStatus, rt::OnCoE> = ReadOnlyNamedLatchStatusOnCoE::flagged_coe_object(
@@ -5414,6 +6102,7 @@ pub mod objects {
     /// Analogue input value.
     ///
     /// 0x3470:00, INTEGER16, ro, mappable into TPDOs.
+    /// Accessor: [`analogue_input_value`](super::Akd::analogue_input_value). Carried by [`TxPdo1B20`](super::pdo::TxPdo1B20), [`TxPdo1B22`](super::pdo::TxPdo1B22), [`TxPdo1B23`](super::pdo::TxPdo1B23).
     ///
     /// Manual, line 1001: Valore dell'ingresso analogico.
     pub const ANALOGUE_INPUT_VALUE: ReadOnly<i16, rt::OnCoE> = ReadOnlyI16OnCoE::flagged_coe_object(
@@ -5425,6 +6114,7 @@ pub mod objects {
     /// Control word.
     ///
     /// 0x6040:00, UNSIGNED16, rw, mappable into RPDOs.
+    /// Accessor: [`control_word`](super::Akd::control_word). Values: [`ControlWord`](super::types::ControlWord). Carried by [`RxPdo1701`](super::pdo::RxPdo1701), [`RxPdo1702`](super::pdo::RxPdo1702), [`RxPdo1703`](super::pdo::RxPdo1703), [`RxPdo1720`](super::pdo::RxPdo1720), [`RxPdo1721`](super::pdo::RxPdo1721), [`RxPdo1722`](super::pdo::RxPdo1722), [`RxPdo1723`](super::pdo::RxPdo1723), [`RxPdo1724`](super::pdo::RxPdo1724) and 1 more.
     ///
     /// Manual, line 684, 984: Parola di controllo CANopen.
     pub const CONTROL_WORD: ReadWrite<super::types::ControlWord, rt::OnCoE> = ReadWriteNamedControlWordOnCoE::flagged_coe_object(
@@ -5436,6 +6126,7 @@ pub mod objects {
     /// Status word.
     ///
     /// 0x6041:00, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`status_word`](super::Akd::status_word). Values: [`StatusWord`](super::types::StatusWord). Carried by [`TxPdo1B01`](super::pdo::TxPdo1B01), [`TxPdo1B02`](super::pdo::TxPdo1B02), [`TxPdo1B20`](super::pdo::TxPdo1B20), [`TxPdo1B21`](super::pdo::TxPdo1B21), [`TxPdo1B22`](super::pdo::TxPdo1B22), [`TxPdo1B23`](super::pdo::TxPdo1B23), [`TxPdo1B24`](super::pdo::TxPdo1B24), [`TxPdo1A00`](super::pdo::TxPdo1A00).
     ///
     /// Manual, line 731, 994: Parola di stato CANopen.
     pub const STATUS_WORD: ReadOnly<super::types::StatusWord, rt::OnCoE> = ReadOnlyNamedStatusWordOnCoE::flagged_coe_object(
@@ -5447,6 +6138,7 @@ pub mod objects {
     /// Modes of operation.
     ///
     /// 0x6060:00, INTEGER8, rw.
+    /// Accessor: [`modes_of_operation`](super::Akd::modes_of_operation). Values: [`ModesOfOperation`](super::types::ModesOfOperation).
     ///
     /// Manual, line 708, 944, 1006-1008: Modalità di funzionamento.
     ///
@@ -5459,6 +6151,7 @@ pub mod objects {
     /// Internal position actual value.
     ///
     /// 0x6063:00, INTEGER32, ro, mappable into TPDOs.
+    /// Accessor: [`internal_position_actual_value`](super::Akd::internal_position_actual_value). Carried by [`TxPdo1B20`](super::pdo::TxPdo1B20), [`TxPdo1B21`](super::pdo::TxPdo1B21), [`TxPdo1B22`](super::pdo::TxPdo1B22), [`TxPdo1B23`](super::pdo::TxPdo1B23).
     ///
     /// Manual, line 992: Valore effettivo interno della posizione.
     pub const INTERNAL_POSITION_ACTUAL_VALUE: ReadOnly<i32, rt::OnCoE> = ReadOnlyI32OnCoE::flagged_coe_object(
@@ -5470,6 +6163,7 @@ pub mod objects {
     /// Velocity actual value.
     ///
     /// 0x606C:00, INTEGER32, ro, mappable into TPDOs.
+    /// Accessor: [`velocity_actual_value`](super::Akd::velocity_actual_value). Carried by [`TxPdo1B20`](super::pdo::TxPdo1B20), [`TxPdo1B22`](super::pdo::TxPdo1B22), [`TxPdo1B23`](super::pdo::TxPdo1B23).
     ///
     /// Manual, line 993: Valore effettivo della velocità.
     pub const VELOCITY_ACTUAL_VALUE: ReadOnly<i32, rt::OnCoE> = ReadOnlyI32OnCoE::flagged_coe_object(
@@ -5481,6 +6175,7 @@ pub mod objects {
     /// Torque actual value.
     ///
     /// 0x6077:00, INTEGER16, ro, mappable into TPDOs, in 0.1 %.
+    /// Accessor: [`torque_actual_value`](super::Akd::torque_actual_value). Carried by [`TxPdo1B20`](super::pdo::TxPdo1B20), [`TxPdo1B22`](super::pdo::TxPdo1B22), [`TxPdo1B23`](super::pdo::TxPdo1B23).
     ///
     /// Manual, line 999: Valore effettivo della coppia.
     pub const TORQUE_ACTUAL_VALUE: ReadOnly<rt::Scaled<i16, 1, 10>, rt::OnCoE> = ReadOnlyI16Times1Per10OnCoE::new(
@@ -5494,6 +6189,7 @@ pub mod objects {
     /// Torque feed-forward.
     ///
     /// 0x60B2:00, INTEGER16, rw, mappable into RPDOs, in 0.1 %.
+    /// Accessor: [`torque_feed_forward`](super::Akd::torque_feed_forward). Carried by [`RxPdo1720`](super::pdo::RxPdo1720), [`RxPdo1721`](super::pdo::RxPdo1721), [`RxPdo1722`](super::pdo::RxPdo1722), [`RxPdo1723`](super::pdo::RxPdo1723), [`RxPdo1724`](super::pdo::RxPdo1724).
     ///
     /// Manual, line 986: Feed forward della coppia.
     pub const TORQUE_FEED_FORWARD: ReadWrite<rt::Scaled<i16, 1, 10>, rt::OnCoE> = ReadWriteI16Times1Per10OnCoE::new(
@@ -5512,6 +6208,7 @@ pub mod objects {
         /// Position command value.
         ///
         /// 0x60C1:01, INTEGER32, rw, mappable into RPDOs.
+        /// Accessor: [`Accessors::position_command_value`]. Carried by [`RxPdo1701`](super::super::pdo::RxPdo1701), [`RxPdo1720`](super::super::pdo::RxPdo1720), [`RxPdo1721`](super::super::pdo::RxPdo1721), [`RxPdo1722`](super::super::pdo::RxPdo1722), [`RxPdo1723`](super::super::pdo::RxPdo1723).
         ///
         /// Set-point of interpolated position
         ///
@@ -5528,6 +6225,10 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Position command value: 0x60C1:01.
+            ///
+            /// Set-point of interpolated position
+            ///
+            /// Constant: [`POSITION_COMMAND_VALUE`]. Carried by [`RxPdo1701`](super::super::pdo::RxPdo1701), [`RxPdo1720`](super::super::pdo::RxPdo1720), [`RxPdo1721`](super::super::pdo::RxPdo1721), [`RxPdo1722`](super::super::pdo::RxPdo1722), [`RxPdo1723`](super::super::pdo::RxPdo1723).
             pub fn position_command_value(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, i32, rt::OnCoE> {
@@ -5542,7 +6243,8 @@ pub mod objects {
         use ::lexibus as rt;
         /// Interpolation time units.
         ///
-        /// 0x60C2:01, UNSIGNED8, rw, stands for raw × 10^Interpolation time index s.
+        /// 0x60C2:01, UNSIGNED8, rw, stands for raw × 10^[Interpolation time index](INTERPOLATION_TIME_INDEX) s.
+        /// Accessor: [`Accessors::interpolation_time_units`].
         ///
         /// Number of units of time
         ///
@@ -5567,6 +6269,7 @@ pub mod objects {
         /// Interpolation time index.
         ///
         /// 0x60C2:02, INTEGER8, rw.
+        /// Accessor: [`Accessors::interpolation_time_index`].
         ///
         /// Power of ten: -3 for milliseconds
         ///
@@ -5584,12 +6287,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Interpolation time units: 0x60C2:01.
+            ///
+            /// Number of units of time
+            ///
+            /// Constant: [`INTERPOLATION_TIME_UNITS`].
             pub fn interpolation_time_units(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, rt::Exponential<u8>, rt::OnCoE> {
                 INTERPOLATION_TIME_UNITS.at(self.client)
             }
             /// Interpolation time index: 0x60C2:02.
+            ///
+            /// Power of ten: -3 for milliseconds
+            ///
+            /// Constant: [`INTERPOLATION_TIME_INDEX`].
             pub fn interpolation_time_index(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, i8, rt::OnCoE> {
@@ -5600,6 +6311,7 @@ pub mod objects {
     /// Following error actual value.
     ///
     /// 0x60F4:00, INTEGER32, ro, mappable into TPDOs.
+    /// Accessor: [`following_error_actual_value`](super::Akd::following_error_actual_value). Carried by [`TxPdo1B20`](super::pdo::TxPdo1B20), [`TxPdo1B22`](super::pdo::TxPdo1B22), [`TxPdo1B23`](super::pdo::TxPdo1B23).
     ///
     /// Manual, line 997: Valore effettivo dell'errore seguente.
     pub const FOLLOWING_ERROR_ACTUAL_VALUE: ReadOnly<i32, rt::OnCoE> = ReadOnlyI32OnCoE::flagged_coe_object(
@@ -5611,6 +6323,7 @@ pub mod objects {
     /// Digital inputs.
     ///
     /// 0x60FD:00, UNSIGNED32, ro, mappable into TPDOs.
+    /// Accessor: [`digital_inputs`](super::Akd::digital_inputs). Values: [`DigitalInputs`](super::types::DigitalInputs). Carried by [`TxPdo1B20`](super::pdo::TxPdo1B20), [`TxPdo1B22`](super::pdo::TxPdo1B22), [`TxPdo1B23`](super::pdo::TxPdo1B23).
     ///
     /// Manual, line 996: Ingressi digitali.
     pub const DIGITAL_INPUTS: ReadOnly<super::types::DigitalInputs, rt::OnCoE> = ReadOnlyNamedDigitalInputsOnCoE::flagged_coe_object(
@@ -5627,6 +6340,7 @@ pub mod objects {
         /// Physical outputs.
         ///
         /// 0x60FE:01, UNSIGNED32, rw, mappable into RPDOs.
+        /// Accessor: [`Accessors::physical_outputs`]. Values: [`DigitalOutputs`](super::super::types::DigitalOutputs). Carried by [`RxPdo1720`](super::super::pdo::RxPdo1720), [`RxPdo1722`](super::super::pdo::RxPdo1722), [`RxPdo1723`](super::super::pdo::RxPdo1723).
         ///
         /// Manual, line 987: Uscite digitali.
         pub const PHYSICAL_OUTPUTS: super::ReadWrite<
@@ -5644,6 +6358,7 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Physical outputs: 0x60FE:01.
+            /// Constant: [`PHYSICAL_OUTPUTS`]. Values: [`DigitalOutputs`](super::super::types::DigitalOutputs). Carried by [`RxPdo1720`](super::super::pdo::RxPdo1720), [`RxPdo1722`](super::super::pdo::RxPdo1722), [`RxPdo1723`](super::super::pdo::RxPdo1723).
             pub fn physical_outputs(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -5659,6 +6374,7 @@ pub mod objects {
     /// Velocity command value.
     ///
     /// 0x60FF:00, INTEGER32, rw, mappable into RPDOs.
+    /// Accessor: [`velocity_command_value`](super::Akd::velocity_command_value). Carried by [`RxPdo1702`](super::pdo::RxPdo1702).
     ///
     /// Manual, line 983: Valore di comando di velocità.
     pub const VELOCITY_COMMAND_VALUE: ReadWrite<i32, rt::OnCoE> = ReadWriteI32OnCoE::flagged_coe_object(
@@ -5671,7 +6387,7 @@ pub mod objects {
 /// PDOs whose mapping can be changed: `lexibus::pdo!` looks them up here.
 pub mod remappable {
     use ::lexibus as rt;
-    /// RxPDO 0x1600: Rx PDO 1600.
+    /// RxPDO 0x1600: Rx PDO 1600. By default: [`RxPdo1600`](super::pdo::RxPdo1600).
     pub enum RxPdo1600 {}
     impl rt::Remappable for RxPdo1600 {
         type Direction = rt::Rpdo;
@@ -5707,7 +6423,7 @@ pub mod remappable {
         const ENTRIES: usize = 4;
         const MAX_BITS: u32 = 64;
     }
-    /// TxPDO 0x1A00: Tx PDO 1A00.
+    /// TxPDO 0x1A00: Tx PDO 1A00. By default: [`TxPdo1A00`](super::pdo::TxPdo1A00).
     pub enum TxPdo1A00 {}
     impl rt::Remappable for TxPdo1A00 {
         type Direction = rt::Tpdo;
@@ -5803,11 +6519,16 @@ pub mod pdo {
     /// Manual, line 768, 780, 815, 848.
     ///
     /// Note: Valore di comando di posizione (L780), which is 0x60C1:1 by the table of set-points (L982). Chosen: 0x60C1:1 (the names are the same; a device description may call it otherwise).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–3 | [`position_command_value`](Self::position_command_value) | [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE) | `i32` |
+    /// | 4–5 | [`control_word`](Self::control_word) | [0x6040:00](super::objects::CONTROL_WORD) | [`ControlWord`](super::types::ControlWord) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1701 {
-        /// Position command value: 0x60C1:01, 32 bits from bit 0.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 0.
         pub position_command_value: i32,
-        /// Control word: 0x6040:00, 16 bits from bit 32.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
         pub control_word: super::types::ControlWord,
     }
     impl RxPdo1701 {
@@ -5868,11 +6589,16 @@ pub mod pdo {
     /// Velocity.
     ///
     /// Manual, line 768, 795, 849.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–3 | [`velocity_command_value`](Self::velocity_command_value) | [0x60FF:00](super::objects::VELOCITY_COMMAND_VALUE) | `i32` |
+    /// | 4–5 | [`control_word`](Self::control_word) | [0x6040:00](super::objects::CONTROL_WORD) | [`ControlWord`](super::types::ControlWord) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1702 {
-        /// Velocity command value: 0x60FF:00, 32 bits from bit 0.
+        /// Velocity command value: [0x60FF:00](super::objects::VELOCITY_COMMAND_VALUE), 32 bits from bit 0.
         pub velocity_command_value: i32,
-        /// Control word: 0x6040:00, 16 bits from bit 32.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
         pub control_word: super::types::ControlWord,
     }
     impl RxPdo1702 {
@@ -5937,11 +6663,16 @@ pub mod pdo {
     /// Note: Valore di comando coppia di torsione (L800) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
     ///
     /// Note: The torque interface has no mapping of actual values (L800). Chosen: none (any of the others can be assigned beside it).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`torque_command_value`](Self::torque_command_value) |  | `u16` |
+    /// | 2–3 | [`control_word`](Self::control_word) | [0x6040:00](super::objects::CONTROL_WORD) | [`ControlWord`](super::types::ControlWord) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1703 {
         /// torque command value: an object without a known index, 16 bits from bit 0.
         pub torque_command_value: u16,
-        /// Control word: 0x6040:00, 16 bits from bit 16.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 16.
         pub control_word: super::types::ControlWord,
     }
     impl RxPdo1703 {
@@ -6008,17 +6739,25 @@ pub mod pdo {
     /// Note: uscite digitali (2 byte) (L781), of an object of 32 bits (L987). Chosen: 16 bits of 0x60FE:1 (the mapping is fixed, and its length follows from its entries).
     ///
     /// Note: parola del controllo del blocco (L781), Parola di controllo del blocco (L985). Chosen: 0x20A4 (the same value in other words).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`control_word`](Self::control_word) | [0x6040:00](super::objects::CONTROL_WORD) | [`ControlWord`](super::types::ControlWord) |
+    /// | 2–5 | [`position_command_value`](Self::position_command_value) | [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE) | `i32` |
+    /// | 6–7 | [`latch_control_word`](Self::latch_control_word) | [0x20A4:00](super::objects::LATCH_CONTROL_WORD) | [`LatchControl`](super::types::LatchControl) |
+    /// | 8–9 | [`torque_feed_forward`](Self::torque_feed_forward) | [0x60B2:00](super::objects::TORQUE_FEED_FORWARD) | `i16` |
+    /// | 10–11 | [`physical_outputs`](Self::physical_outputs) | [0x60FE:01](super::objects::digital_outputs::PHYSICAL_OUTPUTS) | `u16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1720 {
-        /// Control word: 0x6040:00, 16 bits from bit 0.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 0.
         pub control_word: super::types::ControlWord,
-        /// Position command value: 0x60C1:01, 32 bits from bit 16.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 16.
         pub position_command_value: i32,
-        /// Latch control word: 0x20A4:00, 16 bits from bit 48.
+        /// Latch control word: [0x20A4:00](super::objects::LATCH_CONTROL_WORD), 16 bits from bit 48.
         pub latch_control_word: super::types::LatchControl,
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 64.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 64.
         pub torque_feed_forward: i16,
-        /// Physical outputs: 0x60FE:01, 16 bits from bit 80.
+        /// Physical outputs: [0x60FE:01](super::objects::digital_outputs::PHYSICAL_OUTPUTS), 16 bits from bit 80.
         pub physical_outputs: u16,
     }
     impl RxPdo1720 {
@@ -6086,13 +6825,19 @@ pub mod pdo {
     /// Manual, line 768, 782.
     ///
     /// Note: valore di comando di posizione interpolata (L782); the table of set-points has Valore di comando di posizione (L982). Chosen: 0x60C1:1 (that is the data of interpolated position, by its description).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–3 | [`position_command_value`](Self::position_command_value) | [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE) | `i32` |
+    /// | 4–5 | [`control_word`](Self::control_word) | [0x6040:00](super::objects::CONTROL_WORD) | [`ControlWord`](super::types::ControlWord) |
+    /// | 6–7 | [`torque_feed_forward`](Self::torque_feed_forward) | [0x60B2:00](super::objects::TORQUE_FEED_FORWARD) | `i16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1721 {
-        /// Position command value: 0x60C1:01, 32 bits from bit 0.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 0.
         pub position_command_value: i32,
-        /// Control word: 0x6040:00, 16 bits from bit 32.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
         pub control_word: super::types::ControlWord,
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 48.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 48.
         pub torque_feed_forward: i16,
     }
     impl RxPdo1721 {
@@ -6163,17 +6908,26 @@ pub mod pdo {
     /// Note: uscite digitali (2 byte) (L783), of an object of 32 bits (L987). Chosen: 16 bits of 0x60FE:1 (the mapping is fixed, and its length follows from its entries).
     ///
     /// Note: max. coppia (L783) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`control_word`](Self::control_word) | [0x6040:00](super::objects::CONTROL_WORD) | [`ControlWord`](super::types::ControlWord) |
+    /// | 2–5 | [`position_command_value`](Self::position_command_value) | [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE) | `i32` |
+    /// | 6–7 | [`latch_control_word`](Self::latch_control_word) | [0x20A4:00](super::objects::LATCH_CONTROL_WORD) | [`LatchControl`](super::types::LatchControl) |
+    /// | 8–9 | [`torque_feed_forward`](Self::torque_feed_forward) | [0x60B2:00](super::objects::TORQUE_FEED_FORWARD) | `i16` |
+    /// | 10–11 | [`physical_outputs`](Self::physical_outputs) | [0x60FE:01](super::objects::digital_outputs::PHYSICAL_OUTPUTS) | `u16` |
+    /// | 12–13 | [`maximum_torque`](Self::maximum_torque) |  | `u16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1722 {
-        /// Control word: 0x6040:00, 16 bits from bit 0.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 0.
         pub control_word: super::types::ControlWord,
-        /// Position command value: 0x60C1:01, 32 bits from bit 16.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 16.
         pub position_command_value: i32,
-        /// Latch control word: 0x20A4:00, 16 bits from bit 48.
+        /// Latch control word: [0x20A4:00](super::objects::LATCH_CONTROL_WORD), 16 bits from bit 48.
         pub latch_control_word: super::types::LatchControl,
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 64.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 64.
         pub torque_feed_forward: i16,
-        /// Physical outputs: 0x60FE:01, 16 bits from bit 80.
+        /// Physical outputs: [0x60FE:01](super::objects::digital_outputs::PHYSICAL_OUTPUTS), 16 bits from bit 80.
         pub physical_outputs: u16,
         /// maximum torque: an object without a known index, 16 bits from bit 96.
         pub maximum_torque: u16,
@@ -6251,17 +7005,26 @@ pub mod pdo {
     /// Note: uscite digitali (2 byte) (L784), of an object of 32 bits (L987). Chosen: 16 bits of 0x60FE:1 (the mapping is fixed, and its length follows from its entries).
     ///
     /// Note: reset di informazioni aggiornate dell'input (L784) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`control_word`](Self::control_word) | [0x6040:00](super::objects::CONTROL_WORD) | [`ControlWord`](super::types::ControlWord) |
+    /// | 2–5 | [`position_command_value`](Self::position_command_value) | [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE) | `i32` |
+    /// | 6–7 | [`latch_control_word`](Self::latch_control_word) | [0x20A4:00](super::objects::LATCH_CONTROL_WORD) | [`LatchControl`](super::types::LatchControl) |
+    /// | 8–9 | [`torque_feed_forward`](Self::torque_feed_forward) | [0x60B2:00](super::objects::TORQUE_FEED_FORWARD) | `i16` |
+    /// | 10–11 | [`physical_outputs`](Self::physical_outputs) | [0x60FE:01](super::objects::digital_outputs::PHYSICAL_OUTPUTS) | `u16` |
+    /// | 12–13 | [`reset_of_changed_input`](Self::reset_of_changed_input) |  | `u16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1723 {
-        /// Control word: 0x6040:00, 16 bits from bit 0.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 0.
         pub control_word: super::types::ControlWord,
-        /// Position command value: 0x60C1:01, 32 bits from bit 16.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 16.
         pub position_command_value: i32,
-        /// Latch control word: 0x20A4:00, 16 bits from bit 48.
+        /// Latch control word: [0x20A4:00](super::objects::LATCH_CONTROL_WORD), 16 bits from bit 48.
         pub latch_control_word: super::types::LatchControl,
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 64.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 64.
         pub torque_feed_forward: i16,
-        /// Physical outputs: 0x60FE:01, 16 bits from bit 80.
+        /// Physical outputs: [0x60FE:01](super::objects::digital_outputs::PHYSICAL_OUTPUTS), 16 bits from bit 80.
         pub physical_outputs: u16,
         /// reset of changed input information: an object without a known index, 16 bits from bit 96.
         pub reset_of_changed_input: u16,
@@ -6337,13 +7100,19 @@ pub mod pdo {
     /// Note: Posizione di obiettivo per il modo sincrono ciclico di posizione (L785) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
     ///
     /// Note: A mapping for mode 8 (L785), which isn't among the modes supported (L1006-1008). Chosen: the mapping as printed (the mode has its bits in the control word (L716)).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–3 | [`target_position_of_cyclic`](Self::target_position_of_cyclic) |  | `u32` |
+    /// | 4–5 | [`control_word`](Self::control_word) | [0x6040:00](super::objects::CONTROL_WORD) | [`ControlWord`](super::types::ControlWord) |
+    /// | 6–7 | [`torque_feed_forward`](Self::torque_feed_forward) | [0x60B2:00](super::objects::TORQUE_FEED_FORWARD) | `i16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1724 {
         /// target position of cyclic synchronous position: an object without a known index, 32 bits from bit 0.
         pub target_position_of_cyclic: u32,
-        /// Control word: 0x6040:00, 16 bits from bit 32.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
         pub control_word: super::types::ControlWord,
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 48.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 48.
         pub torque_feed_forward: i16,
     }
     impl RxPdo1724 {
@@ -6412,11 +7181,16 @@ pub mod pdo {
     /// Note: Valore effettivo di posizione (L786), where the table of actual values has the internal one (L992). Chosen: bits under this name, without an object (it may be 0x6063, or 0x6064 of DS402, which the manual doesn't name).
     ///
     /// Note: Status word (2 bytes), total (6 bytes) in English (L786). Chosen: 0x6041 (it is the parola di stato of the other mappings).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–3 | [`position_actual_value`](Self::position_actual_value) |  | `u32` |
+    /// | 4–5 | [`status_word`](Self::status_word) | [0x6041:00](super::objects::STATUS_WORD) | [`StatusWord`](super::types::StatusWord) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1B01 {
         /// position actual value: an object without a known index, 32 bits from bit 0.
         pub position_actual_value: u32,
-        /// Status word: 0x6041:00, 16 bits from bit 32.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 32.
         pub status_word: super::types::StatusWord,
     }
     impl TxPdo1B01 {
@@ -6481,11 +7255,16 @@ pub mod pdo {
     /// Note: Valore effettivo di posizione (L796), where the table of actual values has the internal one (L992). Chosen: bits under this name, without an object (it may be 0x6063, or 0x6064 of DS402, which the manual doesn't name).
     ///
     /// Note: 0x1B02 has its entries (L796), and is neither among the values of 0x1C13 (L768) nor in the lists of the tool (L832-842, L870-880). Chosen: as described (the table of mappings says that it is supported (L776)).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–3 | [`position_actual_value`](Self::position_actual_value) |  | `u32` |
+    /// | 4–5 | [`status_word`](Self::status_word) | [0x6041:00](super::objects::STATUS_WORD) | [`StatusWord`](super::types::StatusWord) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1B02 {
         /// position actual value: an object without a known index, 32 bits from bit 0.
         pub position_actual_value: u32,
-        /// Status word: 0x6041:00, 16 bits from bit 32.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 32.
         pub status_word: super::types::StatusWord,
     }
     impl TxPdo1B02 {
@@ -6548,27 +7327,40 @@ pub mod pdo {
     /// Manual, line 768, 787, 837, 875.
     ///
     /// Note: valore effettivo di posizione interne, seconde risposte di posizione, errore di posizione, posizione del blocco positivo (L787); the table of actual values calls them otherwise (L992, L995, L997, L998). Chosen: the objects of the table (the same values in other words).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–3 | [`internal_position_actual_value`](Self::internal_position_actual_value) | [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE) | `i32` |
+    /// | 4–7 | [`second_position_feedback`](Self::second_position_feedback) | [0x2050:00](super::objects::SECOND_POSITION_FEEDBACK) | `i32` |
+    /// | 8–11 | [`velocity_actual_value`](Self::velocity_actual_value) | [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE) | `i32` |
+    /// | 12–15 | [`digital_inputs`](Self::digital_inputs) | [0x60FD:00](super::objects::DIGITAL_INPUTS) | [`DigitalInputs`](super::types::DigitalInputs) |
+    /// | 16–19 | [`following_error_actual_value`](Self::following_error_actual_value) | [0x60F4:00](super::objects::FOLLOWING_ERROR_ACTUAL_VALUE) | `i32` |
+    /// | 20–23 | [`latch_position_rising_edge`](Self::latch_position_rising_edge) | [0x20A0:00](super::objects::LATCH_POSITION_RISING_EDGE) | `i32` |
+    /// | 24–25 | [`status_word`](Self::status_word) | [0x6041:00](super::objects::STATUS_WORD) | [`StatusWord`](super::types::StatusWord) |
+    /// | 26–27 | [`torque_actual_value`](Self::torque_actual_value) | [0x6077:00](super::objects::TORQUE_ACTUAL_VALUE) | `i16` |
+    /// | 28–29 | [`latch_status_word`](Self::latch_status_word) | [0x20A5:00](super::objects::LATCH_STATUS_WORD) | [`LatchStatus`](super::types::LatchStatus) |
+    /// | 30–31 | [`analogue_input_value`](Self::analogue_input_value) | [0x3470:00](super::objects::ANALOGUE_INPUT_VALUE) | `i16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1B20 {
-        /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
+        /// Internal position actual value: [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE), 32 bits from bit 0.
         pub internal_position_actual_value: i32,
-        /// Second position feedback: 0x2050:00, 32 bits from bit 32.
+        /// Second position feedback: [0x2050:00](super::objects::SECOND_POSITION_FEEDBACK), 32 bits from bit 32.
         pub second_position_feedback: i32,
-        /// Velocity actual value: 0x606C:00, 32 bits from bit 64.
+        /// Velocity actual value: [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE), 32 bits from bit 64.
         pub velocity_actual_value: i32,
-        /// Digital inputs: 0x60FD:00, 32 bits from bit 96.
+        /// Digital inputs: [0x60FD:00](super::objects::DIGITAL_INPUTS), 32 bits from bit 96.
         pub digital_inputs: super::types::DigitalInputs,
-        /// Following error actual value: 0x60F4:00, 32 bits from bit 128.
+        /// Following error actual value: [0x60F4:00](super::objects::FOLLOWING_ERROR_ACTUAL_VALUE), 32 bits from bit 128.
         pub following_error_actual_value: i32,
-        /// Latch position, rising edge: 0x20A0:00, 32 bits from bit 160.
+        /// Latch position, rising edge: [0x20A0:00](super::objects::LATCH_POSITION_RISING_EDGE), 32 bits from bit 160.
         pub latch_position_rising_edge: i32,
-        /// Status word: 0x6041:00, 16 bits from bit 192.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 192.
         pub status_word: super::types::StatusWord,
-        /// Torque actual value: 0x6077:00, 16 bits from bit 208.
+        /// Torque actual value: [0x6077:00](super::objects::TORQUE_ACTUAL_VALUE), 16 bits from bit 208.
         pub torque_actual_value: i16,
-        /// Latch status word: 0x20A5:00, 16 bits from bit 224.
+        /// Latch status word: [0x20A5:00](super::objects::LATCH_STATUS_WORD), 16 bits from bit 224.
         pub latch_status_word: super::types::LatchStatus,
-        /// Analogue input value: 0x3470:00, 16 bits from bit 240.
+        /// Analogue input value: [0x3470:00](super::objects::ANALOGUE_INPUT_VALUE), 16 bits from bit 240.
         pub analogue_input_value: i16,
     }
     impl TxPdo1B20 {
@@ -6656,11 +7448,16 @@ pub mod pdo {
     /// Internal position.
     ///
     /// Manual, line 768, 788, 838, 876.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–3 | [`internal_position_actual_value`](Self::internal_position_actual_value) | [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE) | `i32` |
+    /// | 4–5 | [`status_word`](Self::status_word) | [0x6041:00](super::objects::STATUS_WORD) | [`StatusWord`](super::types::StatusWord) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1B21 {
-        /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
+        /// Internal position actual value: [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE), 32 bits from bit 0.
         pub internal_position_actual_value: i32,
-        /// Status word: 0x6041:00, 16 bits from bit 32.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 32.
         pub status_word: super::types::StatusWord,
     }
     impl TxPdo1B21 {
@@ -6725,27 +7522,40 @@ pub mod pdo {
     /// Note: valore effettivo di posizione interne, seconde risposte di posizione, errore di posizione (L789); the table of actual values calls them otherwise (L992, L995, L997). Chosen: the objects of the table (the same values in other words).
     ///
     /// Note: posizione del blocco negativo (L789) is no value of the table of actual values (L992-1001). Chosen: bits under this name, without an object (only the position on the rising edge has an index (L998)).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–3 | [`internal_position_actual_value`](Self::internal_position_actual_value) | [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE) | `i32` |
+    /// | 4–7 | [`second_position_feedback`](Self::second_position_feedback) | [0x2050:00](super::objects::SECOND_POSITION_FEEDBACK) | `i32` |
+    /// | 8–11 | [`velocity_actual_value`](Self::velocity_actual_value) | [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE) | `i32` |
+    /// | 12–15 | [`digital_inputs`](Self::digital_inputs) | [0x60FD:00](super::objects::DIGITAL_INPUTS) | [`DigitalInputs`](super::types::DigitalInputs) |
+    /// | 16–19 | [`following_error_actual_value`](Self::following_error_actual_value) | [0x60F4:00](super::objects::FOLLOWING_ERROR_ACTUAL_VALUE) | `i32` |
+    /// | 20–23 | [`latch_position_falling_edge`](Self::latch_position_falling_edge) |  | `u32` |
+    /// | 24–25 | [`status_word`](Self::status_word) | [0x6041:00](super::objects::STATUS_WORD) | [`StatusWord`](super::types::StatusWord) |
+    /// | 26–27 | [`torque_actual_value`](Self::torque_actual_value) | [0x6077:00](super::objects::TORQUE_ACTUAL_VALUE) | `i16` |
+    /// | 28–29 | [`latch_status_word`](Self::latch_status_word) | [0x20A5:00](super::objects::LATCH_STATUS_WORD) | [`LatchStatus`](super::types::LatchStatus) |
+    /// | 30–31 | [`analogue_input_value`](Self::analogue_input_value) | [0x3470:00](super::objects::ANALOGUE_INPUT_VALUE) | `i16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1B22 {
-        /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
+        /// Internal position actual value: [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE), 32 bits from bit 0.
         pub internal_position_actual_value: i32,
-        /// Second position feedback: 0x2050:00, 32 bits from bit 32.
+        /// Second position feedback: [0x2050:00](super::objects::SECOND_POSITION_FEEDBACK), 32 bits from bit 32.
         pub second_position_feedback: i32,
-        /// Velocity actual value: 0x606C:00, 32 bits from bit 64.
+        /// Velocity actual value: [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE), 32 bits from bit 64.
         pub velocity_actual_value: i32,
-        /// Digital inputs: 0x60FD:00, 32 bits from bit 96.
+        /// Digital inputs: [0x60FD:00](super::objects::DIGITAL_INPUTS), 32 bits from bit 96.
         pub digital_inputs: super::types::DigitalInputs,
-        /// Following error actual value: 0x60F4:00, 32 bits from bit 128.
+        /// Following error actual value: [0x60F4:00](super::objects::FOLLOWING_ERROR_ACTUAL_VALUE), 32 bits from bit 128.
         pub following_error_actual_value: i32,
         /// latch position, falling edge: an object without a known index, 32 bits from bit 160.
         pub latch_position_falling_edge: u32,
-        /// Status word: 0x6041:00, 16 bits from bit 192.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 192.
         pub status_word: super::types::StatusWord,
-        /// Torque actual value: 0x6077:00, 16 bits from bit 208.
+        /// Torque actual value: [0x6077:00](super::objects::TORQUE_ACTUAL_VALUE), 16 bits from bit 208.
         pub torque_actual_value: i16,
-        /// Latch status word: 0x20A5:00, 16 bits from bit 224.
+        /// Latch status word: [0x20A5:00](super::objects::LATCH_STATUS_WORD), 16 bits from bit 224.
         pub latch_status_word: super::types::LatchStatus,
-        /// Analogue input value: 0x3470:00, 16 bits from bit 240.
+        /// Analogue input value: [0x3470:00](super::objects::ANALOGUE_INPUT_VALUE), 16 bits from bit 240.
         pub analogue_input_value: i16,
     }
     impl TxPdo1B22 {
@@ -6837,27 +7647,40 @@ pub mod pdo {
     /// Note: valore effettivo di posizione interne, seconde risposte di posizione, errore di posizione (L790); the table of actual values calls them otherwise (L992, L995, L997). Chosen: the objects of the table (the same values in other words).
     ///
     /// Note: posizione del blocco positivo/negativo (L790) is no value of the table of actual values (L992-1001). Chosen: bits under this name, without an object (only the position on the rising edge has an index (L998)).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–3 | [`internal_position_actual_value`](Self::internal_position_actual_value) | [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE) | `i32` |
+    /// | 4–7 | [`second_position_feedback`](Self::second_position_feedback) | [0x2050:00](super::objects::SECOND_POSITION_FEEDBACK) | `i32` |
+    /// | 8–11 | [`velocity_actual_value`](Self::velocity_actual_value) | [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE) | `i32` |
+    /// | 12–15 | [`digital_inputs`](Self::digital_inputs) | [0x60FD:00](super::objects::DIGITAL_INPUTS) | [`DigitalInputs`](super::types::DigitalInputs) |
+    /// | 16–19 | [`following_error_actual_value`](Self::following_error_actual_value) | [0x60F4:00](super::objects::FOLLOWING_ERROR_ACTUAL_VALUE) | `i32` |
+    /// | 20–23 | [`latch_position_rising_or`](Self::latch_position_rising_or) |  | `u32` |
+    /// | 24–25 | [`status_word`](Self::status_word) | [0x6041:00](super::objects::STATUS_WORD) | [`StatusWord`](super::types::StatusWord) |
+    /// | 26–27 | [`torque_actual_value`](Self::torque_actual_value) | [0x6077:00](super::objects::TORQUE_ACTUAL_VALUE) | `i16` |
+    /// | 28–29 | [`latch_status_word`](Self::latch_status_word) | [0x20A5:00](super::objects::LATCH_STATUS_WORD) | [`LatchStatus`](super::types::LatchStatus) |
+    /// | 30–31 | [`analogue_input_value`](Self::analogue_input_value) | [0x3470:00](super::objects::ANALOGUE_INPUT_VALUE) | `i16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1B23 {
-        /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
+        /// Internal position actual value: [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE), 32 bits from bit 0.
         pub internal_position_actual_value: i32,
-        /// Second position feedback: 0x2050:00, 32 bits from bit 32.
+        /// Second position feedback: [0x2050:00](super::objects::SECOND_POSITION_FEEDBACK), 32 bits from bit 32.
         pub second_position_feedback: i32,
-        /// Velocity actual value: 0x606C:00, 32 bits from bit 64.
+        /// Velocity actual value: [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE), 32 bits from bit 64.
         pub velocity_actual_value: i32,
-        /// Digital inputs: 0x60FD:00, 32 bits from bit 96.
+        /// Digital inputs: [0x60FD:00](super::objects::DIGITAL_INPUTS), 32 bits from bit 96.
         pub digital_inputs: super::types::DigitalInputs,
-        /// Following error actual value: 0x60F4:00, 32 bits from bit 128.
+        /// Following error actual value: [0x60F4:00](super::objects::FOLLOWING_ERROR_ACTUAL_VALUE), 32 bits from bit 128.
         pub following_error_actual_value: i32,
         /// latch position, rising or falling edge: an object without a known index, 32 bits from bit 160.
         pub latch_position_rising_or: u32,
-        /// Status word: 0x6041:00, 16 bits from bit 192.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 192.
         pub status_word: super::types::StatusWord,
-        /// Torque actual value: 0x6077:00, 16 bits from bit 208.
+        /// Torque actual value: [0x6077:00](super::objects::TORQUE_ACTUAL_VALUE), 16 bits from bit 208.
         pub torque_actual_value: i16,
-        /// Latch status word: 0x20A5:00, 16 bits from bit 224.
+        /// Latch status word: [0x20A5:00](super::objects::LATCH_STATUS_WORD), 16 bits from bit 224.
         pub latch_status_word: super::types::LatchStatus,
-        /// Analogue input value: 0x3470:00, 16 bits from bit 240.
+        /// Analogue input value: [0x3470:00](super::objects::ANALOGUE_INPUT_VALUE), 16 bits from bit 240.
         pub analogue_input_value: i16,
     }
     impl TxPdo1B23 {
@@ -6949,11 +7772,16 @@ pub mod pdo {
     /// Note: Valore effettivo di posizione (L791), where the table of actual values has the internal one (L992). Chosen: bits under this name, without an object (it may be 0x6063, or 0x6064 of DS402, which the manual doesn't name).
     ///
     /// Note: The row ends in a comma (L791). Chosen: two entries (the tool shows six bytes, as they have (L841, L879)).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–3 | [`position_actual_value`](Self::position_actual_value) |  | `u32` |
+    /// | 4–5 | [`status_word`](Self::status_word) | [0x6041:00](super::objects::STATUS_WORD) | [`StatusWord`](super::types::StatusWord) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1B24 {
         /// position actual value: an object without a known index, 32 bits from bit 0.
         pub position_actual_value: u32,
-        /// Status word: 0x6041:00, 16 bits from bit 32.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 32.
         pub status_word: super::types::StatusWord,
     }
     impl TxPdo1B24 {
@@ -7014,9 +7842,13 @@ pub mod pdo {
     /// Mapped freely.
     ///
     /// Manual, line 808, 905, 842, 880, 893.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`control_word`](Self::control_word) | [0x6040:00](super::objects::CONTROL_WORD) | [`ControlWord`](super::types::ControlWord) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1600 {
-        /// Control word: 0x6040:00, 16 bits from bit 0.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 0.
         pub control_word: super::types::ControlWord,
     }
     impl RxPdo1600 {
@@ -7073,9 +7905,13 @@ pub mod pdo {
     /// Mapped freely.
     ///
     /// Manual, line 808, 905, 832, 853, 870.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`status_word`](Self::status_word) | [0x6041:00](super::objects::STATUS_WORD) | [`StatusWord`](super::types::StatusWord) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1A00 {
-        /// Status word: 0x6041:00, 16 bits from bit 0.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 0.
         pub status_word: super::types::StatusWord,
     }
     impl TxPdo1A00 {
@@ -7131,13 +7967,7 @@ pub mod view {
     use ::lexibus as rt;
     /// RxPDO 0x1701: Rx PDO 1701.
     ///
-    /// Mapping 0x1701, 48 bits.
-    ///
-    /// Position, as it is assigned by default.
-    ///
-    /// Manual, line 768, 780, 815, 848.
-    ///
-    /// Note: Valore di comando di posizione (L780), which is 0x60C1:1 by the table of set-points (L982). Chosen: 0x60C1:1 (the names are the same; a device description may call it otherwise).
+    /// Its layout: [`pdo::RxPdo1701`](super::pdo::RxPdo1701).
     pub struct RxPdo1701<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -7162,12 +7992,12 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(48))?;
             Ok(Self { data, bit })
         }
-        /// Position command value: 0x60C1:01, 32 bits from bit 0.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 0.
         #[inline]
         pub fn position_command_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit, 32) as i32
         }
-        /// Control word: 0x6040:00, 16 bits from bit 32.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
         #[inline]
         pub fn control_word(&self) -> super::types::ControlWord {
             super::types::ControlWord::from_raw(
@@ -7176,12 +8006,12 @@ pub mod view {
         }
     }
     impl<B: AsMut<[u8]>> RxPdo1701<B> {
-        /// Position command value: 0x60C1:01, 32 bits from bit 0.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 0.
         #[inline]
         pub fn set_position_command_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit, 32, value as u32 as u64);
         }
-        /// Control word: 0x6040:00, 16 bits from bit 32.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
         #[inline]
         pub fn set_control_word(&mut self, value: super::types::ControlWord) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 16, value.raw() as u64);
@@ -7189,11 +8019,7 @@ pub mod view {
     }
     /// RxPDO 0x1702: Rx PDO 1702.
     ///
-    /// Mapping 0x1702, 48 bits.
-    ///
-    /// Velocity.
-    ///
-    /// Manual, line 768, 795, 849.
+    /// Its layout: [`pdo::RxPdo1702`](super::pdo::RxPdo1702).
     pub struct RxPdo1702<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -7218,12 +8044,12 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(48))?;
             Ok(Self { data, bit })
         }
-        /// Velocity command value: 0x60FF:00, 32 bits from bit 0.
+        /// Velocity command value: [0x60FF:00](super::objects::VELOCITY_COMMAND_VALUE), 32 bits from bit 0.
         #[inline]
         pub fn velocity_command_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit, 32) as i32
         }
-        /// Control word: 0x6040:00, 16 bits from bit 32.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
         #[inline]
         pub fn control_word(&self) -> super::types::ControlWord {
             super::types::ControlWord::from_raw(
@@ -7232,12 +8058,12 @@ pub mod view {
         }
     }
     impl<B: AsMut<[u8]>> RxPdo1702<B> {
-        /// Velocity command value: 0x60FF:00, 32 bits from bit 0.
+        /// Velocity command value: [0x60FF:00](super::objects::VELOCITY_COMMAND_VALUE), 32 bits from bit 0.
         #[inline]
         pub fn set_velocity_command_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit, 32, value as u32 as u64);
         }
-        /// Control word: 0x6040:00, 16 bits from bit 32.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
         #[inline]
         pub fn set_control_word(&mut self, value: super::types::ControlWord) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 16, value.raw() as u64);
@@ -7245,15 +8071,7 @@ pub mod view {
     }
     /// RxPDO 0x1703: Rx PDO 1703.
     ///
-    /// Mapping 0x1703, 32 bits.
-    ///
-    /// Torque.
-    ///
-    /// Manual, line 768, 800, 850.
-    ///
-    /// Note: Valore di comando coppia di torsione (L800) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
-    ///
-    /// Note: The torque interface has no mapping of actual values (L800). Chosen: none (any of the others can be assigned beside it).
+    /// Its layout: [`pdo::RxPdo1703`](super::pdo::RxPdo1703).
     pub struct RxPdo1703<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -7283,7 +8101,7 @@ pub mod view {
         pub fn torque_command_value(&self) -> u16 {
             rt::bits::get(self.data.as_ref(), self.bit, 16) as u16
         }
-        /// Control word: 0x6040:00, 16 bits from bit 16.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 16.
         #[inline]
         pub fn control_word(&self) -> super::types::ControlWord {
             super::types::ControlWord::from_raw(
@@ -7297,7 +8115,7 @@ pub mod view {
         pub fn set_torque_command_value(&mut self, value: u16) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value as u64);
         }
-        /// Control word: 0x6040:00, 16 bits from bit 16.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 16.
         #[inline]
         pub fn set_control_word(&mut self, value: super::types::ControlWord) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 16, value.raw() as u64);
@@ -7305,17 +8123,7 @@ pub mod view {
     }
     /// RxPDO 0x1720: Rx PDO 1720.
     ///
-    /// Mapping 0x1720, 96 bits.
-    ///
-    /// Position with latch, torque and outputs.
-    ///
-    /// Manual, line 768, 781.
-    ///
-    /// Note: valore di comando di posizione interpolata (L781); the table of set-points has Valore di comando di posizione (L982). Chosen: 0x60C1:1 (that is the data of interpolated position, by its description).
-    ///
-    /// Note: uscite digitali (2 byte) (L781), of an object of 32 bits (L987). Chosen: 16 bits of 0x60FE:1 (the mapping is fixed, and its length follows from its entries).
-    ///
-    /// Note: parola del controllo del blocco (L781), Parola di controllo del blocco (L985). Chosen: 0x20A4 (the same value in other words).
+    /// Its layout: [`pdo::RxPdo1720`](super::pdo::RxPdo1720).
     pub struct RxPdo1720<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -7340,58 +8148,58 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(96))?;
             Ok(Self { data, bit })
         }
-        /// Control word: 0x6040:00, 16 bits from bit 0.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 0.
         #[inline]
         pub fn control_word(&self) -> super::types::ControlWord {
             super::types::ControlWord::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Position command value: 0x60C1:01, 32 bits from bit 16.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 16.
         #[inline]
         pub fn position_command_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 32) as i32
         }
-        /// Latch control word: 0x20A4:00, 16 bits from bit 48.
+        /// Latch control word: [0x20A4:00](super::objects::LATCH_CONTROL_WORD), 16 bits from bit 48.
         #[inline]
         pub fn latch_control_word(&self) -> super::types::LatchControl {
             super::types::LatchControl::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 48, 16) as u16,
             )
         }
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 64.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 64.
         #[inline]
         pub fn torque_feed_forward(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 64, 16) as i16
         }
-        /// Physical outputs: 0x60FE:01, 16 bits from bit 80.
+        /// Physical outputs: [0x60FE:01](super::objects::digital_outputs::PHYSICAL_OUTPUTS), 16 bits from bit 80.
         #[inline]
         pub fn physical_outputs(&self) -> u16 {
             rt::bits::get(self.data.as_ref(), self.bit + 80, 16) as u16
         }
     }
     impl<B: AsMut<[u8]>> RxPdo1720<B> {
-        /// Control word: 0x6040:00, 16 bits from bit 0.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 0.
         #[inline]
         pub fn set_control_word(&mut self, value: super::types::ControlWord) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Position command value: 0x60C1:01, 32 bits from bit 16.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 16.
         #[inline]
         pub fn set_position_command_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 32, value as u32 as u64);
         }
-        /// Latch control word: 0x20A4:00, 16 bits from bit 48.
+        /// Latch control word: [0x20A4:00](super::objects::LATCH_CONTROL_WORD), 16 bits from bit 48.
         #[inline]
         pub fn set_latch_control_word(&mut self, value: super::types::LatchControl) {
             rt::bits::set(self.data.as_mut(), self.bit + 48, 16, value.raw() as u64);
         }
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 64.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 64.
         #[inline]
         pub fn set_torque_feed_forward(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 64, 16, value as u16 as u64);
         }
-        /// Physical outputs: 0x60FE:01, 16 bits from bit 80.
+        /// Physical outputs: [0x60FE:01](super::objects::digital_outputs::PHYSICAL_OUTPUTS), 16 bits from bit 80.
         #[inline]
         pub fn set_physical_outputs(&mut self, value: u16) {
             rt::bits::set(self.data.as_mut(), self.bit + 80, 16, value as u64);
@@ -7399,13 +8207,7 @@ pub mod view {
     }
     /// RxPDO 0x1721: Rx PDO 1721.
     ///
-    /// Mapping 0x1721, 64 bits.
-    ///
-    /// Position with torque.
-    ///
-    /// Manual, line 768, 782.
-    ///
-    /// Note: valore di comando di posizione interpolata (L782); the table of set-points has Valore di comando di posizione (L982). Chosen: 0x60C1:1 (that is the data of interpolated position, by its description).
+    /// Its layout: [`pdo::RxPdo1721`](super::pdo::RxPdo1721).
     pub struct RxPdo1721<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -7430,36 +8232,36 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(64))?;
             Ok(Self { data, bit })
         }
-        /// Position command value: 0x60C1:01, 32 bits from bit 0.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 0.
         #[inline]
         pub fn position_command_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit, 32) as i32
         }
-        /// Control word: 0x6040:00, 16 bits from bit 32.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
         #[inline]
         pub fn control_word(&self) -> super::types::ControlWord {
             super::types::ControlWord::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 32, 16) as u16,
             )
         }
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 48.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 48.
         #[inline]
         pub fn torque_feed_forward(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 48, 16) as i16
         }
     }
     impl<B: AsMut<[u8]>> RxPdo1721<B> {
-        /// Position command value: 0x60C1:01, 32 bits from bit 0.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 0.
         #[inline]
         pub fn set_position_command_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit, 32, value as u32 as u64);
         }
-        /// Control word: 0x6040:00, 16 bits from bit 32.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
         #[inline]
         pub fn set_control_word(&mut self, value: super::types::ControlWord) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 16, value.raw() as u64);
         }
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 48.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 48.
         #[inline]
         pub fn set_torque_feed_forward(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 48, 16, value as u16 as u64);
@@ -7467,17 +8269,7 @@ pub mod view {
     }
     /// RxPDO 0x1722: Rx PDO 1722.
     ///
-    /// Mapping 0x1722, 112 bits.
-    ///
-    /// Position with latch, torque, outputs and a limit of torque.
-    ///
-    /// Manual, line 768, 783.
-    ///
-    /// Note: valore di comando di posizione interpolata (L783); the table of set-points has Valore di comando di posizione (L982). Chosen: 0x60C1:1 (that is the data of interpolated position, by its description).
-    ///
-    /// Note: uscite digitali (2 byte) (L783), of an object of 32 bits (L987). Chosen: 16 bits of 0x60FE:1 (the mapping is fixed, and its length follows from its entries).
-    ///
-    /// Note: max. coppia (L783) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
+    /// Its layout: [`pdo::RxPdo1722`](super::pdo::RxPdo1722).
     pub struct RxPdo1722<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -7502,31 +8294,31 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(112))?;
             Ok(Self { data, bit })
         }
-        /// Control word: 0x6040:00, 16 bits from bit 0.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 0.
         #[inline]
         pub fn control_word(&self) -> super::types::ControlWord {
             super::types::ControlWord::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Position command value: 0x60C1:01, 32 bits from bit 16.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 16.
         #[inline]
         pub fn position_command_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 32) as i32
         }
-        /// Latch control word: 0x20A4:00, 16 bits from bit 48.
+        /// Latch control word: [0x20A4:00](super::objects::LATCH_CONTROL_WORD), 16 bits from bit 48.
         #[inline]
         pub fn latch_control_word(&self) -> super::types::LatchControl {
             super::types::LatchControl::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 48, 16) as u16,
             )
         }
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 64.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 64.
         #[inline]
         pub fn torque_feed_forward(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 64, 16) as i16
         }
-        /// Physical outputs: 0x60FE:01, 16 bits from bit 80.
+        /// Physical outputs: [0x60FE:01](super::objects::digital_outputs::PHYSICAL_OUTPUTS), 16 bits from bit 80.
         #[inline]
         pub fn physical_outputs(&self) -> u16 {
             rt::bits::get(self.data.as_ref(), self.bit + 80, 16) as u16
@@ -7538,27 +8330,27 @@ pub mod view {
         }
     }
     impl<B: AsMut<[u8]>> RxPdo1722<B> {
-        /// Control word: 0x6040:00, 16 bits from bit 0.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 0.
         #[inline]
         pub fn set_control_word(&mut self, value: super::types::ControlWord) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Position command value: 0x60C1:01, 32 bits from bit 16.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 16.
         #[inline]
         pub fn set_position_command_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 32, value as u32 as u64);
         }
-        /// Latch control word: 0x20A4:00, 16 bits from bit 48.
+        /// Latch control word: [0x20A4:00](super::objects::LATCH_CONTROL_WORD), 16 bits from bit 48.
         #[inline]
         pub fn set_latch_control_word(&mut self, value: super::types::LatchControl) {
             rt::bits::set(self.data.as_mut(), self.bit + 48, 16, value.raw() as u64);
         }
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 64.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 64.
         #[inline]
         pub fn set_torque_feed_forward(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 64, 16, value as u16 as u64);
         }
-        /// Physical outputs: 0x60FE:01, 16 bits from bit 80.
+        /// Physical outputs: [0x60FE:01](super::objects::digital_outputs::PHYSICAL_OUTPUTS), 16 bits from bit 80.
         #[inline]
         pub fn set_physical_outputs(&mut self, value: u16) {
             rt::bits::set(self.data.as_mut(), self.bit + 80, 16, value as u64);
@@ -7571,17 +8363,7 @@ pub mod view {
     }
     /// RxPDO 0x1723: Rx PDO 1723.
     ///
-    /// Mapping 0x1723, 112 bits.
-    ///
-    /// Position with latch, torque, outputs and a reset of the inputs.
-    ///
-    /// Manual, line 768, 784.
-    ///
-    /// Note: valore di comando di posizione interpolata (L784); the table of set-points has Valore di comando di posizione (L982). Chosen: 0x60C1:1 (that is the data of interpolated position, by its description).
-    ///
-    /// Note: uscite digitali (2 byte) (L784), of an object of 32 bits (L987). Chosen: 16 bits of 0x60FE:1 (the mapping is fixed, and its length follows from its entries).
-    ///
-    /// Note: reset di informazioni aggiornate dell'input (L784) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
+    /// Its layout: [`pdo::RxPdo1723`](super::pdo::RxPdo1723).
     pub struct RxPdo1723<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -7606,31 +8388,31 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(112))?;
             Ok(Self { data, bit })
         }
-        /// Control word: 0x6040:00, 16 bits from bit 0.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 0.
         #[inline]
         pub fn control_word(&self) -> super::types::ControlWord {
             super::types::ControlWord::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Position command value: 0x60C1:01, 32 bits from bit 16.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 16.
         #[inline]
         pub fn position_command_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 32) as i32
         }
-        /// Latch control word: 0x20A4:00, 16 bits from bit 48.
+        /// Latch control word: [0x20A4:00](super::objects::LATCH_CONTROL_WORD), 16 bits from bit 48.
         #[inline]
         pub fn latch_control_word(&self) -> super::types::LatchControl {
             super::types::LatchControl::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 48, 16) as u16,
             )
         }
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 64.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 64.
         #[inline]
         pub fn torque_feed_forward(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 64, 16) as i16
         }
-        /// Physical outputs: 0x60FE:01, 16 bits from bit 80.
+        /// Physical outputs: [0x60FE:01](super::objects::digital_outputs::PHYSICAL_OUTPUTS), 16 bits from bit 80.
         #[inline]
         pub fn physical_outputs(&self) -> u16 {
             rt::bits::get(self.data.as_ref(), self.bit + 80, 16) as u16
@@ -7642,27 +8424,27 @@ pub mod view {
         }
     }
     impl<B: AsMut<[u8]>> RxPdo1723<B> {
-        /// Control word: 0x6040:00, 16 bits from bit 0.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 0.
         #[inline]
         pub fn set_control_word(&mut self, value: super::types::ControlWord) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Position command value: 0x60C1:01, 32 bits from bit 16.
+        /// Position command value: [0x60C1:01](super::objects::interpolation_data_record::POSITION_COMMAND_VALUE), 32 bits from bit 16.
         #[inline]
         pub fn set_position_command_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 32, value as u32 as u64);
         }
-        /// Latch control word: 0x20A4:00, 16 bits from bit 48.
+        /// Latch control word: [0x20A4:00](super::objects::LATCH_CONTROL_WORD), 16 bits from bit 48.
         #[inline]
         pub fn set_latch_control_word(&mut self, value: super::types::LatchControl) {
             rt::bits::set(self.data.as_mut(), self.bit + 48, 16, value.raw() as u64);
         }
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 64.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 64.
         #[inline]
         pub fn set_torque_feed_forward(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 64, 16, value as u16 as u64);
         }
-        /// Physical outputs: 0x60FE:01, 16 bits from bit 80.
+        /// Physical outputs: [0x60FE:01](super::objects::digital_outputs::PHYSICAL_OUTPUTS), 16 bits from bit 80.
         #[inline]
         pub fn set_physical_outputs(&mut self, value: u16) {
             rt::bits::set(self.data.as_mut(), self.bit + 80, 16, value as u64);
@@ -7675,15 +8457,7 @@ pub mod view {
     }
     /// RxPDO 0x1724: Rx PDO 1724.
     ///
-    /// Mapping 0x1724, 64 bits.
-    ///
-    /// Target position of cyclic synchronous position, with torque.
-    ///
-    /// Manual, line 768, 785.
-    ///
-    /// Note: Posizione di obiettivo per il modo sincrono ciclico di posizione (L785) is no value of the table of set-points (L982-987). Chosen: bits under this name, without an object (nothing gives its index).
-    ///
-    /// Note: A mapping for mode 8 (L785), which isn't among the modes supported (L1006-1008). Chosen: the mapping as printed (the mode has its bits in the control word (L716)).
+    /// Its layout: [`pdo::RxPdo1724`](super::pdo::RxPdo1724).
     pub struct RxPdo1724<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -7713,14 +8487,14 @@ pub mod view {
         pub fn target_position_of_cyclic(&self) -> u32 {
             rt::bits::get(self.data.as_ref(), self.bit, 32) as u32
         }
-        /// Control word: 0x6040:00, 16 bits from bit 32.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
         #[inline]
         pub fn control_word(&self) -> super::types::ControlWord {
             super::types::ControlWord::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 32, 16) as u16,
             )
         }
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 48.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 48.
         #[inline]
         pub fn torque_feed_forward(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 48, 16) as i16
@@ -7732,12 +8506,12 @@ pub mod view {
         pub fn set_target_position_of_cyclic(&mut self, value: u32) {
             rt::bits::set(self.data.as_mut(), self.bit, 32, value as u64);
         }
-        /// Control word: 0x6040:00, 16 bits from bit 32.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 32.
         #[inline]
         pub fn set_control_word(&mut self, value: super::types::ControlWord) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 16, value.raw() as u64);
         }
-        /// Torque feed-forward: 0x60B2:00, 16 bits from bit 48.
+        /// Torque feed-forward: [0x60B2:00](super::objects::TORQUE_FEED_FORWARD), 16 bits from bit 48.
         #[inline]
         pub fn set_torque_feed_forward(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 48, 16, value as u16 as u64);
@@ -7745,15 +8519,7 @@ pub mod view {
     }
     /// TxPDO 0x1B01: Tx PDO 1B01.
     ///
-    /// Mapping 0x1B01, 48 bits.
-    ///
-    /// Position, as it is assigned by default.
-    ///
-    /// Manual, line 768, 786, 815, 836, 874.
-    ///
-    /// Note: Valore effettivo di posizione (L786), where the table of actual values has the internal one (L992). Chosen: bits under this name, without an object (it may be 0x6063, or 0x6064 of DS402, which the manual doesn't name).
-    ///
-    /// Note: Status word (2 bytes), total (6 bytes) in English (L786). Chosen: 0x6041 (it is the parola di stato of the other mappings).
+    /// Its layout: [`pdo::TxPdo1B01`](super::pdo::TxPdo1B01).
     pub struct TxPdo1B01<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -7783,7 +8549,7 @@ pub mod view {
         pub fn position_actual_value(&self) -> u32 {
             rt::bits::get(self.data.as_ref(), self.bit, 32) as u32
         }
-        /// Status word: 0x6041:00, 16 bits from bit 32.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 32.
         #[inline]
         pub fn status_word(&self) -> super::types::StatusWord {
             super::types::StatusWord::from_raw(
@@ -7797,7 +8563,7 @@ pub mod view {
         pub fn set_position_actual_value(&mut self, value: u32) {
             rt::bits::set(self.data.as_mut(), self.bit, 32, value as u64);
         }
-        /// Status word: 0x6041:00, 16 bits from bit 32.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 32.
         #[inline]
         pub fn set_status_word(&mut self, value: super::types::StatusWord) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 16, value.raw() as u64);
@@ -7805,15 +8571,7 @@ pub mod view {
     }
     /// TxPDO 0x1B02: Tx PDO 1B02.
     ///
-    /// Mapping 0x1B02, 48 bits.
-    ///
-    /// Position, beside velocities.
-    ///
-    /// Manual, line 796.
-    ///
-    /// Note: Valore effettivo di posizione (L796), where the table of actual values has the internal one (L992). Chosen: bits under this name, without an object (it may be 0x6063, or 0x6064 of DS402, which the manual doesn't name).
-    ///
-    /// Note: 0x1B02 has its entries (L796), and is neither among the values of 0x1C13 (L768) nor in the lists of the tool (L832-842, L870-880). Chosen: as described (the table of mappings says that it is supported (L776)).
+    /// Its layout: [`pdo::TxPdo1B02`](super::pdo::TxPdo1B02).
     pub struct TxPdo1B02<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -7843,7 +8601,7 @@ pub mod view {
         pub fn position_actual_value(&self) -> u32 {
             rt::bits::get(self.data.as_ref(), self.bit, 32) as u32
         }
-        /// Status word: 0x6041:00, 16 bits from bit 32.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 32.
         #[inline]
         pub fn status_word(&self) -> super::types::StatusWord {
             super::types::StatusWord::from_raw(
@@ -7857,7 +8615,7 @@ pub mod view {
         pub fn set_position_actual_value(&mut self, value: u32) {
             rt::bits::set(self.data.as_mut(), self.bit, 32, value as u64);
         }
-        /// Status word: 0x6041:00, 16 bits from bit 32.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 32.
         #[inline]
         pub fn set_status_word(&mut self, value: super::types::StatusWord) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 16, value.raw() as u64);
@@ -7865,13 +8623,7 @@ pub mod view {
     }
     /// TxPDO 0x1B20: Tx PDO 1B20.
     ///
-    /// Mapping 0x1B20, 256 bits.
-    ///
-    /// All actual values, with the latch on the rising edge.
-    ///
-    /// Manual, line 768, 787, 837, 875.
-    ///
-    /// Note: valore effettivo di posizione interne, seconde risposte di posizione, errore di posizione, posizione del blocco positivo (L787); the table of actual values calls them otherwise (L992, L995, L997, L998). Chosen: the objects of the table (the same values in other words).
+    /// Its layout: [`pdo::TxPdo1B20`](super::pdo::TxPdo1B20).
     pub struct TxPdo1B20<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -7896,110 +8648,110 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(256))?;
             Ok(Self { data, bit })
         }
-        /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
+        /// Internal position actual value: [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE), 32 bits from bit 0.
         #[inline]
         pub fn internal_position_actual_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit, 32) as i32
         }
-        /// Second position feedback: 0x2050:00, 32 bits from bit 32.
+        /// Second position feedback: [0x2050:00](super::objects::SECOND_POSITION_FEEDBACK), 32 bits from bit 32.
         #[inline]
         pub fn second_position_feedback(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 32, 32) as i32
         }
-        /// Velocity actual value: 0x606C:00, 32 bits from bit 64.
+        /// Velocity actual value: [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE), 32 bits from bit 64.
         #[inline]
         pub fn velocity_actual_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 64, 32) as i32
         }
-        /// Digital inputs: 0x60FD:00, 32 bits from bit 96.
+        /// Digital inputs: [0x60FD:00](super::objects::DIGITAL_INPUTS), 32 bits from bit 96.
         #[inline]
         pub fn digital_inputs(&self) -> super::types::DigitalInputs {
             super::types::DigitalInputs::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 96, 32) as u32,
             )
         }
-        /// Following error actual value: 0x60F4:00, 32 bits from bit 128.
+        /// Following error actual value: [0x60F4:00](super::objects::FOLLOWING_ERROR_ACTUAL_VALUE), 32 bits from bit 128.
         #[inline]
         pub fn following_error_actual_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 128, 32) as i32
         }
-        /// Latch position, rising edge: 0x20A0:00, 32 bits from bit 160.
+        /// Latch position, rising edge: [0x20A0:00](super::objects::LATCH_POSITION_RISING_EDGE), 32 bits from bit 160.
         #[inline]
         pub fn latch_position_rising_edge(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 160, 32) as i32
         }
-        /// Status word: 0x6041:00, 16 bits from bit 192.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 192.
         #[inline]
         pub fn status_word(&self) -> super::types::StatusWord {
             super::types::StatusWord::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 192, 16) as u16,
             )
         }
-        /// Torque actual value: 0x6077:00, 16 bits from bit 208.
+        /// Torque actual value: [0x6077:00](super::objects::TORQUE_ACTUAL_VALUE), 16 bits from bit 208.
         #[inline]
         pub fn torque_actual_value(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 208, 16) as i16
         }
-        /// Latch status word: 0x20A5:00, 16 bits from bit 224.
+        /// Latch status word: [0x20A5:00](super::objects::LATCH_STATUS_WORD), 16 bits from bit 224.
         #[inline]
         pub fn latch_status_word(&self) -> super::types::LatchStatus {
             super::types::LatchStatus::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 224, 16) as u16,
             )
         }
-        /// Analogue input value: 0x3470:00, 16 bits from bit 240.
+        /// Analogue input value: [0x3470:00](super::objects::ANALOGUE_INPUT_VALUE), 16 bits from bit 240.
         #[inline]
         pub fn analogue_input_value(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 240, 16) as i16
         }
     }
     impl<B: AsMut<[u8]>> TxPdo1B20<B> {
-        /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
+        /// Internal position actual value: [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE), 32 bits from bit 0.
         #[inline]
         pub fn set_internal_position_actual_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit, 32, value as u32 as u64);
         }
-        /// Second position feedback: 0x2050:00, 32 bits from bit 32.
+        /// Second position feedback: [0x2050:00](super::objects::SECOND_POSITION_FEEDBACK), 32 bits from bit 32.
         #[inline]
         pub fn set_second_position_feedback(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 32, value as u32 as u64);
         }
-        /// Velocity actual value: 0x606C:00, 32 bits from bit 64.
+        /// Velocity actual value: [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE), 32 bits from bit 64.
         #[inline]
         pub fn set_velocity_actual_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 64, 32, value as u32 as u64);
         }
-        /// Digital inputs: 0x60FD:00, 32 bits from bit 96.
+        /// Digital inputs: [0x60FD:00](super::objects::DIGITAL_INPUTS), 32 bits from bit 96.
         #[inline]
         pub fn set_digital_inputs(&mut self, value: super::types::DigitalInputs) {
             rt::bits::set(self.data.as_mut(), self.bit + 96, 32, value.raw() as u64);
         }
-        /// Following error actual value: 0x60F4:00, 32 bits from bit 128.
+        /// Following error actual value: [0x60F4:00](super::objects::FOLLOWING_ERROR_ACTUAL_VALUE), 32 bits from bit 128.
         #[inline]
         pub fn set_following_error_actual_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 128, 32, value as u32 as u64);
         }
-        /// Latch position, rising edge: 0x20A0:00, 32 bits from bit 160.
+        /// Latch position, rising edge: [0x20A0:00](super::objects::LATCH_POSITION_RISING_EDGE), 32 bits from bit 160.
         #[inline]
         pub fn set_latch_position_rising_edge(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 160, 32, value as u32 as u64);
         }
-        /// Status word: 0x6041:00, 16 bits from bit 192.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 192.
         #[inline]
         pub fn set_status_word(&mut self, value: super::types::StatusWord) {
             rt::bits::set(self.data.as_mut(), self.bit + 192, 16, value.raw() as u64);
         }
-        /// Torque actual value: 0x6077:00, 16 bits from bit 208.
+        /// Torque actual value: [0x6077:00](super::objects::TORQUE_ACTUAL_VALUE), 16 bits from bit 208.
         #[inline]
         pub fn set_torque_actual_value(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 208, 16, value as u16 as u64);
         }
-        /// Latch status word: 0x20A5:00, 16 bits from bit 224.
+        /// Latch status word: [0x20A5:00](super::objects::LATCH_STATUS_WORD), 16 bits from bit 224.
         #[inline]
         pub fn set_latch_status_word(&mut self, value: super::types::LatchStatus) {
             rt::bits::set(self.data.as_mut(), self.bit + 224, 16, value.raw() as u64);
         }
-        /// Analogue input value: 0x3470:00, 16 bits from bit 240.
+        /// Analogue input value: [0x3470:00](super::objects::ANALOGUE_INPUT_VALUE), 16 bits from bit 240.
         #[inline]
         pub fn set_analogue_input_value(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 240, 16, value as u16 as u64);
@@ -8007,11 +8759,7 @@ pub mod view {
     }
     /// TxPDO 0x1B21: Tx PDO 1B21.
     ///
-    /// Mapping 0x1B21, 48 bits.
-    ///
-    /// Internal position.
-    ///
-    /// Manual, line 768, 788, 838, 876.
+    /// Its layout: [`pdo::TxPdo1B21`](super::pdo::TxPdo1B21).
     pub struct TxPdo1B21<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -8036,12 +8784,12 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(48))?;
             Ok(Self { data, bit })
         }
-        /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
+        /// Internal position actual value: [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE), 32 bits from bit 0.
         #[inline]
         pub fn internal_position_actual_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit, 32) as i32
         }
-        /// Status word: 0x6041:00, 16 bits from bit 32.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 32.
         #[inline]
         pub fn status_word(&self) -> super::types::StatusWord {
             super::types::StatusWord::from_raw(
@@ -8050,12 +8798,12 @@ pub mod view {
         }
     }
     impl<B: AsMut<[u8]>> TxPdo1B21<B> {
-        /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
+        /// Internal position actual value: [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE), 32 bits from bit 0.
         #[inline]
         pub fn set_internal_position_actual_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit, 32, value as u32 as u64);
         }
-        /// Status word: 0x6041:00, 16 bits from bit 32.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 32.
         #[inline]
         pub fn set_status_word(&mut self, value: super::types::StatusWord) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 16, value.raw() as u64);
@@ -8063,15 +8811,7 @@ pub mod view {
     }
     /// TxPDO 0x1B22: Tx PDO 1B22.
     ///
-    /// Mapping 0x1B22, 256 bits.
-    ///
-    /// All actual values, with the latch on the falling edge.
-    ///
-    /// Manual, line 768, 789, 839, 877.
-    ///
-    /// Note: valore effettivo di posizione interne, seconde risposte di posizione, errore di posizione (L789); the table of actual values calls them otherwise (L992, L995, L997). Chosen: the objects of the table (the same values in other words).
-    ///
-    /// Note: posizione del blocco negativo (L789) is no value of the table of actual values (L992-1001). Chosen: bits under this name, without an object (only the position on the rising edge has an index (L998)).
+    /// Its layout: [`pdo::TxPdo1B22`](super::pdo::TxPdo1B22).
     pub struct TxPdo1B22<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -8096,29 +8836,29 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(256))?;
             Ok(Self { data, bit })
         }
-        /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
+        /// Internal position actual value: [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE), 32 bits from bit 0.
         #[inline]
         pub fn internal_position_actual_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit, 32) as i32
         }
-        /// Second position feedback: 0x2050:00, 32 bits from bit 32.
+        /// Second position feedback: [0x2050:00](super::objects::SECOND_POSITION_FEEDBACK), 32 bits from bit 32.
         #[inline]
         pub fn second_position_feedback(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 32, 32) as i32
         }
-        /// Velocity actual value: 0x606C:00, 32 bits from bit 64.
+        /// Velocity actual value: [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE), 32 bits from bit 64.
         #[inline]
         pub fn velocity_actual_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 64, 32) as i32
         }
-        /// Digital inputs: 0x60FD:00, 32 bits from bit 96.
+        /// Digital inputs: [0x60FD:00](super::objects::DIGITAL_INPUTS), 32 bits from bit 96.
         #[inline]
         pub fn digital_inputs(&self) -> super::types::DigitalInputs {
             super::types::DigitalInputs::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 96, 32) as u32,
             )
         }
-        /// Following error actual value: 0x60F4:00, 32 bits from bit 128.
+        /// Following error actual value: [0x60F4:00](super::objects::FOLLOWING_ERROR_ACTUAL_VALUE), 32 bits from bit 128.
         #[inline]
         pub fn following_error_actual_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 128, 32) as i32
@@ -8128,53 +8868,53 @@ pub mod view {
         pub fn latch_position_falling_edge(&self) -> u32 {
             rt::bits::get(self.data.as_ref(), self.bit + 160, 32) as u32
         }
-        /// Status word: 0x6041:00, 16 bits from bit 192.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 192.
         #[inline]
         pub fn status_word(&self) -> super::types::StatusWord {
             super::types::StatusWord::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 192, 16) as u16,
             )
         }
-        /// Torque actual value: 0x6077:00, 16 bits from bit 208.
+        /// Torque actual value: [0x6077:00](super::objects::TORQUE_ACTUAL_VALUE), 16 bits from bit 208.
         #[inline]
         pub fn torque_actual_value(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 208, 16) as i16
         }
-        /// Latch status word: 0x20A5:00, 16 bits from bit 224.
+        /// Latch status word: [0x20A5:00](super::objects::LATCH_STATUS_WORD), 16 bits from bit 224.
         #[inline]
         pub fn latch_status_word(&self) -> super::types::LatchStatus {
             super::types::LatchStatus::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 224, 16) as u16,
             )
         }
-        /// Analogue input value: 0x3470:00, 16 bits from bit 240.
+        /// Analogue input value: [0x3470:00](super::objects::ANALOGUE_INPUT_VALUE), 16 bits from bit 240.
         #[inline]
         pub fn analogue_input_value(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 240, 16) as i16
         }
     }
     impl<B: AsMut<[u8]>> TxPdo1B22<B> {
-        /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
+        /// Internal position actual value: [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE), 32 bits from bit 0.
         #[inline]
         pub fn set_internal_position_actual_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit, 32, value as u32 as u64);
         }
-        /// Second position feedback: 0x2050:00, 32 bits from bit 32.
+        /// Second position feedback: [0x2050:00](super::objects::SECOND_POSITION_FEEDBACK), 32 bits from bit 32.
         #[inline]
         pub fn set_second_position_feedback(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 32, value as u32 as u64);
         }
-        /// Velocity actual value: 0x606C:00, 32 bits from bit 64.
+        /// Velocity actual value: [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE), 32 bits from bit 64.
         #[inline]
         pub fn set_velocity_actual_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 64, 32, value as u32 as u64);
         }
-        /// Digital inputs: 0x60FD:00, 32 bits from bit 96.
+        /// Digital inputs: [0x60FD:00](super::objects::DIGITAL_INPUTS), 32 bits from bit 96.
         #[inline]
         pub fn set_digital_inputs(&mut self, value: super::types::DigitalInputs) {
             rt::bits::set(self.data.as_mut(), self.bit + 96, 32, value.raw() as u64);
         }
-        /// Following error actual value: 0x60F4:00, 32 bits from bit 128.
+        /// Following error actual value: [0x60F4:00](super::objects::FOLLOWING_ERROR_ACTUAL_VALUE), 32 bits from bit 128.
         #[inline]
         pub fn set_following_error_actual_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 128, 32, value as u32 as u64);
@@ -8184,22 +8924,22 @@ pub mod view {
         pub fn set_latch_position_falling_edge(&mut self, value: u32) {
             rt::bits::set(self.data.as_mut(), self.bit + 160, 32, value as u64);
         }
-        /// Status word: 0x6041:00, 16 bits from bit 192.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 192.
         #[inline]
         pub fn set_status_word(&mut self, value: super::types::StatusWord) {
             rt::bits::set(self.data.as_mut(), self.bit + 192, 16, value.raw() as u64);
         }
-        /// Torque actual value: 0x6077:00, 16 bits from bit 208.
+        /// Torque actual value: [0x6077:00](super::objects::TORQUE_ACTUAL_VALUE), 16 bits from bit 208.
         #[inline]
         pub fn set_torque_actual_value(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 208, 16, value as u16 as u64);
         }
-        /// Latch status word: 0x20A5:00, 16 bits from bit 224.
+        /// Latch status word: [0x20A5:00](super::objects::LATCH_STATUS_WORD), 16 bits from bit 224.
         #[inline]
         pub fn set_latch_status_word(&mut self, value: super::types::LatchStatus) {
             rt::bits::set(self.data.as_mut(), self.bit + 224, 16, value.raw() as u64);
         }
-        /// Analogue input value: 0x3470:00, 16 bits from bit 240.
+        /// Analogue input value: [0x3470:00](super::objects::ANALOGUE_INPUT_VALUE), 16 bits from bit 240.
         #[inline]
         pub fn set_analogue_input_value(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 240, 16, value as u16 as u64);
@@ -8207,15 +8947,7 @@ pub mod view {
     }
     /// TxPDO 0x1B23: Tx PDO 1B23.
     ///
-    /// Mapping 0x1B23, 256 bits.
-    ///
-    /// All actual values, with the latch on either edge.
-    ///
-    /// Manual, line 768, 790, 840, 878.
-    ///
-    /// Note: valore effettivo di posizione interne, seconde risposte di posizione, errore di posizione (L790); the table of actual values calls them otherwise (L992, L995, L997). Chosen: the objects of the table (the same values in other words).
-    ///
-    /// Note: posizione del blocco positivo/negativo (L790) is no value of the table of actual values (L992-1001). Chosen: bits under this name, without an object (only the position on the rising edge has an index (L998)).
+    /// Its layout: [`pdo::TxPdo1B23`](super::pdo::TxPdo1B23).
     pub struct TxPdo1B23<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -8240,29 +8972,29 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(256))?;
             Ok(Self { data, bit })
         }
-        /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
+        /// Internal position actual value: [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE), 32 bits from bit 0.
         #[inline]
         pub fn internal_position_actual_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit, 32) as i32
         }
-        /// Second position feedback: 0x2050:00, 32 bits from bit 32.
+        /// Second position feedback: [0x2050:00](super::objects::SECOND_POSITION_FEEDBACK), 32 bits from bit 32.
         #[inline]
         pub fn second_position_feedback(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 32, 32) as i32
         }
-        /// Velocity actual value: 0x606C:00, 32 bits from bit 64.
+        /// Velocity actual value: [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE), 32 bits from bit 64.
         #[inline]
         pub fn velocity_actual_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 64, 32) as i32
         }
-        /// Digital inputs: 0x60FD:00, 32 bits from bit 96.
+        /// Digital inputs: [0x60FD:00](super::objects::DIGITAL_INPUTS), 32 bits from bit 96.
         #[inline]
         pub fn digital_inputs(&self) -> super::types::DigitalInputs {
             super::types::DigitalInputs::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 96, 32) as u32,
             )
         }
-        /// Following error actual value: 0x60F4:00, 32 bits from bit 128.
+        /// Following error actual value: [0x60F4:00](super::objects::FOLLOWING_ERROR_ACTUAL_VALUE), 32 bits from bit 128.
         #[inline]
         pub fn following_error_actual_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 128, 32) as i32
@@ -8272,53 +9004,53 @@ pub mod view {
         pub fn latch_position_rising_or(&self) -> u32 {
             rt::bits::get(self.data.as_ref(), self.bit + 160, 32) as u32
         }
-        /// Status word: 0x6041:00, 16 bits from bit 192.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 192.
         #[inline]
         pub fn status_word(&self) -> super::types::StatusWord {
             super::types::StatusWord::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 192, 16) as u16,
             )
         }
-        /// Torque actual value: 0x6077:00, 16 bits from bit 208.
+        /// Torque actual value: [0x6077:00](super::objects::TORQUE_ACTUAL_VALUE), 16 bits from bit 208.
         #[inline]
         pub fn torque_actual_value(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 208, 16) as i16
         }
-        /// Latch status word: 0x20A5:00, 16 bits from bit 224.
+        /// Latch status word: [0x20A5:00](super::objects::LATCH_STATUS_WORD), 16 bits from bit 224.
         #[inline]
         pub fn latch_status_word(&self) -> super::types::LatchStatus {
             super::types::LatchStatus::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 224, 16) as u16,
             )
         }
-        /// Analogue input value: 0x3470:00, 16 bits from bit 240.
+        /// Analogue input value: [0x3470:00](super::objects::ANALOGUE_INPUT_VALUE), 16 bits from bit 240.
         #[inline]
         pub fn analogue_input_value(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 240, 16) as i16
         }
     }
     impl<B: AsMut<[u8]>> TxPdo1B23<B> {
-        /// Internal position actual value: 0x6063:00, 32 bits from bit 0.
+        /// Internal position actual value: [0x6063:00](super::objects::INTERNAL_POSITION_ACTUAL_VALUE), 32 bits from bit 0.
         #[inline]
         pub fn set_internal_position_actual_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit, 32, value as u32 as u64);
         }
-        /// Second position feedback: 0x2050:00, 32 bits from bit 32.
+        /// Second position feedback: [0x2050:00](super::objects::SECOND_POSITION_FEEDBACK), 32 bits from bit 32.
         #[inline]
         pub fn set_second_position_feedback(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 32, value as u32 as u64);
         }
-        /// Velocity actual value: 0x606C:00, 32 bits from bit 64.
+        /// Velocity actual value: [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE), 32 bits from bit 64.
         #[inline]
         pub fn set_velocity_actual_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 64, 32, value as u32 as u64);
         }
-        /// Digital inputs: 0x60FD:00, 32 bits from bit 96.
+        /// Digital inputs: [0x60FD:00](super::objects::DIGITAL_INPUTS), 32 bits from bit 96.
         #[inline]
         pub fn set_digital_inputs(&mut self, value: super::types::DigitalInputs) {
             rt::bits::set(self.data.as_mut(), self.bit + 96, 32, value.raw() as u64);
         }
-        /// Following error actual value: 0x60F4:00, 32 bits from bit 128.
+        /// Following error actual value: [0x60F4:00](super::objects::FOLLOWING_ERROR_ACTUAL_VALUE), 32 bits from bit 128.
         #[inline]
         pub fn set_following_error_actual_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 128, 32, value as u32 as u64);
@@ -8328,22 +9060,22 @@ pub mod view {
         pub fn set_latch_position_rising_or(&mut self, value: u32) {
             rt::bits::set(self.data.as_mut(), self.bit + 160, 32, value as u64);
         }
-        /// Status word: 0x6041:00, 16 bits from bit 192.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 192.
         #[inline]
         pub fn set_status_word(&mut self, value: super::types::StatusWord) {
             rt::bits::set(self.data.as_mut(), self.bit + 192, 16, value.raw() as u64);
         }
-        /// Torque actual value: 0x6077:00, 16 bits from bit 208.
+        /// Torque actual value: [0x6077:00](super::objects::TORQUE_ACTUAL_VALUE), 16 bits from bit 208.
         #[inline]
         pub fn set_torque_actual_value(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 208, 16, value as u16 as u64);
         }
-        /// Latch status word: 0x20A5:00, 16 bits from bit 224.
+        /// Latch status word: [0x20A5:00](super::objects::LATCH_STATUS_WORD), 16 bits from bit 224.
         #[inline]
         pub fn set_latch_status_word(&mut self, value: super::types::LatchStatus) {
             rt::bits::set(self.data.as_mut(), self.bit + 224, 16, value.raw() as u64);
         }
-        /// Analogue input value: 0x3470:00, 16 bits from bit 240.
+        /// Analogue input value: [0x3470:00](super::objects::ANALOGUE_INPUT_VALUE), 16 bits from bit 240.
         #[inline]
         pub fn set_analogue_input_value(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 240, 16, value as u16 as u64);
@@ -8351,15 +9083,7 @@ pub mod view {
     }
     /// TxPDO 0x1B24: Tx PDO 1B24.
     ///
-    /// Mapping 0x1B24, 48 bits.
-    ///
-    /// Position.
-    ///
-    /// Manual, line 768, 791, 841, 879.
-    ///
-    /// Note: Valore effettivo di posizione (L791), where the table of actual values has the internal one (L992). Chosen: bits under this name, without an object (it may be 0x6063, or 0x6064 of DS402, which the manual doesn't name).
-    ///
-    /// Note: The row ends in a comma (L791). Chosen: two entries (the tool shows six bytes, as they have (L841, L879)).
+    /// Its layout: [`pdo::TxPdo1B24`](super::pdo::TxPdo1B24).
     pub struct TxPdo1B24<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -8389,7 +9113,7 @@ pub mod view {
         pub fn position_actual_value(&self) -> u32 {
             rt::bits::get(self.data.as_ref(), self.bit, 32) as u32
         }
-        /// Status word: 0x6041:00, 16 bits from bit 32.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 32.
         #[inline]
         pub fn status_word(&self) -> super::types::StatusWord {
             super::types::StatusWord::from_raw(
@@ -8403,7 +9127,7 @@ pub mod view {
         pub fn set_position_actual_value(&mut self, value: u32) {
             rt::bits::set(self.data.as_mut(), self.bit, 32, value as u64);
         }
-        /// Status word: 0x6041:00, 16 bits from bit 32.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 32.
         #[inline]
         pub fn set_status_word(&mut self, value: super::types::StatusWord) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 16, value.raw() as u64);
@@ -8411,11 +9135,7 @@ pub mod view {
     }
     /// RxPDO 0x1600: Rx PDO 1600.
     ///
-    /// Mapping 0x1600, 16 bits.
-    ///
-    /// Mapped freely.
-    ///
-    /// Manual, line 808, 905, 842, 880, 893.
+    /// Its layout: [`pdo::RxPdo1600`](super::pdo::RxPdo1600).
     pub struct RxPdo1600<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -8440,7 +9160,7 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(16))?;
             Ok(Self { data, bit })
         }
-        /// Control word: 0x6040:00, 16 bits from bit 0.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 0.
         #[inline]
         pub fn control_word(&self) -> super::types::ControlWord {
             super::types::ControlWord::from_raw(
@@ -8449,7 +9169,7 @@ pub mod view {
         }
     }
     impl<B: AsMut<[u8]>> RxPdo1600<B> {
-        /// Control word: 0x6040:00, 16 bits from bit 0.
+        /// Control word: [0x6040:00](super::objects::CONTROL_WORD), 16 bits from bit 0.
         #[inline]
         pub fn set_control_word(&mut self, value: super::types::ControlWord) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
@@ -8457,11 +9177,7 @@ pub mod view {
     }
     /// TxPDO 0x1A00: Tx PDO 1A00.
     ///
-    /// Mapping 0x1A00, 16 bits.
-    ///
-    /// Mapped freely.
-    ///
-    /// Manual, line 808, 905, 832, 853, 870.
+    /// Its layout: [`pdo::TxPdo1A00`](super::pdo::TxPdo1A00).
     pub struct TxPdo1A00<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -8486,7 +9202,7 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(16))?;
             Ok(Self { data, bit })
         }
-        /// Status word: 0x6041:00, 16 bits from bit 0.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 0.
         #[inline]
         pub fn status_word(&self) -> super::types::StatusWord {
             super::types::StatusWord::from_raw(
@@ -8495,7 +9211,7 @@ pub mod view {
         }
     }
     impl<B: AsMut<[u8]>> TxPdo1A00<B> {
-        /// Status word: 0x6041:00, 16 bits from bit 0.
+        /// Status word: [0x6041:00](super::objects::STATUS_WORD), 16 bits from bit 0.
         #[inline]
         pub fn set_status_word(&mut self, value: super::types::StatusWord) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);

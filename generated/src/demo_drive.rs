@@ -31,17 +31,26 @@ impl<C> DemoDrive<C> {
     pub fn into_client(self) -> C {
         self.client
     }
-    /// Device type: 0x1000.
+    /// Device type: 0x1000:00.
+    ///
+    /// The profile that the device follows.
+    ///
+    /// Constant: [`objects::DEVICE_TYPE`]. Values: [`DeviceType`](types::DeviceType).
     pub fn device_type(&mut self) -> objects::ReadOnlyAccess<'_, C, types::DeviceType> {
         objects::DEVICE_TYPE.at(&mut self.client)
     }
-    /// Error register: 0x1001.
+    /// Error register: 0x1001:00.
+    ///
+    /// Kinds of errors that there are.
+    ///
+    /// Constant: [`objects::ERROR_REGISTER`]. Values: [`ErrorRegister`](types::ErrorRegister).
     pub fn error_register(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ErrorRegister> {
         objects::ERROR_REGISTER.at(&mut self.client)
     }
     /// Pre-defined error field: 0x1003.
+    /// Constants: [`objects::pre_defined_error_field`].
     pub fn pre_defined_error_field(
         &mut self,
     ) -> objects::pre_defined_error_field::Accessors<'_, C> {
@@ -49,47 +58,64 @@ impl<C> DemoDrive<C> {
             client: &mut self.client,
         }
     }
-    /// COB-ID SYNC message: 0x1005.
+    /// COB-ID SYNC message: 0x1005:00.
+    ///
+    /// Identifier of SYNC.
+    ///
+    /// Constant: [`objects::COB_ID_SYNC_MESSAGE`]. Values: [`SyncIdentifier`](types::SyncIdentifier).
     pub fn cob_id_sync_message(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::SyncIdentifier> {
         objects::COB_ID_SYNC_MESSAGE.at(&mut self.client)
     }
-    /// Manufacturer device name: 0x1008.
+    /// Manufacturer device name: 0x1008:00.
+    /// Constant: [`objects::MANUFACTURER_DEVICE_NAME`].
     pub fn manufacturer_device_name(
         &mut self,
     ) -> objects::ConstantAccess<'_, C, rt::VisibleString> {
         objects::MANUFACTURER_DEVICE_NAME.at(&mut self.client)
     }
-    /// Manufacturer software version: 0x100A.
+    /// Manufacturer software version: 0x100A:00.
+    /// Constant: [`objects::MANUFACTURER_SOFTWARE_VERSION`].
     pub fn manufacturer_software_version(
         &mut self,
     ) -> objects::ConstantAccess<'_, C, rt::VisibleString> {
         objects::MANUFACTURER_SOFTWARE_VERSION.at(&mut self.client)
     }
     /// Store parameters: 0x1010.
+    /// Constants: [`objects::store_parameters`].
     pub fn store_parameters(&mut self) -> objects::store_parameters::Accessors<'_, C> {
         objects::store_parameters::Accessors {
             client: &mut self.client,
         }
     }
-    /// COB-ID EMCY: 0x1014.
+    /// COB-ID EMCY: 0x1014:00.
+    ///
+    /// Identifier of emergencies.
+    ///
+    /// Constant: [`objects::COB_ID_EMCY`]. Values: [`EmergencyIdentifier`](types::EmergencyIdentifier).
     pub fn cob_id_emcy(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::EmergencyIdentifier> {
         objects::COB_ID_EMCY.at(&mut self.client)
     }
-    /// Producer heartbeat time: 0x1017.
+    /// Producer heartbeat time: 0x1017:00.
+    ///
+    /// Time between two heartbeats; 0 where none is sent.
+    ///
+    /// Constant: [`objects::PRODUCER_HEARTBEAT_TIME`].
     pub fn producer_heartbeat_time(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::PRODUCER_HEARTBEAT_TIME.at(&mut self.client)
     }
     /// Identity object: 0x1018.
+    /// Constants: [`objects::identity_object`].
     pub fn identity_object(&mut self) -> objects::identity_object::Accessors<'_, C> {
         objects::identity_object::Accessors {
             client: &mut self.client,
         }
     }
     /// RPDO 1 communication: 0x1400.
+    /// Constants: [`objects::rpdo_1_communication`].
     pub fn rpdo_1_communication(
         &mut self,
     ) -> objects::rpdo_1_communication::Accessors<'_, C> {
@@ -98,6 +124,7 @@ impl<C> DemoDrive<C> {
         }
     }
     /// RPDO 2 communication: 0x1401.
+    /// Constants: [`objects::rpdo_2_communication`].
     pub fn rpdo_2_communication(
         &mut self,
     ) -> objects::rpdo_2_communication::Accessors<'_, C> {
@@ -106,18 +133,21 @@ impl<C> DemoDrive<C> {
         }
     }
     /// RPDO 1 mapping: 0x1600.
+    /// Constants: [`objects::rpdo_1_mapping`].
     pub fn rpdo_1_mapping(&mut self) -> objects::rpdo_1_mapping::Accessors<'_, C> {
         objects::rpdo_1_mapping::Accessors {
             client: &mut self.client,
         }
     }
     /// RPDO 2 mapping: 0x1601.
+    /// Constants: [`objects::rpdo_2_mapping`].
     pub fn rpdo_2_mapping(&mut self) -> objects::rpdo_2_mapping::Accessors<'_, C> {
         objects::rpdo_2_mapping::Accessors {
             client: &mut self.client,
         }
     }
     /// TPDO 1 communication: 0x1800.
+    /// Constants: [`objects::tpdo_1_communication`].
     pub fn tpdo_1_communication(
         &mut self,
     ) -> objects::tpdo_1_communication::Accessors<'_, C> {
@@ -126,6 +156,7 @@ impl<C> DemoDrive<C> {
         }
     }
     /// TPDO 2 communication: 0x1801.
+    /// Constants: [`objects::tpdo_2_communication`].
     pub fn tpdo_2_communication(
         &mut self,
     ) -> objects::tpdo_2_communication::Accessors<'_, C> {
@@ -134,72 +165,98 @@ impl<C> DemoDrive<C> {
         }
     }
     /// TPDO 1 mapping: 0x1A00.
+    /// Constants: [`objects::tpdo_1_mapping`].
     pub fn tpdo_1_mapping(&mut self) -> objects::tpdo_1_mapping::Accessors<'_, C> {
         objects::tpdo_1_mapping::Accessors {
             client: &mut self.client,
         }
     }
     /// TPDO 2 mapping: 0x1A01.
+    /// Constants: [`objects::tpdo_2_mapping`].
     pub fn tpdo_2_mapping(&mut self) -> objects::tpdo_2_mapping::Accessors<'_, C> {
         objects::tpdo_2_mapping::Accessors {
             client: &mut self.client,
         }
     }
-    /// Motor temperature: 0x2000.
+    /// Motor temperature: 0x2000:00.
+    /// Constant: [`objects::MOTOR_TEMPERATURE`].
     pub fn motor_temperature(&mut self) -> objects::ReadOnlyAccess<'_, C, f32> {
         objects::MOTOR_TEMPERATURE.at(&mut self.client)
     }
-    /// Application name: 0x2001.
+    /// Application name: 0x2001:00.
+    /// Constant: [`objects::APPLICATION_NAME`].
     pub fn application_name(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::VisibleString> {
         objects::APPLICATION_NAME.at(&mut self.client)
     }
-    /// Firmware image: 0x2002.
+    /// Firmware image: 0x2002:00.
+    /// Constant: [`objects::FIRMWARE_IMAGE`].
     pub fn firmware_image(&mut self) -> objects::WriteOnlyAccess<'_, C, rt::Domain> {
         objects::FIRMWARE_IMAGE.at(&mut self.client)
     }
     /// Analogue inputs: 0x2010.
+    /// Constants: [`objects::analogue_inputs`].
     pub fn analogue_inputs(&mut self) -> objects::analogue_inputs::Accessors<'_, C> {
         objects::analogue_inputs::Accessors {
             client: &mut self.client,
         }
     }
-    /// Encoder counts: 0x2020.
+    /// Encoder counts: 0x2020:00.
+    /// Constant: [`objects::ENCODER_COUNTS`].
     pub fn encoder_counts(&mut self) -> objects::ReadOnlyAccess<'_, C, rt::Int<24>> {
         objects::ENCODER_COUNTS.at(&mut self.client)
     }
-    /// Controlword: 0x6040.
+    /// Controlword: 0x6040:00.
+    ///
+    /// Commands of the state machine, and of the mode of operation.
+    ///
+    /// Constant: [`objects::CONTROLWORD`]. Values: [`Controlword`](types::Controlword). Carried by [`RxPdo1`](pdo::RxPdo1), [`RxPdo2`](pdo::RxPdo2).
     pub fn controlword(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::Controlword> {
         objects::CONTROLWORD.at(&mut self.client)
     }
-    /// Statusword: 0x6041.
+    /// Statusword: 0x6041:00.
+    ///
+    /// The state, and what the mode of operation has to tell.
+    ///
+    /// Constant: [`objects::STATUSWORD`]. Values: [`Statusword`](types::Statusword). Carried by [`TxPdo1`](pdo::TxPdo1), [`TxPdo2`](pdo::TxPdo2).
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
-    /// Modes of operation: 0x6060.
+    /// Modes of operation: 0x6060:00.
+    ///
+    /// The mode wanted. The mode in force is in 0x6061.
+    ///
+    /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`ModesOfOperation`](types::ModesOfOperation).
     pub fn modes_of_operation(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ModesOfOperation> {
         objects::MODES_OF_OPERATION.at(&mut self.client)
     }
-    /// Modes of operation display: 0x6061.
+    /// Modes of operation display: 0x6061:00.
+    ///
+    /// The mode in force.
+    ///
+    /// Constant: [`objects::MODES_OF_OPERATION_DISPLAY`]. Values: [`ModesOfOperation`](types::ModesOfOperation).
     pub fn modes_of_operation_display(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ModesOfOperation> {
         objects::MODES_OF_OPERATION_DISPLAY.at(&mut self.client)
     }
-    /// Position actual value: 0x6064.
+    /// Position actual value: 0x6064:00.
+    /// Constant: [`objects::POSITION_ACTUAL_VALUE`]. Carried by [`TxPdo2`](pdo::TxPdo2).
     pub fn position_actual_value(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::POSITION_ACTUAL_VALUE.at(&mut self.client)
     }
-    /// Target position: 0x607A.
+    /// Target position: 0x607A:00.
+    /// Constant: [`objects::TARGET_POSITION`]. Carried by [`RxPdo2`](pdo::RxPdo2).
     pub fn target_position(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::TARGET_POSITION.at(&mut self.client)
     }
     /// Software position limit: 0x607D.
+    /// Constants: [`objects::software_position_limit`].
     pub fn software_position_limit(
         &mut self,
     ) -> objects::software_position_limit::Accessors<'_, C> {
@@ -207,11 +264,13 @@ impl<C> DemoDrive<C> {
             client: &mut self.client,
         }
     }
-    /// Profile velocity: 0x6081.
+    /// Profile velocity: 0x6081:00.
+    /// Constant: [`objects::PROFILE_VELOCITY`].
     pub fn profile_velocity(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::PROFILE_VELOCITY.at(&mut self.client)
     }
-    /// Profile acceleration: 0x6083.
+    /// Profile acceleration: 0x6083:00.
+    /// Constant: [`objects::PROFILE_ACCELERATION`].
     pub fn profile_acceleration(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::PROFILE_ACCELERATION.at(&mut self.client)
     }
@@ -220,6 +279,22 @@ impl<C> DemoDrive<C> {
 pub mod types {
     use ::lexibus as rt;
     /// ModesOfOperation.
+    ///
+    /// Values of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION), [`MODES_OF_OPERATION_DISPLAY`](super::objects::MODES_OF_OPERATION_DISPLAY).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`NoMode`](Self::NoMode) |  |
+    /// | 1 | [`ProfilePosition`](Self::ProfilePosition) |  |
+    /// | 2 | [`Velocity`](Self::Velocity) |  |
+    /// | 3 | [`ProfileVelocity`](Self::ProfileVelocity) |  |
+    /// | 4 | [`ProfileTorque`](Self::ProfileTorque) |  |
+    /// | 6 | [`Homing`](Self::Homing) |  |
+    /// | 7 | [`InterpolatedPosition`](Self::InterpolatedPosition) |  |
+    /// | 8 | [`CyclicSynchronousPosition`](Self::CyclicSynchronousPosition) |  |
+    /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
+    /// | 10 | [`CyclicSynchronousTorque`](Self::CyclicSynchronousTorque) |  |
+    /// | 11 | [`CyclicSynchronousTorqueWithAngle`](Self::CyclicSynchronousTorqueWithAngle) | With the commutation angle from the controller. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModesOfOperation {
         /// 0: no mode.
@@ -293,6 +368,16 @@ pub mod types {
         }
     }
     /// StoreParameters.
+    ///
+    /// Values of [`store_parameters::SAVE_ALL_PARAMETERS`](super::objects::store_parameters::SAVE_ALL_PARAMETERS).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`Never`](Self::Never) | Read: parameters are not kept. |
+    /// | 1 | [`OnCommand`](Self::OnCommand) | Read: parameters are kept on command. |
+    /// | 2 | [`AtOnce`](Self::AtOnce) | Read: the device keeps parameters by itself. |
+    /// | 3 | [`OnCommandAndAtOnce`](Self::OnCommandAndAtOnce) | Read: both. |
+    /// | 0x65766173 | [`Save`](Self::Save) | To write: the letters s, a, v, e. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum StoreParameters {
         /// 0: never. Read: parameters are not kept.
@@ -344,6 +429,13 @@ pub mod types {
     /// ReceiveType.
     ///
     /// When what was received takes effect.
+    ///
+    /// Values of [`rpdo_1_communication::TRANSMISSION_TYPE`](super::objects::rpdo_1_communication::TRANSMISSION_TYPE), [`rpdo_2_communication::TRANSMISSION_TYPE`](super::objects::rpdo_2_communication::TRANSMISSION_TYPE).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | At once, or as the manufacturer says. |
+    /// | 255 | [`EventOfTheProfile`](Self::EventOfTheProfile) | At once, or as the profile says. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ReceiveType {
         /// 254: event of the manufacturer. At once, or as the manufacturer says.
@@ -383,6 +475,16 @@ pub mod types {
     /// TransmitType.
     ///
     /// When it is sent. From 1 to 240, with every so many SYNC.
+    ///
+    /// Values of [`tpdo_1_communication::TRANSMISSION_TYPE`](super::objects::tpdo_1_communication::TRANSMISSION_TYPE), [`tpdo_2_communication::TRANSMISSION_TYPE`](super::objects::tpdo_2_communication::TRANSMISSION_TYPE).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`SynchronousAcyclic`](Self::SynchronousAcyclic) | With the SYNC that follows an event. |
+    /// | 252 | [`RemoteRequestSynchronous`](Self::RemoteRequestSynchronous) | remote request, synchronous. Sampled with SYNC, sent when asked for. |
+    /// | 253 | [`RemoteRequest`](Self::RemoteRequest) | Sampled and sent when asked for. |
+    /// | 254 | [`EventOfTheManufacturer`](Self::EventOfTheManufacturer) | When the manufacturer says. |
+    /// | 255 | [`EventOfTheProfile`](Self::EventOfTheProfile) | When the profile says. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TransmitType {
         /// 0: synchronous acyclic. With the SYNC that follows an event.
@@ -433,7 +535,29 @@ pub mod types {
     }
     /// Controlword.
     ///
+    /// Values of [`CONTROLWORD`](super::objects::CONTROLWORD).
+    ///
     /// Bits 0x400 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`switch_on`](Self::switch_on) |  |
+    /// | 1 | [`enable_voltage`](Self::enable_voltage) |  |
+    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 asks for a quick stop. Holds while the bit is 0. |
+    /// | 3 | [`enable_operation`](Self::enable_operation) |  |
+    /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | Takes the target position. Acts on the change from 0 to 1. |
+    /// | 4 | [`in_velocity().enable_ramp()`](ControlwordInVelocity::enable_ramp) |  |
+    /// | 4 | [`in_homing().homing_start()`](ControlwordInHoming::homing_start) | Starts homing, and interrupts it when 0. |
+    /// | 4 | [`in_interpolated_position().enable_interpolation()`](ControlwordInInterpolatedPosition::enable_interpolation) |  |
+    /// | 5 | [`in_profile_position().change_set_immediately()`](ControlwordInProfilePosition::change_set_immediately) | The set-point replaces the one under way; otherwise it follows it. |
+    /// | 5 | [`in_velocity().unlock_ramp()`](ControlwordInVelocity::unlock_ramp) |  |
+    /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | The target position is a distance. |
+    /// | 6 | [`in_velocity().reference_ramp()`](ControlwordInVelocity::reference_ramp) |  |
+    /// | 7 | [`fault_reset`](Self::fault_reset) | Acts on the change from 0 to 1. |
+    /// | 8 | [`halt`](Self::halt) | Stops the axis as the halt option code says. |
+    /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | The previous target is passed with its profile velocity. |
+    /// | 10 | reserved | Written as 0. |
+    /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Controlword(u16);
     impl Controlword {
@@ -512,19 +636,19 @@ pub mod types {
         pub const fn with_manufacturer_specific(self, value: u8) -> Self {
             Self((self.0 & !0xF800) | (((value as u16) << 11) & 0xF800))
         }
-        /// The bits that have their meaning while Modes of operation is profile position (1).
+        /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
         pub const fn in_profile_position(self) -> ControlwordInProfilePosition {
             ControlwordInProfilePosition(self.0)
         }
-        /// The bits that have their meaning while Modes of operation is velocity (2).
+        /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
         pub const fn in_velocity(self) -> ControlwordInVelocity {
             ControlwordInVelocity(self.0)
         }
-        /// The bits that have their meaning while Modes of operation is homing (6).
+        /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
         pub const fn in_homing(self) -> ControlwordInHoming {
             ControlwordInHoming(self.0)
         }
-        /// The bits that have their meaning while Modes of operation is interpolated position (7).
+        /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
         pub const fn in_interpolated_position(
             self,
         ) -> ControlwordInInterpolatedPosition {
@@ -566,7 +690,7 @@ pub mod types {
             bits.finish()
         }
     }
-    /// [`Controlword`] while Modes of operation is profile position (1).
+    /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
     #[derive(Clone, Copy)]
     pub struct ControlwordInProfilePosition(u16);
     impl ControlwordInProfilePosition {
@@ -611,7 +735,7 @@ pub mod types {
             Self((self.0 & !0x200) | ((value as u16) << 9))
         }
     }
-    /// [`Controlword`] while Modes of operation is velocity (2).
+    /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
     #[derive(Clone, Copy)]
     pub struct ControlwordInVelocity(u16);
     impl ControlwordInVelocity {
@@ -647,7 +771,7 @@ pub mod types {
             Self((self.0 & !0x40) | ((value as u16) << 6))
         }
     }
-    /// [`Controlword`] while Modes of operation is homing (6).
+    /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
     #[derive(Clone, Copy)]
     pub struct ControlwordInHoming(u16);
     impl ControlwordInHoming {
@@ -665,7 +789,7 @@ pub mod types {
             Self((self.0 & !0x10) | ((value as u16) << 4))
         }
     }
-    /// [`Controlword`] while Modes of operation is interpolated position (7).
+    /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
     #[derive(Clone, Copy)]
     pub struct ControlwordInInterpolatedPosition(u16);
     impl ControlwordInInterpolatedPosition {
@@ -684,6 +808,35 @@ pub mod types {
         }
     }
     /// Statusword.
+    ///
+    /// Values of [`STATUSWORD`](super::objects::STATUSWORD).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`ready_to_switch_on`](Self::ready_to_switch_on) |  |
+    /// | 1 | [`switched_on`](Self::switched_on) |  |
+    /// | 2 | [`operation_enabled`](Self::operation_enabled) |  |
+    /// | 3 | [`fault`](Self::fault) |  |
+    /// | 4 | [`voltage_enabled`](Self::voltage_enabled) | The power stage is supplied. |
+    /// | 5 | [`quick_stop`](Self::quick_stop) | 0 while a quick stop is asked for. Holds while the bit is 0. |
+    /// | 6 | [`switch_on_disabled`](Self::switch_on_disabled) |  |
+    /// | 7 | [`warning`](Self::warning) |  |
+    /// | 8 | [`manufacturer_specific_8`](Self::manufacturer_specific_8) | manufacturer specific. |
+    /// | 9 | [`remote`](Self::remote) | The drive obeys the control word. |
+    /// | 10 | [`target_reached`](Self::target_reached) | In the cyclic modes the bit means nothing, or toggles with each cycle. |
+    /// | 11 | [`internal_limit_active`](Self::internal_limit_active) | A limit keeps the drive from doing what the set-point asks for. |
+    /// | 12 | [`in_profile_position().set_point_acknowledge()`](StatuswordInProfilePosition::set_point_acknowledge) |  |
+    /// | 12 | [`in_profile_velocity().speed_zero()`](StatuswordInProfileVelocity::speed_zero) |  |
+    /// | 12 | [`in_homing().homing_attained()`](StatuswordInHoming::homing_attained) |  |
+    /// | 12 | [`in_interpolated_position().interpolation_active()`](StatuswordInInterpolatedPosition::interpolation_active) |  |
+    /// | 12 | [`in_cyclic_synchronous_position().follows_command_value()`](StatuswordInCyclicSynchronousPosition::follows_command_value) |  |
+    /// | 12 | [`in_cyclic_synchronous_velocity().follows_command_value()`](StatuswordInCyclicSynchronousVelocity::follows_command_value) |  |
+    /// | 12 | [`in_cyclic_synchronous_torque().follows_command_value()`](StatuswordInCyclicSynchronousTorque::follows_command_value) |  |
+    /// | 13 | [`in_profile_position().following_error()`](StatuswordInProfilePosition::following_error) |  |
+    /// | 13 | [`in_profile_velocity().max_slippage_error()`](StatuswordInProfileVelocity::max_slippage_error) |  |
+    /// | 13 | [`in_homing().homing_error()`](StatuswordInHoming::homing_error) |  |
+    /// | 13 | [`in_cyclic_synchronous_position().following_error()`](StatuswordInCyclicSynchronousPosition::following_error) |  |
+    /// | 14–15 | [`manufacturer_specific_14`](Self::manufacturer_specific_14) | manufacturer specific. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Statusword(u16);
     impl Statusword {
@@ -816,35 +969,35 @@ pub mod types {
         pub const fn with_manufacturer_specific_14(self, value: u8) -> Self {
             Self((self.0 & !0xC000) | (((value as u16) << 14) & 0xC000))
         }
-        /// The bits that have their meaning while Modes of operation display is profile position (1).
+        /// The bits that have their meaning while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile position (1).
         pub const fn in_profile_position(self) -> StatuswordInProfilePosition {
             StatuswordInProfilePosition(self.0)
         }
-        /// The bits that have their meaning while Modes of operation display is profile velocity (3).
+        /// The bits that have their meaning while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile velocity (3).
         pub const fn in_profile_velocity(self) -> StatuswordInProfileVelocity {
             StatuswordInProfileVelocity(self.0)
         }
-        /// The bits that have their meaning while Modes of operation display is homing (6).
+        /// The bits that have their meaning while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
         pub const fn in_homing(self) -> StatuswordInHoming {
             StatuswordInHoming(self.0)
         }
-        /// The bits that have their meaning while Modes of operation display is interpolated position (7).
+        /// The bits that have their meaning while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is interpolated position (7).
         pub const fn in_interpolated_position(self) -> StatuswordInInterpolatedPosition {
             StatuswordInInterpolatedPosition(self.0)
         }
-        /// The bits that have their meaning while Modes of operation display is cyclic synchronous position (8).
+        /// The bits that have their meaning while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous position (8).
         pub const fn in_cyclic_synchronous_position(
             self,
         ) -> StatuswordInCyclicSynchronousPosition {
             StatuswordInCyclicSynchronousPosition(self.0)
         }
-        /// The bits that have their meaning while Modes of operation display is cyclic synchronous velocity (9).
+        /// The bits that have their meaning while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous velocity (9).
         pub const fn in_cyclic_synchronous_velocity(
             self,
         ) -> StatuswordInCyclicSynchronousVelocity {
             StatuswordInCyclicSynchronousVelocity(self.0)
         }
-        /// The bits that have their meaning while Modes of operation display is cyclic synchronous torque (10).
+        /// The bits that have their meaning while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous torque (10).
         pub const fn in_cyclic_synchronous_torque(
             self,
         ) -> StatuswordInCyclicSynchronousTorque {
@@ -889,7 +1042,7 @@ pub mod types {
             bits.finish()
         }
     }
-    /// [`Statusword`] while Modes of operation display is profile position (1).
+    /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile position (1).
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfilePosition(u16);
     impl StatuswordInProfilePosition {
@@ -916,7 +1069,7 @@ pub mod types {
             Self((self.0 & !0x2000) | ((value as u16) << 13))
         }
     }
-    /// [`Statusword`] while Modes of operation display is profile velocity (3).
+    /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile velocity (3).
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfileVelocity(u16);
     impl StatuswordInProfileVelocity {
@@ -943,7 +1096,7 @@ pub mod types {
             Self((self.0 & !0x2000) | ((value as u16) << 13))
         }
     }
-    /// [`Statusword`] while Modes of operation display is homing (6).
+    /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
     #[derive(Clone, Copy)]
     pub struct StatuswordInHoming(u16);
     impl StatuswordInHoming {
@@ -970,7 +1123,7 @@ pub mod types {
             Self((self.0 & !0x2000) | ((value as u16) << 13))
         }
     }
-    /// [`Statusword`] while Modes of operation display is interpolated position (7).
+    /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is interpolated position (7).
     #[derive(Clone, Copy)]
     pub struct StatuswordInInterpolatedPosition(u16);
     impl StatuswordInInterpolatedPosition {
@@ -988,7 +1141,7 @@ pub mod types {
             Self((self.0 & !0x1000) | ((value as u16) << 12))
         }
     }
-    /// [`Statusword`] while Modes of operation display is cyclic synchronous position (8).
+    /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous position (8).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousPosition(u16);
     impl StatuswordInCyclicSynchronousPosition {
@@ -1015,7 +1168,7 @@ pub mod types {
             Self((self.0 & !0x2000) | ((value as u16) << 13))
         }
     }
-    /// [`Statusword`] while Modes of operation display is cyclic synchronous velocity (9).
+    /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous velocity (9).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousVelocity(u16);
     impl StatuswordInCyclicSynchronousVelocity {
@@ -1033,7 +1186,7 @@ pub mod types {
             Self((self.0 & !0x1000) | ((value as u16) << 12))
         }
     }
-    /// [`Statusword`] while Modes of operation display is cyclic synchronous torque (10).
+    /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is cyclic synchronous torque (10).
     #[derive(Clone, Copy)]
     pub struct StatuswordInCyclicSynchronousTorque(u16);
     impl StatuswordInCyclicSynchronousTorque {
@@ -1052,6 +1205,13 @@ pub mod types {
         }
     }
     /// DeviceType.
+    ///
+    /// Values of [`DEVICE_TYPE`](super::objects::DEVICE_TYPE).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–15 | [`profile`](Self::profile) | 0 where it follows none. |
+    /// | 16–31 | [`additional_information`](Self::additional_information) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DeviceType(u32);
     impl DeviceType {
@@ -1115,7 +1275,20 @@ pub mod types {
     }
     /// ErrorRegister.
     ///
+    /// Values of [`ERROR_REGISTER`](super::objects::ERROR_REGISTER).
+    ///
     /// Bits 0x40 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`generic`](Self::generic) | Set with every error. |
+    /// | 1 | [`current`](Self::current) |  |
+    /// | 2 | [`voltage`](Self::voltage) |  |
+    /// | 3 | [`temperature`](Self::temperature) |  |
+    /// | 4 | [`communication`](Self::communication) |  |
+    /// | 5 | [`device_profile`](Self::device_profile) |  |
+    /// | 6 | reserved | Written as 0. |
+    /// | 7 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ErrorRegister(u8);
     impl ErrorRegister {
@@ -1226,6 +1399,14 @@ pub mod types {
         }
     }
     /// MappingEntry.
+    ///
+    /// Values of [`rpdo_1_mapping::MAPPED_OBJECT_1`](super::objects::rpdo_1_mapping::MAPPED_OBJECT_1), [`rpdo_2_mapping::MAPPED_OBJECT_1`](super::objects::rpdo_2_mapping::MAPPED_OBJECT_1), [`rpdo_2_mapping::MAPPED_OBJECT_2`](super::objects::rpdo_2_mapping::MAPPED_OBJECT_2), [`tpdo_1_mapping::MAPPED_OBJECT_1`](super::objects::tpdo_1_mapping::MAPPED_OBJECT_1), [`tpdo_2_mapping::MAPPED_OBJECT_1`](super::objects::tpdo_2_mapping::MAPPED_OBJECT_1), [`tpdo_2_mapping::MAPPED_OBJECT_2`](super::objects::tpdo_2_mapping::MAPPED_OBJECT_2).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–7 | [`length`](Self::length) | In bits. |
+    /// | 8–15 | [`sub_index`](Self::sub_index) |  |
+    /// | 16–31 | [`index`](Self::index) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct MappingEntry(u32);
     impl MappingEntry {
@@ -1298,6 +1479,13 @@ pub mod types {
         }
     }
     /// ErrorFieldEntry.
+    ///
+    /// Values of [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD1), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD2), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD3), [`pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4`](super::objects::pre_defined_error_field::PRE_DEFINED_ERROR_FIELD4).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0–15 | [`error_code`](Self::error_code) |
+    /// | 16–31 | [`additional_information`](Self::additional_information) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ErrorFieldEntry(u32);
     impl ErrorFieldEntry {
@@ -1365,6 +1553,14 @@ pub mod types {
         }
     }
     /// SyncIdentifier.
+    ///
+    /// Values of [`COB_ID_SYNC_MESSAGE`](super::objects::COB_ID_SYNC_MESSAGE).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–28 | [`identifier`](Self::identifier) |  |
+    /// | 29 | [`extended`](Self::extended) | The identifier has 29 bits. |
+    /// | 30 | [`generates`](Self::generates) | The device sends SYNC. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct SyncIdentifier(u32);
     impl SyncIdentifier {
@@ -1438,7 +1634,16 @@ pub mod types {
     }
     /// EmergencyIdentifier.
     ///
+    /// Values of [`COB_ID_EMCY`](super::objects::COB_ID_EMCY).
+    ///
     /// Bits 0x40000000 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–28 | [`identifier`](Self::identifier) |  |
+    /// | 29 | [`extended`](Self::extended) | The identifier has 29 bits. |
+    /// | 30 | reserved | Written as 0. |
+    /// | 31 | [`valid`](Self::valid) | 0 where it is in use. Holds while the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct EmergencyIdentifier(u32);
     impl EmergencyIdentifier {
@@ -1514,6 +1719,13 @@ pub mod types {
         }
     }
     /// RevisionNumber.
+    ///
+    /// Values of [`identity_object::REVISION_NUMBER`](super::objects::identity_object::REVISION_NUMBER).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–15 | [`minor`](Self::minor) | Versions that differ in it behave alike on the bus. |
+    /// | 16–31 | [`major`](Self::major) | Versions that differ in it behave otherwise on the bus. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct RevisionNumber(u32);
     impl RevisionNumber {
@@ -1571,6 +1783,14 @@ pub mod types {
         }
     }
     /// ReceivePdoIdentifier.
+    ///
+    /// Values of [`rpdo_1_communication::COB_ID`](super::objects::rpdo_1_communication::COB_ID), [`rpdo_2_communication::COB_ID`](super::objects::rpdo_2_communication::COB_ID).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–28 | [`identifier`](Self::identifier) |  |
+    /// | 29 | [`extended`](Self::extended) | The identifier has 29 bits. |
+    /// | 31 | [`valid`](Self::valid) | 0 where the PDO is in use. Holds while the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ReceivePdoIdentifier(u32);
     impl ReceivePdoIdentifier {
@@ -1643,6 +1863,15 @@ pub mod types {
         }
     }
     /// TransmitPdoIdentifier.
+    ///
+    /// Values of [`tpdo_1_communication::COB_ID`](super::objects::tpdo_1_communication::COB_ID), [`tpdo_2_communication::COB_ID`](super::objects::tpdo_2_communication::COB_ID).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–28 | [`identifier`](Self::identifier) |  |
+    /// | 29 | [`extended`](Self::extended) | The identifier has 29 bits. |
+    /// | 30 | [`remote_request`](Self::remote_request) | 0 where the PDO may be asked for by a remote frame. Holds while the bit is 0. |
+    /// | 31 | [`valid`](Self::valid) | 0 where the PDO is in use. Holds while the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct TransmitPdoIdentifier(u32);
     impl TransmitPdoIdentifier {
@@ -1724,7 +1953,18 @@ pub mod types {
             bits.finish()
         }
     }
-    /// States of drive, as Statusword tells them.
+    /// States of drive, as [Statusword](super::objects::STATUSWORD) tells them.
+    ///
+    /// | State | Mask | Value |
+    /// |---|---|---|
+    /// | [`NotReadyToSwitchOn`](Self::NotReadyToSwitchOn) | 0x4F | 0 |
+    /// | [`SwitchOnDisabled`](Self::SwitchOnDisabled) | 0x4F | 0x40 |
+    /// | [`ReadyToSwitchOn`](Self::ReadyToSwitchOn) | 0x6F | 0x21 |
+    /// | [`SwitchedOn`](Self::SwitchedOn) | 0x6F | 0x23 |
+    /// | [`OperationEnabled`](Self::OperationEnabled) | 0x6F | 0x27 |
+    /// | [`QuickStopActive`](Self::QuickStopActive) | 0x6F | 0x7 |
+    /// | [`FaultReactionActive`](Self::FaultReactionActive) | 0x4F | 0xF |
+    /// | [`Fault`](Self::Fault) | 0x4F | 0x8 |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum State {
         /// not ready to switch on: 0 of the bits 0x4F.
@@ -1863,26 +2103,38 @@ pub mod types {
             rt::Step::toward(Self::TRANSITIONS, self as u8, target as u8)
         }
     }
-    /// Commands of drive, as Controlword takes them.
+    /// Commands of drive, as [Controlword](super::objects::CONTROLWORD) takes them.
+    ///
+    /// | Command | Mask | Value |
+    /// |---|---|---|
+    /// | [`Shutdown`](Self::Shutdown) | 0x87 | 0x6 |
+    /// | [`SwitchOn`](Self::SwitchOn) | 0x8F | 0x7 |
+    /// | [`EnableOperation`](Self::EnableOperation) | 0x8F | 0xF |
+    /// | [`DisableVoltage`](Self::DisableVoltage) | 0x82 | 0 |
+    /// | [`QuickStop`](Self::QuickStop) | 0x86 | 0x2 |
+    /// | [`DisableOperation`](Self::DisableOperation) | 0x8F | 0x7 |
+    /// | [`FaultReset`](Self::FaultReset) | 0x80 | 0x80 |
     ///
     /// Transitions:
     ///
-    /// - 1: not\_ready\_to\_switch\_on to switch\_on\_disabled, by itself
-    /// - 2: switch\_on\_disabled to ready\_to\_switch\_on, on shutdown
-    /// - 3: ready\_to\_switch\_on to switched\_on, on switch\_on
-    /// - 4: switched\_on to operation\_enabled, on enable\_operation
-    /// - 5: operation\_enabled to switched\_on, on disable\_operation
-    /// - 6: switched\_on to ready\_to\_switch\_on, on shutdown
-    /// - 7: ready\_to\_switch\_on to switch\_on\_disabled, on disable\_voltage
-    /// - 8: operation\_enabled to ready\_to\_switch\_on, on shutdown
-    /// - 9: operation\_enabled to switch\_on\_disabled, on disable\_voltage
-    /// - 10: switched\_on to switch\_on\_disabled, on disable\_voltage
-    /// - 11: operation\_enabled to quick\_stop\_active, on quick\_stop
-    /// - 12: quick\_stop\_active to switch\_on\_disabled, on disable\_voltage
-    /// - 14: fault\_reaction\_active to fault, by itself
-    /// - 15: fault to switch\_on\_disabled, on fault\_reset
-    /// - 16: quick\_stop\_active to operation\_enabled, on enable\_operation
-    /// - 13: any state to fault\_reaction\_active, by itself. After a fault.
+    /// | No. | From | To | By | Meaning |
+    /// |---|---|---|---|---|
+    /// | 1 | [`NotReadyToSwitchOn`](State::NotReadyToSwitchOn) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | itself |  |
+    /// | 2 | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`Shutdown`](Command::Shutdown) |  |
+    /// | 3 | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`SwitchedOn`](State::SwitchedOn) | [`SwitchOn`](Command::SwitchOn) |  |
+    /// | 4 | [`SwitchedOn`](State::SwitchedOn) | [`OperationEnabled`](State::OperationEnabled) | [`EnableOperation`](Command::EnableOperation) |  |
+    /// | 5 | [`OperationEnabled`](State::OperationEnabled) | [`SwitchedOn`](State::SwitchedOn) | [`DisableOperation`](Command::DisableOperation) |  |
+    /// | 6 | [`SwitchedOn`](State::SwitchedOn) | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`Shutdown`](Command::Shutdown) |  |
+    /// | 7 | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](Command::DisableVoltage) |  |
+    /// | 8 | [`OperationEnabled`](State::OperationEnabled) | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`Shutdown`](Command::Shutdown) |  |
+    /// | 9 | [`OperationEnabled`](State::OperationEnabled) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](Command::DisableVoltage) |  |
+    /// | 10 | [`SwitchedOn`](State::SwitchedOn) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](Command::DisableVoltage) |  |
+    /// | 11 | [`OperationEnabled`](State::OperationEnabled) | [`QuickStopActive`](State::QuickStopActive) | [`QuickStop`](Command::QuickStop) |  |
+    /// | 12 | [`QuickStopActive`](State::QuickStopActive) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](Command::DisableVoltage) |  |
+    /// | 14 | [`FaultReactionActive`](State::FaultReactionActive) | [`Fault`](State::Fault) | itself |  |
+    /// | 15 | [`Fault`](State::Fault) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`FaultReset`](Command::FaultReset) |  |
+    /// | 16 | [`QuickStopActive`](State::QuickStopActive) | [`OperationEnabled`](State::OperationEnabled) | [`EnableOperation`](Command::EnableOperation) |  |
+    /// | 13 | any state | [`FaultReactionActive`](State::FaultReactionActive) | itself | After a fault. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Command {
         /// shutdown: 0x6 of the bits 0x87.
@@ -1938,6 +2190,8 @@ pub mod types {
 pub mod codes {
     use ::lexibus as rt;
     /// drive errors.
+    ///
+    /// As a type: [`DriveErrors`].
     pub static DRIVE_ERRORS: &[rt::codes::Code] = &[
         rt::codes::Code::new(0x2310, 0x2310, "continuous over-current", "", &[]),
         rt::codes::Code::new(0x2320, 0x2320, "short circuit or earth leakage", "", &[]),
@@ -1974,6 +2228,42 @@ pub mod codes {
         rt::codes::Code::new(0xF004, 0xF004, "control", "", &[]),
     ];
     /// A code of [`DRIVE_ERRORS`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0x2310 | [`ContinuousOverCurrent`](Self::ContinuousOverCurrent) |  |
+    /// | 0x2320 | [`ShortCircuitOrEarthLeakage`](Self::ShortCircuitOrEarthLeakage) |  |
+    /// | 0x2330 | [`EarthLeakage`](Self::EarthLeakage) |  |
+    /// | 0x3110 | [`MainsOverVoltage`](Self::MainsOverVoltage) |  |
+    /// | 0x3120 | [`MainsUnderVoltage`](Self::MainsUnderVoltage) |  |
+    /// | 0x3130 | [`PhaseFailure`](Self::PhaseFailure) |  |
+    /// | 0x3210 | [`DcLinkOverVoltage`](Self::DcLinkOverVoltage) |  |
+    /// | 0x3220 | [`DcLinkUnderVoltage`](Self::DcLinkUnderVoltage) |  |
+    /// | 0x4110 | [`AmbientTemperatureTooHigh`](Self::AmbientTemperatureTooHigh) |  |
+    /// | 0x4210 | [`DeviceTemperatureTooHigh`](Self::DeviceTemperatureTooHigh) |  |
+    /// | 0x4310 | [`DriveTemperatureTooHigh`](Self::DriveTemperatureTooHigh) |  |
+    /// | 0x5530 | [`NonVolatileMemory`](Self::NonVolatileMemory) |  |
+    /// | 0x6010 | [`SoftwareResetByTheWatchdog`](Self::SoftwareResetByTheWatchdog) |  |
+    /// | 0x6310 | [`LossOfParameters`](Self::LossOfParameters) |  |
+    /// | 0x6320 | [`ParameterError`](Self::ParameterError) |  |
+    /// | 0x7110 | [`BrakeChopper`](Self::BrakeChopper) |  |
+    /// | 0x7121 | [`MotorBlocked`](Self::MotorBlocked) |  |
+    /// | 0x7122 | [`MotorErrorOrCommutation`](Self::MotorErrorOrCommutation) | motor error, or commutation. |
+    /// | 0x7305 | [`IncrementalSensor1`](Self::IncrementalSensor1) |  |
+    /// | 0x7306 | [`IncrementalSensor2`](Self::IncrementalSensor2) |  |
+    /// | 0x7310 | [`SpeedSensor`](Self::SpeedSensor) |  |
+    /// | 0x7320 | [`PositionSensor`](Self::PositionSensor) |  |
+    /// | 0x8311 | [`TorqueTooHigh`](Self::TorqueTooHigh) |  |
+    /// | 0x8331 | [`TorqueFault`](Self::TorqueFault) |  |
+    /// | 0x8400 | [`VelocityController`](Self::VelocityController) |  |
+    /// | 0x8500 | [`PositionController`](Self::PositionController) |  |
+    /// | 0x8600 | [`PositioningController`](Self::PositioningController) |  |
+    /// | 0x8611 | [`FollowingError`](Self::FollowingError) |  |
+    /// | 0x8612 | [`ReferenceLimit`](Self::ReferenceLimit) |  |
+    /// | 0xF001 | [`Deceleration`](Self::Deceleration) |  |
+    /// | 0xF002 | [`SubSynchronousRun`](Self::SubSynchronousRun) |  |
+    /// | 0xF003 | [`StrokeOperation`](Self::StrokeOperation) |  |
+    /// | 0xF004 | [`Control`](Self::Control) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DriveErrors {
         /// 0x2310: continuous over-current.
@@ -2128,6 +2418,8 @@ pub mod codes {
         }
     }
     /// emergency.
+    ///
+    /// As a type: [`Emergency`].
     pub static EMERGENCY: &[rt::codes::Code] = &[
         rt::codes::Code::new(0, 0, "no error", "Or an error is gone.", &[]),
         rt::codes::Code::new(0x1000, 0x10FF, "generic error", "", &[]),
@@ -2184,6 +2476,44 @@ pub mod codes {
         rt::codes::Code::new(0xFF00, 0xFFFF, "device specific", "", &[]),
     ];
     /// A code of [`EMERGENCY`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`NoError`](Self::NoError) | Or an error is gone. |
+    /// | 0x1000 to 0x10FF | [`GenericError`](Self::GenericError) |  |
+    /// | 0x2000 to 0x20FF | [`Current`](Self::Current) |  |
+    /// | 0x2100 to 0x21FF | [`CurrentOnTheInputSide`](Self::CurrentOnTheInputSide) |  |
+    /// | 0x2200 to 0x22FF | [`CurrentInsideTheDevice`](Self::CurrentInsideTheDevice) |  |
+    /// | 0x2300 to 0x23FF | [`CurrentOnTheOutputSide`](Self::CurrentOnTheOutputSide) |  |
+    /// | 0x3000 to 0x30FF | [`Voltage`](Self::Voltage) |  |
+    /// | 0x3100 to 0x31FF | [`MainsVoltage`](Self::MainsVoltage) |  |
+    /// | 0x3200 to 0x32FF | [`VoltageInsideTheDevice`](Self::VoltageInsideTheDevice) |  |
+    /// | 0x3300 to 0x33FF | [`OutputVoltage`](Self::OutputVoltage) |  |
+    /// | 0x4000 to 0x40FF | [`Temperature`](Self::Temperature) |  |
+    /// | 0x4100 to 0x41FF | [`AmbientTemperature`](Self::AmbientTemperature) |  |
+    /// | 0x4200 to 0x42FF | [`DeviceTemperature`](Self::DeviceTemperature) |  |
+    /// | 0x5000 to 0x50FF | [`HardwareOfTheDevice`](Self::HardwareOfTheDevice) |  |
+    /// | 0x6000 to 0x60FF | [`SoftwareOfTheDevice`](Self::SoftwareOfTheDevice) |  |
+    /// | 0x6100 to 0x61FF | [`InternalSoftware`](Self::InternalSoftware) |  |
+    /// | 0x6200 to 0x62FF | [`UserSoftware`](Self::UserSoftware) |  |
+    /// | 0x6300 to 0x63FF | [`DataSet`](Self::DataSet) |  |
+    /// | 0x7000 to 0x70FF | [`AdditionalModules`](Self::AdditionalModules) |  |
+    /// | 0x8000 to 0x80FF | [`Monitoring`](Self::Monitoring) |  |
+    /// | 0x8100 | [`Communication`](Self::Communication) |  |
+    /// | 0x8110 | [`CanOverrun`](Self::CanOverrun) | Objects were lost. |
+    /// | 0x8120 | [`CanErrorPassive`](Self::CanErrorPassive) |  |
+    /// | 0x8130 | [`LifeGuardingOrHeartbeat`](Self::LifeGuardingOrHeartbeat) |  |
+    /// | 0x8140 | [`RecoveredFromBusOff`](Self::RecoveredFromBusOff) |  |
+    /// | 0x8150 | [`TwoNodesWithOneIdentifier`](Self::TwoNodesWithOneIdentifier) |  |
+    /// | 0x8200 | [`Protocol`](Self::Protocol) |  |
+    /// | 0x8210 | [`PdoTooShort`](Self::PdoTooShort) | It wasn't processed. |
+    /// | 0x8220 | [`PdoTooLong`](Self::PdoTooLong) | More was received than is mapped. |
+    /// | 0x8230 | [`DestinationOfAMultiplexedPdoDoesnTExist`](Self::DestinationOfAMultiplexedPdoDoesnTExist) | destination of a multiplexed PDO doesn't exist. |
+    /// | 0x8240 | [`SyncOfAnotherLength`](Self::SyncOfAnotherLength) |  |
+    /// | 0x8250 | [`RpdoTimeout`](Self::RpdoTimeout) |  |
+    /// | 0x9000 to 0x90FF | [`ExternalError`](Self::ExternalError) |  |
+    /// | 0xF000 to 0xF0FF | [`AdditionalFunctions`](Self::AdditionalFunctions) |  |
+    /// | 0xFF00 to 0xFFFF | [`DeviceSpecific`](Self::DeviceSpecific) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Emergency {
         /// 0: no error. Or an error is gone.
@@ -2403,6 +2733,7 @@ pub mod objects {
     /// Device type.
     ///
     /// 0x1000:00, UNSIGNED32, ro, default 0x20192.
+    /// Accessor: [`device_type`](super::DemoDrive::device_type). Values: [`DeviceType`](super::types::DeviceType).
     ///
     /// The profile that the device follows.
     pub const DEVICE_TYPE: ReadOnly<super::types::DeviceType> = ReadOnlyNamedDeviceType::object_with_default(
@@ -2414,6 +2745,7 @@ pub mod objects {
     /// Error register.
     ///
     /// 0x1001:00, UNSIGNED8, ro, mappable into TPDOs, default 0.
+    /// Accessor: [`error_register`](super::DemoDrive::error_register). Values: [`ErrorRegister`](super::types::ErrorRegister).
     ///
     /// Kinds of errors that there are.
     pub const ERROR_REGISTER: ReadOnly<super::types::ErrorRegister> = ReadOnlyNamedErrorRegister::flagged_object_with_default(
@@ -2430,6 +2762,7 @@ pub mod objects {
         /// NrOfObjects.
         ///
         /// 0x1003:00, UNSIGNED8, ro, default 4.
+        /// Accessor: [`Accessors::nr_of_objects`].
         pub const NR_OF_OBJECTS: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1003,
             0x00,
@@ -2439,6 +2772,7 @@ pub mod objects {
         /// Pre-defined error field1.
         ///
         /// 0x1003:01, UNSIGNED32, ro.
+        /// Accessor: [`Accessors::pre_defined_error_field1`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// An error; the newest is in sub-index 1.
         pub const PRE_DEFINED_ERROR_FIELD1: super::ReadOnly<
@@ -2451,6 +2785,7 @@ pub mod objects {
         /// Pre-defined error field2.
         ///
         /// 0x1003:02, UNSIGNED32, ro.
+        /// Accessor: [`Accessors::pre_defined_error_field2`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// An error; the newest is in sub-index 1.
         pub const PRE_DEFINED_ERROR_FIELD2: super::ReadOnly<
@@ -2463,6 +2798,7 @@ pub mod objects {
         /// Pre-defined error field3.
         ///
         /// 0x1003:03, UNSIGNED32, ro.
+        /// Accessor: [`Accessors::pre_defined_error_field3`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// An error; the newest is in sub-index 1.
         pub const PRE_DEFINED_ERROR_FIELD3: super::ReadOnly<
@@ -2475,6 +2811,7 @@ pub mod objects {
         /// Pre-defined error field4.
         ///
         /// 0x1003:04, UNSIGNED32, ro.
+        /// Accessor: [`Accessors::pre_defined_error_field4`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// An error; the newest is in sub-index 1.
         pub const PRE_DEFINED_ERROR_FIELD4: super::ReadOnly<
@@ -2490,28 +2827,45 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// NrOfObjects: 0x1003:00.
+            /// Constant: [`NR_OF_OBJECTS`].
             pub fn nr_of_objects(&mut self) -> super::ReadOnlyAccess<'_, C, u8> {
                 NR_OF_OBJECTS.at(self.client)
             }
             /// Pre-defined error field1: 0x1003:01.
+            ///
+            /// An error; the newest is in sub-index 1.
+            ///
+            /// Constant: [`PRE_DEFINED_ERROR_FIELD1`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field1(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
                 PRE_DEFINED_ERROR_FIELD1.at(self.client)
             }
             /// Pre-defined error field2: 0x1003:02.
+            ///
+            /// An error; the newest is in sub-index 1.
+            ///
+            /// Constant: [`PRE_DEFINED_ERROR_FIELD2`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field2(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
                 PRE_DEFINED_ERROR_FIELD2.at(self.client)
             }
             /// Pre-defined error field3: 0x1003:03.
+            ///
+            /// An error; the newest is in sub-index 1.
+            ///
+            /// Constant: [`PRE_DEFINED_ERROR_FIELD3`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field3(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
                 PRE_DEFINED_ERROR_FIELD3.at(self.client)
             }
             /// Pre-defined error field4: 0x1003:04.
+            ///
+            /// An error; the newest is in sub-index 1.
+            ///
+            /// Constant: [`PRE_DEFINED_ERROR_FIELD4`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn pre_defined_error_field4(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
@@ -2522,6 +2876,7 @@ pub mod objects {
     /// COB-ID SYNC message.
     ///
     /// 0x1005:00, UNSIGNED32, rw, default 128.
+    /// Accessor: [`cob_id_sync_message`](super::DemoDrive::cob_id_sync_message). Values: [`SyncIdentifier`](super::types::SyncIdentifier).
     ///
     /// Identifier of SYNC.
     pub const COB_ID_SYNC_MESSAGE: ReadWrite<super::types::SyncIdentifier> = ReadWriteNamedSyncIdentifier::object_with_default(
@@ -2533,6 +2888,7 @@ pub mod objects {
     /// Manufacturer device name.
     ///
     /// 0x1008:00, VISIBLE_STRING, const, default "Demo Drive".
+    /// Accessor: [`manufacturer_device_name`](super::DemoDrive::manufacturer_device_name).
     pub const MANUFACTURER_DEVICE_NAME: Constant<rt::VisibleString> = ConstantVisibleString::object_with_default(
         0x1008,
         0x00,
@@ -2542,6 +2898,7 @@ pub mod objects {
     /// Manufacturer software version.
     ///
     /// 0x100A:00, VISIBLE_STRING, const, default "1.0".
+    /// Accessor: [`manufacturer_software_version`](super::DemoDrive::manufacturer_software_version).
     pub const MANUFACTURER_SOFTWARE_VERSION: Constant<rt::VisibleString> = ConstantVisibleString::object_with_default(
         0x100A,
         0x00,
@@ -2555,6 +2912,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1010:00, UNSIGNED8, ro, default 1.
+        /// Accessor: [`Accessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1010,
             0x00,
@@ -2564,6 +2922,7 @@ pub mod objects {
         /// Save all parameters.
         ///
         /// 0x1010:01, UNSIGNED32, rw, default 1.
+        /// Accessor: [`Accessors::save_all_parameters`]. Values: [`StoreParameters`](super::super::types::StoreParameters).
         ///
         /// Writing \`save\` keeps the parameters over power-off; read, it tells how they are kept.
         pub const SAVE_ALL_PARAMETERS: super::ReadWrite<
@@ -2580,12 +2939,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Highest sub-index supported: 0x1010:00.
+            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
             pub fn highest_sub_index_supported(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// Save all parameters: 0x1010:01.
+            ///
+            /// Writing \`save\` keeps the parameters over power-off; read, it tells how they are kept.
+            ///
+            /// Constant: [`SAVE_ALL_PARAMETERS`]. Values: [`StoreParameters`](super::super::types::StoreParameters).
             pub fn save_all_parameters(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::StoreParameters> {
@@ -2596,6 +2960,7 @@ pub mod objects {
     /// COB-ID EMCY.
     ///
     /// 0x1014:00, UNSIGNED32, rw, default \$NODEID+0x80.
+    /// Accessor: [`cob_id_emcy`](super::DemoDrive::cob_id_emcy). Values: [`EmergencyIdentifier`](super::types::EmergencyIdentifier).
     ///
     /// Identifier of emergencies.
     pub const COB_ID_EMCY: ReadWrite<super::types::EmergencyIdentifier> = ReadWriteNamedEmergencyIdentifier::new(
@@ -2609,6 +2974,7 @@ pub mod objects {
     /// Producer heartbeat time.
     ///
     /// 0x1017:00, UNSIGNED16, rw, default 0, in ms.
+    /// Accessor: [`producer_heartbeat_time`](super::DemoDrive::producer_heartbeat_time).
     ///
     /// Time between two heartbeats; 0 where none is sent.
     pub const PRODUCER_HEARTBEAT_TIME: ReadWrite<u16> = ReadWriteU16::new(
@@ -2626,6 +2992,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1018:00, UNSIGNED8, ro, default 4.
+        /// Accessor: [`Accessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1018,
             0x00,
@@ -2635,6 +3002,7 @@ pub mod objects {
         /// Vendor-ID.
         ///
         /// 0x1018:01, UNSIGNED32, ro, default 0.
+        /// Accessor: [`Accessors::vendor_id`].
         ///
         /// Number of the vendor.
         pub const VENDOR_ID: super::ReadOnly<u32> = super::ReadOnlyU32::object_with_default(
@@ -2646,6 +3014,7 @@ pub mod objects {
         /// Product code.
         ///
         /// 0x1018:02, UNSIGNED32, ro, default 16417.
+        /// Accessor: [`Accessors::product_code`].
         ///
         /// Number of the product, given by the vendor.
         pub const PRODUCT_CODE: super::ReadOnly<u32> = super::ReadOnlyU32::object_with_default(
@@ -2657,6 +3026,7 @@ pub mod objects {
         /// Revision number.
         ///
         /// 0x1018:03, UNSIGNED32, ro, default 0x10000.
+        /// Accessor: [`Accessors::revision_number`]. Values: [`RevisionNumber`](super::super::types::RevisionNumber).
         ///
         /// Revision of the product.
         pub const REVISION_NUMBER: super::ReadOnly<
@@ -2670,6 +3040,7 @@ pub mod objects {
         /// Serial number.
         ///
         /// 0x1018:04, UNSIGNED32, ro.
+        /// Accessor: [`Accessors::serial_number`].
         ///
         /// Serial number.
         pub const SERIAL_NUMBER: super::ReadOnly<u32> = super::ReadOnlyU32::object(
@@ -2683,26 +3054,43 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Highest sub-index supported: 0x1018:00.
+            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
             pub fn highest_sub_index_supported(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// Vendor-ID: 0x1018:01.
+            ///
+            /// Number of the vendor.
+            ///
+            /// Constant: [`VENDOR_ID`].
             pub fn vendor_id(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
                 VENDOR_ID.at(self.client)
             }
             /// Product code: 0x1018:02.
+            ///
+            /// Number of the product, given by the vendor.
+            ///
+            /// Constant: [`PRODUCT_CODE`].
             pub fn product_code(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
                 PRODUCT_CODE.at(self.client)
             }
             /// Revision number: 0x1018:03.
+            ///
+            /// Revision of the product.
+            ///
+            /// Constant: [`REVISION_NUMBER`]. Values: [`RevisionNumber`](super::super::types::RevisionNumber).
             pub fn revision_number(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::RevisionNumber> {
                 REVISION_NUMBER.at(self.client)
             }
             /// Serial number: 0x1018:04.
+            ///
+            /// Serial number.
+            ///
+            /// Constant: [`SERIAL_NUMBER`].
             pub fn serial_number(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
                 SERIAL_NUMBER.at(self.client)
             }
@@ -2716,6 +3104,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1400:00, UNSIGNED8, ro, default 2.
+        /// Accessor: [`Accessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1400,
             0x00,
@@ -2725,6 +3114,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1400:01, UNSIGNED32, rw, default \$NODEID+0x200.
+        /// Accessor: [`Accessors::cob_id`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         pub const COB_ID: super::ReadWrite<super::super::types::ReceivePdoIdentifier> = super::ReadWriteNamedReceivePdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1400, 0x01),
             "COB-ID",
@@ -2738,6 +3128,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1400:02, UNSIGNED8, rw, default 255.
+        /// Accessor: [`Accessors::transmission_type`]. Values: [`ReceiveType`](super::super::types::ReceiveType).
         pub const TRANSMISSION_TYPE: super::ReadWrite<
             super::super::types::ReceiveType,
         > = super::ReadWriteNamedReceiveType::object_with_default(
@@ -2752,12 +3143,14 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Highest sub-index supported: 0x1400:00.
+            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
             pub fn highest_sub_index_supported(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// COB-ID: 0x1400:01.
+            /// Constant: [`COB_ID`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -2768,6 +3161,7 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1400:02.
+            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`ReceiveType`](super::super::types::ReceiveType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::ReceiveType> {
@@ -2783,6 +3177,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1401:00, UNSIGNED8, ro, default 2.
+        /// Accessor: [`Accessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1401,
             0x00,
@@ -2792,6 +3187,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1401:01, UNSIGNED32, rw, default \$NODEID+0x300.
+        /// Accessor: [`Accessors::cob_id`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         pub const COB_ID: super::ReadWrite<super::super::types::ReceivePdoIdentifier> = super::ReadWriteNamedReceivePdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1401, 0x01),
             "COB-ID",
@@ -2805,6 +3201,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1401:02, UNSIGNED8, rw, default 1.
+        /// Accessor: [`Accessors::transmission_type`]. Values: [`ReceiveType`](super::super::types::ReceiveType).
         pub const TRANSMISSION_TYPE: super::ReadWrite<
             super::super::types::ReceiveType,
         > = super::ReadWriteNamedReceiveType::object_with_default(
@@ -2819,12 +3216,14 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Highest sub-index supported: 0x1401:00.
+            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
             pub fn highest_sub_index_supported(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// COB-ID: 0x1401:01.
+            /// Constant: [`COB_ID`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -2835,6 +3234,7 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1401:02.
+            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`ReceiveType`](super::super::types::ReceiveType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::ReceiveType> {
@@ -2849,6 +3249,7 @@ pub mod objects {
         /// Number of mapped objects.
         ///
         /// 0x1600:00, UNSIGNED8, rw, default 1.
+        /// Accessor: [`Accessors::number_of_mapped_objects`].
         pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1600,
             0x00,
@@ -2858,6 +3259,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1600:01, UNSIGNED32, rw, default 0x60400010.
+        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
         pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1600,
             0x01,
@@ -2870,12 +3272,14 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects: 0x1600:00.
+            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS`].
             pub fn number_of_mapped_objects(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS.at(self.client)
             }
             /// Mapped object 1: 0x1600:01.
+            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -2890,6 +3294,7 @@ pub mod objects {
         /// Number of mapped objects.
         ///
         /// 0x1601:00, UNSIGNED8, rw, default 2.
+        /// Accessor: [`Accessors::number_of_mapped_objects`].
         pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1601,
             0x00,
@@ -2899,6 +3304,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1601:01, UNSIGNED32, rw, default 0x60400010.
+        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
         pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1601,
             0x01,
@@ -2908,6 +3314,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// 0x1601:02, UNSIGNED32, rw, default 0x607A0020.
+        /// Accessor: [`Accessors::mapped_object_2`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
         pub const MAPPED_OBJECT_2: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1601,
             0x02,
@@ -2920,18 +3327,21 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects: 0x1601:00.
+            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS`].
             pub fn number_of_mapped_objects(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS.at(self.client)
             }
             /// Mapped object 1: 0x1601:01.
+            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
                 MAPPED_OBJECT_1.at(self.client)
             }
             /// Mapped object 2: 0x1601:02.
+            /// Constant: [`MAPPED_OBJECT_2`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -2947,6 +3357,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1800:00, UNSIGNED8, ro, default 2.
+        /// Accessor: [`Accessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1800,
             0x00,
@@ -2956,6 +3367,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1800:01, UNSIGNED32, rw, default \$NODEID+0x180.
+        /// Accessor: [`Accessors::cob_id`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         pub const COB_ID: super::ReadWrite<super::super::types::TransmitPdoIdentifier> = super::ReadWriteNamedTransmitPdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1800, 0x01),
             "COB-ID",
@@ -2969,6 +3381,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1800:02, UNSIGNED8, rw, default 255.
+        /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmitType`](super::super::types::TransmitType).
         pub const TRANSMISSION_TYPE: super::ReadWrite<
             super::super::types::TransmitType,
         > = super::ReadWriteNamedTransmitType::object_with_default(
@@ -2983,12 +3396,14 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Highest sub-index supported: 0x1800:00.
+            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
             pub fn highest_sub_index_supported(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// COB-ID: 0x1800:01.
+            /// Constant: [`COB_ID`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -2999,6 +3414,7 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1800:02.
+            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmitType`](super::super::types::TransmitType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmitType> {
@@ -3014,6 +3430,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x1801:00, UNSIGNED8, ro, default 2.
+        /// Accessor: [`Accessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x1801,
             0x00,
@@ -3023,6 +3440,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1801:01, UNSIGNED32, rw, default \$NODEID+0x280.
+        /// Accessor: [`Accessors::cob_id`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         pub const COB_ID: super::ReadWrite<super::super::types::TransmitPdoIdentifier> = super::ReadWriteNamedTransmitPdoIdentifier::new(
             rt::OnCanOpen::canopen(0x1801, 0x01),
             "COB-ID",
@@ -3036,6 +3454,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1801:02, UNSIGNED8, rw, default 1.
+        /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmitType`](super::super::types::TransmitType).
         pub const TRANSMISSION_TYPE: super::ReadWrite<
             super::super::types::TransmitType,
         > = super::ReadWriteNamedTransmitType::object_with_default(
@@ -3050,12 +3469,14 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Highest sub-index supported: 0x1801:00.
+            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
             pub fn highest_sub_index_supported(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// COB-ID: 0x1801:01.
+            /// Constant: [`COB_ID`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -3066,6 +3487,7 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1801:02.
+            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmitType`](super::super::types::TransmitType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmitType> {
@@ -3080,6 +3502,7 @@ pub mod objects {
         /// Number of mapped objects.
         ///
         /// 0x1A00:00, UNSIGNED8, rw, default 1.
+        /// Accessor: [`Accessors::number_of_mapped_objects`].
         pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1A00,
             0x00,
@@ -3089,6 +3512,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1A00:01, UNSIGNED32, rw, default 0x60410010.
+        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
         pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1A00,
             0x01,
@@ -3101,12 +3525,14 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects: 0x1A00:00.
+            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS`].
             pub fn number_of_mapped_objects(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS.at(self.client)
             }
             /// Mapped object 1: 0x1A00:01.
+            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -3121,6 +3547,7 @@ pub mod objects {
         /// Number of mapped objects.
         ///
         /// 0x1A01:00, UNSIGNED8, rw, default 2.
+        /// Accessor: [`Accessors::number_of_mapped_objects`].
         pub const NUMBER_OF_MAPPED_OBJECTS: super::ReadWrite<u8> = super::ReadWriteU8::object_with_default(
             0x1A01,
             0x00,
@@ -3130,6 +3557,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1A01:01, UNSIGNED32, rw, default 0x60410010.
+        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
         pub const MAPPED_OBJECT_1: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1A01,
             0x01,
@@ -3139,6 +3567,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// 0x1A01:02, UNSIGNED32, rw, default 0x60640020.
+        /// Accessor: [`Accessors::mapped_object_2`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
         pub const MAPPED_OBJECT_2: super::ReadWrite<super::super::types::MappingEntry> = super::ReadWriteNamedMappingEntry::object_with_default(
             0x1A01,
             0x02,
@@ -3151,18 +3580,21 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects: 0x1A01:00.
+            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS`].
             pub fn number_of_mapped_objects(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS.at(self.client)
             }
             /// Mapped object 1: 0x1A01:01.
+            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
                 MAPPED_OBJECT_1.at(self.client)
             }
             /// Mapped object 2: 0x1A01:02.
+            /// Constant: [`MAPPED_OBJECT_2`]. Values: [`MappingEntry`](super::super::types::MappingEntry).
             pub fn mapped_object_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappingEntry> {
@@ -3173,6 +3605,7 @@ pub mod objects {
     /// Motor temperature.
     ///
     /// 0x2000:00, REAL32, ro.
+    /// Accessor: [`motor_temperature`](super::DemoDrive::motor_temperature).
     pub const MOTOR_TEMPERATURE: ReadOnly<f32> = ReadOnlyF32::object(
         0x2000,
         0x00,
@@ -3181,6 +3614,7 @@ pub mod objects {
     /// Application name.
     ///
     /// 0x2001:00, VISIBLE_STRING, rw, default "axis".
+    /// Accessor: [`application_name`](super::DemoDrive::application_name).
     pub const APPLICATION_NAME: ReadWrite<rt::VisibleString> = ReadWriteVisibleString::object_with_default(
         0x2001,
         0x00,
@@ -3190,6 +3624,7 @@ pub mod objects {
     /// Firmware image.
     ///
     /// 0x2002:00, DOMAIN, wo.
+    /// Accessor: [`firmware_image`](super::DemoDrive::firmware_image).
     pub const FIRMWARE_IMAGE: WriteOnly<rt::Domain> = WriteOnlyDomain::object(
         0x2002,
         0x00,
@@ -3203,6 +3638,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x2010:00, UNSIGNED8, ro, default 2.
+        /// Accessor: [`Accessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x2010,
             0x00,
@@ -3212,6 +3648,7 @@ pub mod objects {
         /// Input 1.
         ///
         /// 0x2010:01, INTEGER16, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::input_1`].
         pub const INPUT_1: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_object(
             0x2010,
             0x01,
@@ -3221,6 +3658,7 @@ pub mod objects {
         /// Input 2.
         ///
         /// 0x2010:02, INTEGER16, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::input_2`].
         pub const INPUT_2: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_object(
             0x2010,
             0x02,
@@ -3233,16 +3671,19 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Highest sub-index supported: 0x2010:00.
+            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
             pub fn highest_sub_index_supported(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// Input 1: 0x2010:01.
+            /// Constant: [`INPUT_1`].
             pub fn input_1(&mut self) -> super::ReadOnlyAccess<'_, C, i16> {
                 INPUT_1.at(self.client)
             }
             /// Input 2: 0x2010:02.
+            /// Constant: [`INPUT_2`].
             pub fn input_2(&mut self) -> super::ReadOnlyAccess<'_, C, i16> {
                 INPUT_2.at(self.client)
             }
@@ -3251,6 +3692,7 @@ pub mod objects {
     /// Encoder counts.
     ///
     /// 0x2020:00, INTEGER24, ro.
+    /// Accessor: [`encoder_counts`](super::DemoDrive::encoder_counts).
     pub const ENCODER_COUNTS: ReadOnly<rt::Int<24>> = ReadOnlyInt24::object(
         0x2020,
         0x00,
@@ -3259,6 +3701,7 @@ pub mod objects {
     /// Controlword.
     ///
     /// 0x6040:00, UNSIGNED16, rww, mappable into RPDOs, default 0.
+    /// Accessor: [`controlword`](super::DemoDrive::controlword). Values: [`Controlword`](super::types::Controlword). Carried by [`RxPdo1`](super::pdo::RxPdo1), [`RxPdo2`](super::pdo::RxPdo2).
     ///
     /// Commands of the state machine, and of the mode of operation.
     pub const CONTROLWORD: ReadWrite<super::types::Controlword> = ReadWriteNamedControlword::flagged_object_with_default(
@@ -3271,6 +3714,7 @@ pub mod objects {
     /// Statusword.
     ///
     /// 0x6041:00, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`statusword`](super::DemoDrive::statusword). Values: [`Statusword`](super::types::Statusword). Carried by [`TxPdo1`](super::pdo::TxPdo1), [`TxPdo2`](super::pdo::TxPdo2).
     ///
     /// The state, and what the mode of operation has to tell.
     pub const STATUSWORD: ReadOnly<super::types::Statusword> = ReadOnlyNamedStatusword::flagged_object(
@@ -3282,6 +3726,7 @@ pub mod objects {
     /// Modes of operation.
     ///
     /// 0x6060:00, INTEGER8, rw, mappable into any PDO, default 1, range \-128 to 8.
+    /// Accessor: [`modes_of_operation`](super::DemoDrive::modes_of_operation). Values: [`ModesOfOperation`](super::types::ModesOfOperation).
     ///
     /// The mode wanted. The mode in force is in 0x6061.
     pub const MODES_OF_OPERATION: ReadWrite<super::types::ModesOfOperation> = ReadWriteNamedModesOfOperation::new(
@@ -3295,6 +3740,7 @@ pub mod objects {
     /// Modes of operation display.
     ///
     /// 0x6061:00, INTEGER8, ro, mappable into TPDOs.
+    /// Accessor: [`modes_of_operation_display`](super::DemoDrive::modes_of_operation_display). Values: [`ModesOfOperation`](super::types::ModesOfOperation).
     ///
     /// The mode in force.
     pub const MODES_OF_OPERATION_DISPLAY: ReadOnly<super::types::ModesOfOperation> = ReadOnlyNamedModesOfOperation::flagged_object(
@@ -3306,6 +3752,7 @@ pub mod objects {
     /// Position actual value.
     ///
     /// 0x6064:00, INTEGER32, ro, mappable into TPDOs.
+    /// Accessor: [`position_actual_value`](super::DemoDrive::position_actual_value). Carried by [`TxPdo2`](super::pdo::TxPdo2).
     pub const POSITION_ACTUAL_VALUE: ReadOnly<i32> = ReadOnlyI32::flagged_object(
         0x6064,
         0x00,
@@ -3315,6 +3762,7 @@ pub mod objects {
     /// Target position.
     ///
     /// 0x607A:00, INTEGER32, rw, mappable into any PDO, default 0, range \-1000000 to 1000000.
+    /// Accessor: [`target_position`](super::DemoDrive::target_position). Carried by [`RxPdo2`](super::pdo::RxPdo2).
     pub const TARGET_POSITION: ReadWrite<i32> = ReadWriteI32::new(
         rt::OnCanOpen::canopen(0x607A, 0x00),
         "Target position",
@@ -3330,6 +3778,7 @@ pub mod objects {
         /// Highest sub-index supported.
         ///
         /// 0x607D:00, UNSIGNED8, ro, default 2.
+        /// Accessor: [`Accessors::highest_sub_index_supported`].
         pub const HIGHEST_SUB_INDEX_SUPPORTED: super::ReadOnly<u8> = super::ReadOnlyU8::object_with_default(
             0x607D,
             0x00,
@@ -3339,6 +3788,7 @@ pub mod objects {
         /// Min position limit.
         ///
         /// 0x607D:01, INTEGER32, rw, default -1000000.
+        /// Accessor: [`Accessors::min_position_limit`].
         pub const MIN_POSITION_LIMIT: super::ReadWrite<i32> = super::ReadWriteI32::object_with_default(
             0x607D,
             0x01,
@@ -3348,6 +3798,7 @@ pub mod objects {
         /// Max position limit.
         ///
         /// 0x607D:02, INTEGER32, rw, default 1000000.
+        /// Accessor: [`Accessors::max_position_limit`].
         pub const MAX_POSITION_LIMIT: super::ReadWrite<i32> = super::ReadWriteI32::object_with_default(
             0x607D,
             0x02,
@@ -3360,16 +3811,19 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Highest sub-index supported: 0x607D:00.
+            /// Constant: [`HIGHEST_SUB_INDEX_SUPPORTED`].
             pub fn highest_sub_index_supported(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 HIGHEST_SUB_INDEX_SUPPORTED.at(self.client)
             }
             /// Min position limit: 0x607D:01.
+            /// Constant: [`MIN_POSITION_LIMIT`].
             pub fn min_position_limit(&mut self) -> super::ReadWriteAccess<'_, C, i32> {
                 MIN_POSITION_LIMIT.at(self.client)
             }
             /// Max position limit: 0x607D:02.
+            /// Constant: [`MAX_POSITION_LIMIT`].
             pub fn max_position_limit(&mut self) -> super::ReadWriteAccess<'_, C, i32> {
                 MAX_POSITION_LIMIT.at(self.client)
             }
@@ -3378,6 +3832,7 @@ pub mod objects {
     /// Profile velocity.
     ///
     /// 0x6081:00, UNSIGNED32, rw, mappable into any PDO, default 1000, range 0 to 500000.
+    /// Accessor: [`profile_velocity`](super::DemoDrive::profile_velocity).
     pub const PROFILE_VELOCITY: ReadWrite<u32> = ReadWriteU32::new(
         rt::OnCanOpen::canopen(0x6081, 0x00),
         "Profile velocity",
@@ -3389,6 +3844,7 @@ pub mod objects {
     /// Profile acceleration.
     ///
     /// 0x6083:00, UNSIGNED32, rw, default 10000, range 1 to 10000000.
+    /// Accessor: [`profile_acceleration`](super::DemoDrive::profile_acceleration).
     pub const PROFILE_ACCELERATION: ReadWrite<u32> = ReadWriteU32::new(
         rt::OnCanOpen::canopen(0x6083, 0x00),
         "Profile acceleration",
@@ -3401,7 +3857,7 @@ pub mod objects {
 /// PDOs whose mapping can be changed: `lexibus::pdo!` looks them up here.
 pub mod remappable {
     use ::lexibus as rt;
-    /// RPDO 1: RPDO 1 mapping.
+    /// RPDO 1: RPDO 1 mapping. By default: [`RxPdo1`](super::pdo::RxPdo1).
     pub enum RxPdo1 {}
     impl rt::Remappable for RxPdo1 {
         type Direction = rt::Rpdo;
@@ -3416,7 +3872,7 @@ pub mod remappable {
         ];
         const COB_ID: rt::CobId = rt::CobId::from_node(0x200);
     }
-    /// RPDO 2: RPDO 2 mapping.
+    /// RPDO 2: RPDO 2 mapping. By default: [`RxPdo2`](super::pdo::RxPdo2).
     pub enum RxPdo2 {}
     impl rt::Remappable for RxPdo2 {
         type Direction = rt::Rpdo;
@@ -3429,7 +3885,7 @@ pub mod remappable {
         const TIMING: &'static [rt::SdoWrite] = &[rt::SdoWrite::new_u8(0x1401, 0x02, 1)];
         const COB_ID: rt::CobId = rt::CobId::from_node(0x300);
     }
-    /// TPDO 1: TPDO 1 mapping.
+    /// TPDO 1: TPDO 1 mapping. By default: [`TxPdo1`](super::pdo::TxPdo1).
     pub enum TxPdo1 {}
     impl rt::Remappable for TxPdo1 {
         type Direction = rt::Tpdo;
@@ -3443,7 +3899,7 @@ pub mod remappable {
         ];
         const COB_ID: rt::CobId = rt::CobId::from_node(0x180);
     }
-    /// TPDO 2: TPDO 2 mapping.
+    /// TPDO 2: TPDO 2 mapping. By default: [`TxPdo2`](super::pdo::TxPdo2).
     pub enum TxPdo2 {}
     impl rt::Remappable for TxPdo2 {
         type Direction = rt::Tpdo;
@@ -3495,10 +3951,14 @@ pub mod pdo {
     use ::lexibus as rt;
     /// RPDO 1: RPDO 1 mapping.
     ///
-    /// Mapping 0x1600, 16 bits.
+    /// Mapping 0x1600, 16 bits, COB-ID 0x200 + node-ID, transmission type 255.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`controlword`](Self::controlword) | [0x6040:00](super::objects::CONTROLWORD) | [`Controlword`](super::types::Controlword) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1 {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         pub controlword: super::types::Controlword,
     }
     impl RxPdo1 {
@@ -3568,12 +4028,17 @@ pub mod pdo {
     };
     /// RPDO 2: RPDO 2 mapping.
     ///
-    /// Mapping 0x1601, 48 bits.
+    /// Mapping 0x1601, 48 bits, COB-ID 0x300 + node-ID, transmission type 1.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`controlword`](Self::controlword) | [0x6040:00](super::objects::CONTROLWORD) | [`Controlword`](super::types::Controlword) |
+    /// | 2–5 | [`target_position`](Self::target_position) | [0x607A:00](super::objects::TARGET_POSITION) | `i32` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo2 {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         pub controlword: super::types::Controlword,
-        /// Target position: 0x607A:00, 32 bits from bit 16.
+        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits from bit 16.
         pub target_position: i32,
     }
     impl RxPdo2 {
@@ -3648,10 +4113,14 @@ pub mod pdo {
     };
     /// TPDO 1: TPDO 1 mapping.
     ///
-    /// Mapping 0x1A00, 16 bits.
+    /// Mapping 0x1A00, 16 bits, COB-ID 0x180 + node-ID, transmission type 255.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`statusword`](Self::statusword) | [0x6041:00](super::objects::STATUSWORD) | [`Statusword`](super::types::Statusword) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1 {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         pub statusword: super::types::Statusword,
     }
     impl TxPdo1 {
@@ -3721,12 +4190,17 @@ pub mod pdo {
     };
     /// TPDO 2: TPDO 2 mapping.
     ///
-    /// Mapping 0x1A01, 48 bits.
+    /// Mapping 0x1A01, 48 bits, COB-ID 0x280 + node-ID, transmission type 1.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`statusword`](Self::statusword) | [0x6041:00](super::objects::STATUSWORD) | [`Statusword`](super::types::Statusword) |
+    /// | 2–5 | [`position_actual_value`](Self::position_actual_value) | [0x6064:00](super::objects::POSITION_ACTUAL_VALUE) | `i32` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo2 {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         pub statusword: super::types::Statusword,
-        /// Position actual value: 0x6064:00, 32 bits from bit 16.
+        /// Position actual value: [0x6064:00](super::objects::POSITION_ACTUAL_VALUE), 32 bits from bit 16.
         pub position_actual_value: i32,
     }
     impl TxPdo2 {

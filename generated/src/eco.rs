@@ -37,15 +37,15 @@ pub const MODBUS: rt::modbus::Limits = rt::modbus::Limits {
     coil: rt::modbus::TableLimits::COIL,
     discrete: rt::modbus::TableLimits::DISCRETE,
 };
-/// pulses\_per\_turn in P1, P2 to the base 100. In pulse. Pulses a turn of the motor.
+/// pulses\_per\_turn in [P1](objects::P1), [P2](objects::P2) to the base 100. In pulse. Pulses a turn of the motor.
 pub const PULSES_PER_TURN: rt::Composite<2> = rt::Composite::new(100);
-/// max\_following\_error\_p in P3, P4 to the base 100. In °. Largest following error, of the parameters P.
+/// max\_following\_error\_p in [P3](objects::P3), [P4](objects::P4) to the base 100. In °. Largest following error, of the parameters P.
 pub const MAX_FOLLOWING_ERROR_P: rt::Composite<2> = rt::Composite::new(100);
-/// master\_encoder\_marks in A1, A2 to the base 100. Marks of the master encoder.
+/// master\_encoder\_marks in [A1](objects::A1), [A2](objects::A2) to the base 100. Marks of the master encoder.
 pub const MASTER_ENCODER_MARKS: rt::Composite<2> = rt::Composite::new(100);
-/// max\_following\_error\_a in A5, A6 to the base 100. In °. Largest following error, of the parameters A.
+/// max\_following\_error\_a in [A5](objects::A5), [A6](objects::A6) to the base 100. In °. Largest following error, of the parameters A.
 pub const MAX_FOLLOWING_ERROR_A: rt::Composite<2> = rt::Composite::new(100);
-/// space\_offset in H6, H7, H8 to the base 100. H5 is 1 below zero. In pulse. Offset in pulses of the master encoder.
+/// space\_offset in [H6](objects::H6), [H7](objects::H7), [H8](objects::H8) to the base 100. [H5](objects::H5) is 1 below zero. In pulse. Offset in pulses of the master encoder.
 pub const SPACE_OFFSET: rt::Composite<3> = rt::Composite::signed(100, 1);
 /// What a master has to know of Eco.
 pub static DEVICE: rt::ethercat::Device = rt::ethercat::Device {
@@ -196,42 +196,61 @@ impl<C> Eco<C> {
         self.client
     }
     /// following\_error\_actual\_value: bytes 8 to 11 of the image to the master.
+    /// Constant: [`objects::FOLLOWING_ERROR_ACTUAL_VALUE`].
     pub fn following_error_actual_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnImage> {
         objects::FOLLOWING_ERROR_ACTUAL_VALUE.at(&mut self.client)
     }
     /// torque\_actual\_value: bytes 12 to 13 of the image to the master.
+    /// Constant: [`objects::TORQUE_ACTUAL_VALUE`].
     pub fn torque_actual_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i16, rt::OnImage> {
         objects::TORQUE_ACTUAL_VALUE.at(&mut self.client)
     }
     /// cyclic read value: bytes 16 to 19 of the image to the master.
+    ///
+    /// At least 3 ms after the address
+    ///
+    /// Constant: [`objects::CYCLIC_READ_VALUE`].
     pub fn cyclic_read_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, u32, rt::OnImage> {
         objects::CYCLIC_READ_VALUE.at(&mut self.client)
     }
     /// cyclic read address: bytes 24 to 25 of the image from the master.
+    ///
+    /// Which variable is read: 1 to 99 a parameter, 0x8000 to 0x8FFF a register
+    ///
+    /// Constant: [`objects::CYCLIC_READ_ADDRESS`].
     pub fn cyclic_read_address(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u16, objects::OnImageOut> {
         objects::CYCLIC_READ_ADDRESS.at(&mut self.client)
     }
     /// cyclic write address: bytes 26 to 27 of the image from the master.
+    ///
+    /// Which variable is written: 1 to 99 a parameter, 0x8000 to 0x8FFF a register
+    ///
+    /// Constant: [`objects::CYCLIC_WRITE_ADDRESS`].
     pub fn cyclic_write_address(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u16, objects::OnImageOut> {
         objects::CYCLIC_WRITE_ADDRESS.at(&mut self.client)
     }
     /// cyclic write value: bytes 28 to 31 of the image from the master.
+    /// Constant: [`objects::CYCLIC_WRITE_VALUE`].
     pub fn cyclic_write_value(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u32, objects::OnImageOut> {
         objects::CYCLIC_WRITE_VALUE.at(&mut self.client)
     }
     /// control\_word: register 32768.
+    ///
+    /// Commands of the vendor's own bits, which the mode of operation gives their meaning. On CANopen and EtherCAT, 0x6040 has others
+    ///
+    /// Constant: [`objects::CONTROL_WORD`]. Values: [`DriveCommand`](types::DriveCommand).
     pub fn control_word(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -243,6 +262,10 @@ impl<C> Eco<C> {
         objects::CONTROL_WORD.at(&mut self.client)
     }
     /// modes\_of\_operation: 0x6060:00, register 32769.
+    ///
+    /// The mode that is wanted; 0x6061 and the image show the one that is
+    ///
+    /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`Mode`](types::Mode). Carried by [`Mode`](pdo::Mode).
     pub fn modes_of_operation(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -254,6 +277,10 @@ impl<C> Eco<C> {
         objects::MODES_OF_OPERATION.at(&mut self.client)
     }
     /// following\_error\_window: 0x6065:00, register 32771.
+    ///
+    /// Largest distance between set-point and position. That the unit is the user's isn't said of it
+    ///
+    /// Constant: [`objects::FOLLOWING_ERROR_WINDOW`].
     pub fn following_error_window(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -265,12 +292,20 @@ impl<C> Eco<C> {
         objects::FOLLOWING_ERROR_WINDOW.at(&mut self.client)
     }
     /// following\_error\_timeout: 0x6066:00, register 32772.
+    ///
+    /// How long the following error may be too large
+    ///
+    /// Constant: [`objects::FOLLOWING_ERROR_TIMEOUT`].
     pub fn following_error_timeout(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::FOLLOWING_ERROR_TIMEOUT.at(&mut self.client)
     }
     /// status\_word: register 32773.
+    ///
+    /// The vendor's own bits. On CANopen and EtherCAT, 0x6041 has others
+    ///
+    /// Constant: [`objects::STATUS_WORD`]. Values: [`DriveStatus`](types::DriveStatus).
     pub fn status_word(
         &mut self,
     ) -> objects::ReadOnlyAccess<
@@ -282,6 +317,10 @@ impl<C> Eco<C> {
         objects::STATUS_WORD.at(&mut self.client)
     }
     /// position\_actual\_value: 0x6064:00, register 32774.
+    ///
+    /// Position in user units. Before 3.00 the drive refreshes it each millisecond, so that its time is uncertain by 1 ms
+    ///
+    /// Constant: [`objects::POSITION_ACTUAL_VALUE`]. Carried by [`ActualPosition`](pdo::ActualPosition).
     pub fn position_actual_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<
@@ -293,6 +332,10 @@ impl<C> Eco<C> {
         objects::POSITION_ACTUAL_VALUE.at(&mut self.client)
     }
     /// latched\_position: 0x2001:00, register 32775.
+    ///
+    /// The position where the latch input rose; a bit of the status word tells a new one
+    ///
+    /// Constant: [`objects::LATCHED_POSITION`].
     pub fn latched_position(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -304,6 +347,10 @@ impl<C> Eco<C> {
         objects::LATCHED_POSITION.at(&mut self.client)
     }
     /// velocity\_actual\_value: 0x606C:00, register 32776.
+    ///
+    /// Speed in user units a second
+    ///
+    /// Constant: [`objects::VELOCITY_ACTUAL_VALUE`]. Carried by [`ActualVelocity`](pdo::ActualVelocity).
     pub fn velocity_actual_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<
@@ -315,6 +362,10 @@ impl<C> Eco<C> {
         objects::VELOCITY_ACTUAL_VALUE.at(&mut self.client)
     }
     /// target\_position: 0x607A:00, register 32777.
+    ///
+    /// Where the positioner goes; the distance, where it is incremental
+    ///
+    /// Constant: [`objects::TARGET_POSITION`]. Carried by [`Position`](pdo::Position).
     pub fn target_position(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -326,6 +377,10 @@ impl<C> Eco<C> {
         objects::TARGET_POSITION.at(&mut self.client)
     }
     /// profile\_acceleration: 0x6083:00, register 32778.
+    ///
+    /// Acceleration in user units a second, each millisecond
+    ///
+    /// Constant: [`objects::PROFILE_ACCELERATION`].
     pub fn profile_acceleration(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -337,6 +392,10 @@ impl<C> Eco<C> {
         objects::PROFILE_ACCELERATION.at(&mut self.client)
     }
     /// profile\_deceleration: 0x6084:00, register 32779.
+    ///
+    /// Deceleration in user units a second, each millisecond
+    ///
+    /// Constant: [`objects::PROFILE_DECELERATION`].
     pub fn profile_deceleration(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -348,6 +407,10 @@ impl<C> Eco<C> {
         objects::PROFILE_DECELERATION.at(&mut self.client)
     }
     /// profile\_velocity: 0x6081:00, register 32780.
+    ///
+    /// Speed of positioning in user units a second
+    ///
+    /// Constant: [`objects::PROFILE_VELOCITY`].
     pub fn profile_velocity(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -359,6 +422,10 @@ impl<C> Eco<C> {
         objects::PROFILE_VELOCITY.at(&mut self.client)
     }
     /// target\_velocity: 0x60FF:00, register 32781.
+    ///
+    /// Speed wanted in velocity mode
+    ///
+    /// Constant: [`objects::TARGET_VELOCITY`]. Carried by [`Velocity`](pdo::Velocity).
     pub fn target_velocity(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -370,6 +437,10 @@ impl<C> Eco<C> {
         objects::TARGET_VELOCITY.at(&mut self.client)
     }
     /// velocity\_window: 0x606D:00, register 32782.
+    ///
+    /// Largest following error of the speed
+    ///
+    /// Constant: [`objects::VELOCITY_WINDOW`].
     pub fn velocity_window(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -381,12 +452,20 @@ impl<C> Eco<C> {
         objects::VELOCITY_WINDOW.at(&mut self.client)
     }
     /// velocity\_window\_time: 0x606E:00, register 32783.
+    ///
+    /// Time of the speed's window
+    ///
+    /// Constant: [`objects::VELOCITY_WINDOW_TIME`].
     pub fn velocity_window_time(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::VELOCITY_WINDOW_TIME.at(&mut self.client)
     }
     /// velocity\_threshold: 0x606F:00, register 32784.
+    ///
+    /// What the speed is compared with
+    ///
+    /// Constant: [`objects::VELOCITY_THRESHOLD`].
     pub fn velocity_threshold(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -398,12 +477,20 @@ impl<C> Eco<C> {
         objects::VELOCITY_THRESHOLD.at(&mut self.client)
     }
     /// velocity\_threshold\_time: 0x6070:00, register 32785.
+    ///
+    /// Time of the speed's threshold
+    ///
+    /// Constant: [`objects::VELOCITY_THRESHOLD_TIME`].
     pub fn velocity_threshold_time(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::VELOCITY_THRESHOLD_TIME.at(&mut self.client)
     }
     /// homing\_method: 0x6098:00, register 32786.
+    ///
+    /// How the axis looks for its zero
+    ///
+    /// Constant: [`objects::HOMING_METHOD`]. Values: [`HomingMethod`](types::HomingMethod).
     pub fn homing_method(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -415,6 +502,10 @@ impl<C> Eco<C> {
         objects::HOMING_METHOD.at(&mut self.client)
     }
     /// home\_offset: 0x607C:00, register 32787.
+    ///
+    /// Distance from the home position to zero: -1000 makes the position 1000 (L4265)
+    ///
+    /// Constant: [`objects::HOME_OFFSET`].
     pub fn home_offset(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -426,6 +517,10 @@ impl<C> Eco<C> {
         objects::HOME_OFFSET.at(&mut self.client)
     }
     /// homing\_acceleration: 0x609A:00, register 32790.
+    ///
+    /// Acceleration and deceleration of homing
+    ///
+    /// Constant: [`objects::HOMING_ACCELERATION`].
     pub fn homing_acceleration(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -437,6 +532,10 @@ impl<C> Eco<C> {
         objects::HOMING_ACCELERATION.at(&mut self.client)
     }
     /// velocity\_master\_sensor: register 32791.
+    ///
+    /// Speed of the master's sensor, by its name
+    ///
+    /// Constant: [`objects::VELOCITY_MASTER_SENSOR`].
     pub fn velocity_master_sensor(
         &mut self,
     ) -> objects::ReadOnlyAccess<
@@ -448,24 +547,40 @@ impl<C> Eco<C> {
         objects::VELOCITY_MASTER_SENSOR.at(&mut self.client)
     }
     /// master\_encoder\_increments: 0x3000:00, register 32792.
+    ///
+    /// Pulses a turn of the master encoder, for the electric axis
+    ///
+    /// Constant: [`objects::MASTER_ENCODER_INCREMENTS`].
     pub fn master_encoder_increments(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::MASTER_ENCODER_INCREMENTS.at(&mut self.client)
     }
     /// gear\_ratio\_numerator: 0x3001:00, register 32793.
+    ///
+    /// Numerator of the ratio to the master, for the electric axis
+    ///
+    /// Constant: [`objects::GEAR_RATIO_NUMERATOR`].
     pub fn gear_ratio_numerator(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u8, objects::OnCanOpenCoEModbusImageWindows> {
         objects::GEAR_RATIO_NUMERATOR.at(&mut self.client)
     }
     /// gear\_ratio\_divisor: 0x3002:00, register 32794.
+    ///
+    /// Denominator of the ratio to the master, for the electric axis
+    ///
+    /// Constant: [`objects::GEAR_RATIO_DIVISOR`].
     pub fn gear_ratio_divisor(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u8, objects::OnCanOpenCoEModbusImageWindows> {
         objects::GEAR_RATIO_DIVISOR.at(&mut self.client)
     }
     /// motion\_profile\_type: 0x6086:00, register 32795.
+    ///
+    /// Shape of the ramps
+    ///
+    /// Constant: [`objects::MOTION_PROFILE_TYPE`]. Values: [`MotionProfile`](types::MotionProfile).
     pub fn motion_profile_type(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -477,114 +592,190 @@ impl<C> Eco<C> {
         objects::MOTION_PROFILE_TYPE.at(&mut self.client)
     }
     /// acceleration\_jerk: 0x3100:00, register 32796.
+    ///
+    /// Jerk while accelerating; not every profile uses it
+    ///
+    /// Constant: [`objects::ACCELERATION_JERK`].
     pub fn acceleration_jerk(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u8, objects::OnCanOpenCoEModbusImageWindows> {
         objects::ACCELERATION_JERK.at(&mut self.client)
     }
     /// deceleration\_jerk: 0x3101:00, register 32797.
+    ///
+    /// Jerk while decelerating; not every profile uses it
+    ///
+    /// Constant: [`objects::DECELERATION_JERK`].
     pub fn deceleration_jerk(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u8, objects::OnCanOpenCoEModbusImageWindows> {
         objects::DECELERATION_JERK.at(&mut self.client)
     }
     /// aux\_in\_1: 0x3201:00, register 32798.
+    ///
+    /// For any purpose. While the input Select is high, the target of the positioner, and the speed wanted (L1713, L1740)
+    ///
+    /// Constant: [`objects::AUX_IN_1`].
     pub fn aux_in_1(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX_IN_1.at(&mut self.client)
     }
     /// aux\_in\_2: 0x3202:00, register 32799.
+    ///
+    /// For any purpose
+    ///
+    /// Constant: [`objects::AUX_IN_2`].
     pub fn aux_in_2(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX_IN_2.at(&mut self.client)
     }
     /// aux\_out\_1: 0x3301:00, register 32800.
+    ///
+    /// For any purpose
+    ///
+    /// Constant: [`objects::AUX_OUT_1`].
     pub fn aux_out_1(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindowIn> {
         objects::AUX_OUT_1.at(&mut self.client)
     }
     /// aux\_out\_2: 0x3302:00, register 32801.
+    ///
+    /// For any purpose
+    ///
+    /// Constant: [`objects::AUX_OUT_2`].
     pub fn aux_out_2(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindowIn> {
         objects::AUX_OUT_2.at(&mut self.client)
     }
     /// aux\_in\_3: 0x3401:00, register 32802.
+    ///
+    /// For any purpose
+    ///
+    /// Constant: [`objects::AUX_IN_3`].
     pub fn aux_in_3(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX_IN_3.at(&mut self.client)
     }
     /// torque\_max: 0x3402:00, register 32803.
+    ///
+    /// Largest torque; as an object, an input for any purpose
+    ///
+    /// Constant: [`objects::TORQUE_MAX`].
     pub fn torque_max(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::TORQUE_MAX.at(&mut self.client)
     }
     /// aux16\_out\_3: 0x3501:00, register 32804.
+    ///
+    /// For any purpose
+    ///
+    /// Constant: [`objects::AUX16_OUT_3`].
     pub fn aux16_out_3(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindowIn> {
         objects::AUX16_OUT_3.at(&mut self.client)
     }
     /// aux16\_out\_4: 0x3502:00, register 32805.
+    ///
+    /// For any purpose
+    ///
+    /// Constant: [`objects::AUX16_OUT_4`].
     pub fn aux16_out_4(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindowIn> {
         objects::AUX16_OUT_4.at(&mut self.client)
     }
     /// aux\_in\_5: 0x3601:00, register 32806.
+    ///
+    /// For any purpose
+    ///
+    /// Constant: [`objects::AUX_IN_5`].
     pub fn aux_in_5(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX_IN_5.at(&mut self.client)
     }
     /// aux\_in\_6: 0x3602:00, register 32807.
+    ///
+    /// For any purpose
+    ///
+    /// Constant: [`objects::AUX_IN_6`].
     pub fn aux_in_6(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX_IN_6.at(&mut self.client)
     }
     /// aux\_in\_7: 0x3603:00, register 32808.
+    ///
+    /// For any purpose
+    ///
+    /// Constant: [`objects::AUX_IN_7`].
     pub fn aux_in_7(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX_IN_7.at(&mut self.client)
     }
     /// aux\_in\_8: 0x3604:00, register 32809.
+    ///
+    /// For any purpose
+    ///
+    /// Constant: [`objects::AUX_IN_8`].
     pub fn aux_in_8(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i32, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX_IN_8.at(&mut self.client)
     }
     /// aux16\_in\_9: 0x3701:00, register 32810.
+    ///
+    /// For any purpose
+    ///
+    /// Constant: [`objects::AUX16_IN_9`].
     pub fn aux16_in_9(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX16_IN_9.at(&mut self.client)
     }
     /// aux16\_in\_10: 0x3702:00, register 32811.
+    ///
+    /// For any purpose
+    ///
+    /// Constant: [`objects::AUX16_IN_10`].
     pub fn aux16_in_10(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX16_IN_10.at(&mut self.client)
     }
     /// aux16\_in\_11: 0x3703:00, register 32812.
+    ///
+    /// For any purpose
+    ///
+    /// Constant: [`objects::AUX16_IN_11`].
     pub fn aux16_in_11(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX16_IN_11.at(&mut self.client)
     }
     /// aux16\_in\_12: 0x3704:00, register 32813.
+    ///
+    /// For any purpose
+    ///
+    /// Constant: [`objects::AUX16_IN_12`].
     pub fn aux16_in_12(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i16, objects::OnCanOpenCoEModbusImageWindows> {
         objects::AUX16_IN_12.at(&mut self.client)
     }
     /// alarm\_code: register 32814.
+    ///
+    /// The alarm that there is; \`general\_alarms\` has the codes, and EtherCAT and PROFINET have further ones. EtherCAT shows another code in 0x603F
+    ///
+    /// Constant: [`objects::ALARM_CODE`].
     pub fn alarm_code(
         &mut self,
     ) -> objects::ReadOnlyAccess<
@@ -596,6 +787,10 @@ impl<C> Eco<C> {
         objects::ALARM_CODE.at(&mut self.client)
     }
     /// digital\_inputs: 0x60FD:00, register 32816.
+    ///
+    /// Levels of the inputs of connector CN2
+    ///
+    /// Constant: [`objects::DIGITAL_INPUTS`]. Values: [`DigitalInputs`](types::DigitalInputs).
     pub fn digital_inputs(
         &mut self,
     ) -> objects::ReadOnlyAccess<
@@ -607,6 +802,10 @@ impl<C> Eco<C> {
         objects::DIGITAL_INPUTS.at(&mut self.client)
     }
     /// aux\_in\_13: register 32819.
+    ///
+    /// By its name, an input as the others
+    ///
+    /// Constant: [`objects::AUX_IN_13`].
     pub fn aux_in_13(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -618,6 +817,10 @@ impl<C> Eco<C> {
         objects::AUX_IN_13.at(&mut self.client)
     }
     /// aux\_in\_14: register 32820.
+    ///
+    /// By its name, an input as the others
+    ///
+    /// Constant: [`objects::AUX_IN_14`].
     pub fn aux_in_14(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -629,6 +832,10 @@ impl<C> Eco<C> {
         objects::AUX_IN_14.at(&mut self.client)
     }
     /// aux\_in\_15: register 32821.
+    ///
+    /// By its name, an input as the others
+    ///
+    /// Constant: [`objects::AUX_IN_15`].
     pub fn aux_in_15(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -640,6 +847,10 @@ impl<C> Eco<C> {
         objects::AUX_IN_15.at(&mut self.client)
     }
     /// aux\_in\_16: register 32822.
+    ///
+    /// By its name, an input as the others
+    ///
+    /// Constant: [`objects::AUX_IN_16`].
     pub fn aux_in_16(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -651,6 +862,10 @@ impl<C> Eco<C> {
         objects::AUX_IN_16.at(&mut self.client)
     }
     /// aux\_in\_17: register 32823.
+    ///
+    /// By its name, an input as the others
+    ///
+    /// Constant: [`objects::AUX_IN_17`].
     pub fn aux_in_17(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -662,6 +877,10 @@ impl<C> Eco<C> {
         objects::AUX_IN_17.at(&mut self.client)
     }
     /// aux\_in\_18: register 32824.
+    ///
+    /// By its name, an input as the others
+    ///
+    /// Constant: [`objects::AUX_IN_18`].
     pub fn aux_in_18(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -673,6 +892,10 @@ impl<C> Eco<C> {
         objects::AUX_IN_18.at(&mut self.client)
     }
     /// aux\_in\_19: register 32825.
+    ///
+    /// By its name, an input as the others
+    ///
+    /// Constant: [`objects::AUX_IN_19`].
     pub fn aux_in_19(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -684,6 +907,10 @@ impl<C> Eco<C> {
         objects::AUX_IN_19.at(&mut self.client)
     }
     /// aux\_in\_20: register 32826.
+    ///
+    /// By its name, an input as the others
+    ///
+    /// Constant: [`objects::AUX_IN_20`].
     pub fn aux_in_20(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -695,6 +922,10 @@ impl<C> Eco<C> {
         objects::AUX_IN_20.at(&mut self.client)
     }
     /// aux\_in\_21: register 32827.
+    ///
+    /// By its name, an input as the others
+    ///
+    /// Constant: [`objects::AUX_IN_21`].
     pub fn aux_in_21(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -706,6 +937,10 @@ impl<C> Eco<C> {
         objects::AUX_IN_21.at(&mut self.client)
     }
     /// aux\_in\_22: register 32828.
+    ///
+    /// By its name, an input as the others
+    ///
+    /// Constant: [`objects::AUX_IN_22`].
     pub fn aux_in_22(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -717,6 +952,10 @@ impl<C> Eco<C> {
         objects::AUX_IN_22.at(&mut self.client)
     }
     /// target\_window: register 32829.
+    ///
+    /// How near to its target the axis has to be for the output Target, which drives have from 2.40 on, in positioning. That the unit is the user's isn't said of it
+    ///
+    /// Constant: [`objects::TARGET_WINDOW`].
     pub fn target_window(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -728,6 +967,10 @@ impl<C> Eco<C> {
         objects::TARGET_WINDOW.at(&mut self.client)
     }
     /// abs\_enc\_control: register 32830.
+    ///
+    /// Controls the absolute encoder, by its name; no more is printed
+    ///
+    /// Constant: [`objects::ABS_ENC_CONTROL`].
     pub fn abs_enc_control(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -739,6 +982,10 @@ impl<C> Eco<C> {
         objects::ABS_ENC_CONTROL.at(&mut self.client)
     }
     /// abs\_enc\_status: register 32831.
+    ///
+    /// Status of the absolute encoder, by its name; no more is printed
+    ///
+    /// Constant: [`objects::ABS_ENC_STATUS`].
     pub fn abs_enc_status(
         &mut self,
     ) -> objects::ReadOnlyAccess<
@@ -750,6 +997,10 @@ impl<C> Eco<C> {
         objects::ABS_ENC_STATUS.at(&mut self.client)
     }
     /// num\_ext\_enc: register 32832.
+    ///
+    /// Numerator for the external encoder, by its name; no more is printed
+    ///
+    /// Constant: [`objects::NUM_EXT_ENC`].
     pub fn num_ext_enc(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -761,6 +1012,10 @@ impl<C> Eco<C> {
         objects::NUM_EXT_ENC.at(&mut self.client)
     }
     /// den\_ext\_enc: register 32833.
+    ///
+    /// Denominator for the external encoder, by its name; no more is printed
+    ///
+    /// Constant: [`objects::DEN_EXT_ENC`].
     pub fn den_ext_enc(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -772,6 +1027,10 @@ impl<C> Eco<C> {
         objects::DEN_EXT_ENC.at(&mut self.client)
     }
     /// mechatronic\_66: register 32834.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_66`].
     pub fn mechatronic_66(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -783,6 +1042,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_66.at(&mut self.client)
     }
     /// mechatronic\_67: register 32835.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_67`].
     pub fn mechatronic_67(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -794,6 +1057,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_67.at(&mut self.client)
     }
     /// mechatronic\_68: register 32836.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_68`].
     pub fn mechatronic_68(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -805,6 +1072,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_68.at(&mut self.client)
     }
     /// mechatronic\_69: register 32837.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_69`].
     pub fn mechatronic_69(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -816,6 +1087,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_69.at(&mut self.client)
     }
     /// mechatronic\_70: register 32838.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_70`].
     pub fn mechatronic_70(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -827,6 +1102,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_70.at(&mut self.client)
     }
     /// mechatronic\_71: register 32839.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_71`].
     pub fn mechatronic_71(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -838,6 +1117,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_71.at(&mut self.client)
     }
     /// mechatronic\_72: register 32840.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_72`].
     pub fn mechatronic_72(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -849,6 +1132,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_72.at(&mut self.client)
     }
     /// velocity\_rpm: register 32841.
+    ///
+    /// Speed in rpm
+    ///
+    /// Constant: [`objects::VELOCITY_RPM`].
     pub fn velocity_rpm(
         &mut self,
     ) -> objects::ReadOnlyAccess<
@@ -860,6 +1147,10 @@ impl<C> Eco<C> {
         objects::VELOCITY_RPM.at(&mut self.client)
     }
     /// mechatronic\_74: register 32842.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_74`].
     pub fn mechatronic_74(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -871,6 +1162,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_74.at(&mut self.client)
     }
     /// mechatronic\_75: register 32843.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_75`].
     pub fn mechatronic_75(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -882,6 +1177,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_75.at(&mut self.client)
     }
     /// mechatronic\_76: register 32844.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_76`].
     pub fn mechatronic_76(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -893,6 +1192,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_76.at(&mut self.client)
     }
     /// mechatronic\_77: register 32845.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_77`].
     pub fn mechatronic_77(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -904,6 +1207,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_77.at(&mut self.client)
     }
     /// mechatronic\_78: register 32846.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_78`].
     pub fn mechatronic_78(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -915,6 +1222,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_78.at(&mut self.client)
     }
     /// mechatronic\_79: register 32847.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_79`].
     pub fn mechatronic_79(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -926,6 +1237,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_79.at(&mut self.client)
     }
     /// mechatronic\_80: register 32848.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_80`].
     pub fn mechatronic_80(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -937,6 +1252,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_80.at(&mut self.client)
     }
     /// mechatronic\_81: register 32849.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_81`].
     pub fn mechatronic_81(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -948,6 +1267,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_81.at(&mut self.client)
     }
     /// mechatronic\_82: register 32850.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_82`].
     pub fn mechatronic_82(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -959,6 +1282,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_82.at(&mut self.client)
     }
     /// mechatronic\_83: register 32851.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_83`].
     pub fn mechatronic_83(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -970,6 +1297,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_83.at(&mut self.client)
     }
     /// mechatronic\_84: register 32852.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_84`].
     pub fn mechatronic_84(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -981,6 +1312,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_84.at(&mut self.client)
     }
     /// mechatronic\_85: register 32853.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_85`].
     pub fn mechatronic_85(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -992,6 +1327,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_85.at(&mut self.client)
     }
     /// mechatronic\_86: register 32854.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_86`].
     pub fn mechatronic_86(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1003,6 +1342,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_86.at(&mut self.client)
     }
     /// mechatronic\_87: register 32855.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_87`].
     pub fn mechatronic_87(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1014,6 +1357,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_87.at(&mut self.client)
     }
     /// mechatronic\_88: register 32856.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_88`].
     pub fn mechatronic_88(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1025,6 +1372,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_88.at(&mut self.client)
     }
     /// mechatronic\_89: register 32857.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_89`].
     pub fn mechatronic_89(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1036,6 +1387,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_89.at(&mut self.client)
     }
     /// mechatronic\_90: register 32858.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_90`].
     pub fn mechatronic_90(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1047,6 +1402,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_90.at(&mut self.client)
     }
     /// mechatronic\_91: register 32859.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_91`].
     pub fn mechatronic_91(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1058,6 +1417,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_91.at(&mut self.client)
     }
     /// mechatronic\_92: register 32860.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_92`].
     pub fn mechatronic_92(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1069,6 +1432,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_92.at(&mut self.client)
     }
     /// mechatronic\_93: register 32861.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_93`].
     pub fn mechatronic_93(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1080,6 +1447,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_93.at(&mut self.client)
     }
     /// mechatronic\_94: register 32862.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_94`].
     pub fn mechatronic_94(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1091,6 +1462,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_94.at(&mut self.client)
     }
     /// mechatronic\_95: register 32863.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_95`].
     pub fn mechatronic_95(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1102,6 +1477,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_95.at(&mut self.client)
     }
     /// mechatronic\_96: register 32864.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_96`].
     pub fn mechatronic_96(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1113,6 +1492,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_96.at(&mut self.client)
     }
     /// mechatronic\_97: register 32865.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_97`].
     pub fn mechatronic_97(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1124,6 +1507,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_97.at(&mut self.client)
     }
     /// mechatronic\_98: register 32866.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_98`].
     pub fn mechatronic_98(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1135,6 +1522,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_98.at(&mut self.client)
     }
     /// mechatronic\_99: register 32867.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_99`].
     pub fn mechatronic_99(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1146,6 +1537,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_99.at(&mut self.client)
     }
     /// mechatronic\_100: register 32868.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_100`].
     pub fn mechatronic_100(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1157,6 +1552,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_100.at(&mut self.client)
     }
     /// mechatronic\_101: register 32869.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_101`].
     pub fn mechatronic_101(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1168,6 +1567,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_101.at(&mut self.client)
     }
     /// mechatronic\_102: register 32870.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_102`].
     pub fn mechatronic_102(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1179,6 +1582,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_102.at(&mut self.client)
     }
     /// mechatronic\_103: register 32871.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_103`].
     pub fn mechatronic_103(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1190,6 +1597,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_103.at(&mut self.client)
     }
     /// mechatronic\_104: register 32872.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_104`].
     pub fn mechatronic_104(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1201,6 +1612,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_104.at(&mut self.client)
     }
     /// mechatronic\_105: register 32873.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_105`].
     pub fn mechatronic_105(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1212,6 +1627,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_105.at(&mut self.client)
     }
     /// mechatronic\_106: register 32874.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_106`].
     pub fn mechatronic_106(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1223,6 +1642,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_106.at(&mut self.client)
     }
     /// mechatronic\_107: register 32875.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_107`].
     pub fn mechatronic_107(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1234,6 +1657,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_107.at(&mut self.client)
     }
     /// mechatronic\_108: register 32876.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_108`].
     pub fn mechatronic_108(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1245,6 +1672,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_108.at(&mut self.client)
     }
     /// mechatronic\_109: register 32877.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_109`].
     pub fn mechatronic_109(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1256,6 +1687,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_109.at(&mut self.client)
     }
     /// mechatronic\_110: register 32878.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_110`].
     pub fn mechatronic_110(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1267,6 +1702,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_110.at(&mut self.client)
     }
     /// mechatronic\_111: register 32879.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_111`].
     pub fn mechatronic_111(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1278,6 +1717,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_111.at(&mut self.client)
     }
     /// mechatronic\_112: register 32880.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_112`].
     pub fn mechatronic_112(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1289,6 +1732,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_112.at(&mut self.client)
     }
     /// mechatronic\_113: register 32881.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_113`].
     pub fn mechatronic_113(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1300,6 +1747,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_113.at(&mut self.client)
     }
     /// mechatronic\_114: register 32882.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_114`].
     pub fn mechatronic_114(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1311,6 +1762,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_114.at(&mut self.client)
     }
     /// mechatronic\_115: register 32883.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_115`].
     pub fn mechatronic_115(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1322,6 +1777,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_115.at(&mut self.client)
     }
     /// mechatronic\_116: register 32884.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_116`].
     pub fn mechatronic_116(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1333,6 +1792,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_116.at(&mut self.client)
     }
     /// mechatronic\_117: register 32885.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_117`].
     pub fn mechatronic_117(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1344,6 +1807,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_117.at(&mut self.client)
     }
     /// mechatronic\_118: register 32886.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_118`].
     pub fn mechatronic_118(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1355,6 +1822,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_118.at(&mut self.client)
     }
     /// mechatronic\_119: register 32887.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_119`].
     pub fn mechatronic_119(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1366,6 +1837,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_119.at(&mut self.client)
     }
     /// mechatronic\_120: register 32888.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_120`].
     pub fn mechatronic_120(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1377,6 +1852,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_120.at(&mut self.client)
     }
     /// mechatronic\_121: register 32889.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_121`].
     pub fn mechatronic_121(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1388,6 +1867,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_121.at(&mut self.client)
     }
     /// mechatronic\_122: register 32890.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_122`].
     pub fn mechatronic_122(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1399,6 +1882,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_122.at(&mut self.client)
     }
     /// mechatronic\_123: register 32891.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_123`].
     pub fn mechatronic_123(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1410,6 +1897,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_123.at(&mut self.client)
     }
     /// mechatronic\_124: register 32892.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_124`].
     pub fn mechatronic_124(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1421,6 +1912,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_124.at(&mut self.client)
     }
     /// mechatronic\_125: register 32893.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_125`].
     pub fn mechatronic_125(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1432,6 +1927,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_125.at(&mut self.client)
     }
     /// mechatronic\_126: register 32894.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_126`].
     pub fn mechatronic_126(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1443,6 +1942,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_126.at(&mut self.client)
     }
     /// mechatronic\_127: register 32895.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_127`].
     pub fn mechatronic_127(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1454,6 +1957,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_127.at(&mut self.client)
     }
     /// mechatronic\_128: register 32896.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_128`].
     pub fn mechatronic_128(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1465,6 +1972,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_128.at(&mut self.client)
     }
     /// mechatronic\_129: register 32897.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_129`].
     pub fn mechatronic_129(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1476,6 +1987,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_129.at(&mut self.client)
     }
     /// mechatronic\_130: register 32898.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_130`].
     pub fn mechatronic_130(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1487,6 +2002,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_130.at(&mut self.client)
     }
     /// mechatronic\_131: register 32899.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_131`].
     pub fn mechatronic_131(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1498,6 +2017,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_131.at(&mut self.client)
     }
     /// mechatronic\_132: register 32900.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_132`].
     pub fn mechatronic_132(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1509,6 +2032,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_132.at(&mut self.client)
     }
     /// mechatronic\_133: register 32901.
+    ///
+    /// Of the functions for mechatronics
+    ///
+    /// Constant: [`objects::MECHATRONIC_133`].
     pub fn mechatronic_133(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1520,6 +2047,10 @@ impl<C> Eco<C> {
         objects::MECHATRONIC_133.at(&mut self.client)
     }
     /// d1: register 1.
+    ///
+    /// Proportional gain of the velocity loop
+    ///
+    /// Constant: [`objects::D1`].
     pub fn d1(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1531,6 +2062,10 @@ impl<C> Eco<C> {
         objects::D1.at(&mut self.client)
     }
     /// d2: register 2.
+    ///
+    /// Integral gain of the velocity loop
+    ///
+    /// Constant: [`objects::D2`].
     pub fn d2(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1542,6 +2077,10 @@ impl<C> Eco<C> {
         objects::D2.at(&mut self.client)
     }
     /// d3: register 3.
+    ///
+    /// Greatest speed of the motor
+    ///
+    /// Constant: [`objects::D3`].
     pub fn d3(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1553,6 +2092,10 @@ impl<C> Eco<C> {
         objects::D3.at(&mut self.client)
     }
     /// d4: register 4.
+    ///
+    /// Adjusts the offset of the speed
+    ///
+    /// Constant: [`objects::D4`].
     pub fn d4(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1564,6 +2107,10 @@ impl<C> Eco<C> {
         objects::D4.at(&mut self.client)
     }
     /// d5: register 5.
+    ///
+    /// Greatest current of the motor
+    ///
+    /// Constant: [`objects::D5`].
     pub fn d5(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1575,6 +2122,10 @@ impl<C> Eco<C> {
         objects::D5.at(&mut self.client)
     }
     /// d6: register 6.
+    ///
+    /// Ratio of peak to rated current
+    ///
+    /// Constant: [`objects::D6`].
     pub fn d6(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1586,6 +2137,10 @@ impl<C> Eco<C> {
         objects::D6.at(&mut self.client)
     }
     /// d7: register 7.
+    ///
+    /// Sets the I²t function
+    ///
+    /// Constant: [`objects::D7`].
     pub fn d7(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1597,6 +2152,10 @@ impl<C> Eco<C> {
         objects::D7.at(&mut self.client)
     }
     /// d8: register 8.
+    ///
+    /// The motor: has to be chosen for the drive to work
+    ///
+    /// Constant: [`objects::D8`].
     pub fn d8(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1608,6 +2167,10 @@ impl<C> Eco<C> {
         objects::D8.at(&mut self.client)
     }
     /// E1: register 9.
+    ///
+    /// Greatest rated speed
+    ///
+    /// Constant: [`objects::E1`].
     pub fn e1(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1619,6 +2182,10 @@ impl<C> Eco<C> {
         objects::E1.at(&mut self.client)
     }
     /// E2: register 10.
+    ///
+    /// Filter of the reference input
+    ///
+    /// Constant: [`objects::E2`].
     pub fn e2(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1630,6 +2197,10 @@ impl<C> Eco<C> {
         objects::E2.at(&mut self.client)
     }
     /// E3: register 58.
+    ///
+    /// Exceptions from how the drive works otherwise
+    ///
+    /// Constant: [`objects::E3`]. Values: [`Exceptions`](types::Exceptions).
     pub fn e3(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1641,6 +2212,10 @@ impl<C> Eco<C> {
         objects::E3.at(&mut self.client)
     }
     /// E4: register 55.
+    ///
+    /// Reserved
+    ///
+    /// Constant: [`objects::E4`].
     pub fn e4(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1652,6 +2227,10 @@ impl<C> Eco<C> {
         objects::E4.at(&mut self.client)
     }
     /// F1: register 11.
+    ///
+    /// Steepest acceleration
+    ///
+    /// Constant: [`objects::F1`].
     pub fn f1(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1663,6 +2242,10 @@ impl<C> Eco<C> {
         objects::F1.at(&mut self.client)
     }
     /// F2: register 12.
+    ///
+    /// Steepest deceleration
+    ///
+    /// Constant: [`objects::F2`].
     pub fn f2(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1674,6 +2257,10 @@ impl<C> Eco<C> {
         objects::F2.at(&mut self.client)
     }
     /// F3: register 13.
+    ///
+    /// Ramp of an emergency stop
+    ///
+    /// Constant: [`objects::F3`].
     pub fn f3(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1685,6 +2272,10 @@ impl<C> Eco<C> {
         objects::F3.at(&mut self.client)
     }
     /// c1: register 14.
+    ///
+    /// Pulses of the output RTE
+    ///
+    /// Constant: [`objects::C1`].
     pub fn c1(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1696,6 +2287,10 @@ impl<C> Eco<C> {
         objects::C1.at(&mut self.client)
     }
     /// c2: register 15.
+    ///
+    /// Direction in which the motor turns
+    ///
+    /// Constant: [`objects::C2`].
     pub fn c2(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1707,6 +2302,10 @@ impl<C> Eco<C> {
         objects::C2.at(&mut self.client)
     }
     /// c3: register 16.
+    ///
+    /// Control of speed or of torque
+    ///
+    /// Constant: [`objects::C3`].
     pub fn c3(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1718,6 +2317,10 @@ impl<C> Eco<C> {
         objects::C3.at(&mut self.client)
     }
     /// c4: register 17.
+    ///
+    /// Pole pairs of the resolver
+    ///
+    /// Constant: [`objects::C4`].
     pub fn c4(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1729,6 +2332,10 @@ impl<C> Eco<C> {
         objects::C4.at(&mut self.client)
     }
     /// c5: register 18.
+    ///
+    /// Pulses a turn of the encoder
+    ///
+    /// Constant: [`objects::C5`].
     pub fn c5(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1740,6 +2347,10 @@ impl<C> Eco<C> {
         objects::C5.at(&mut self.client)
     }
     /// c6: register 19.
+    ///
+    /// Kind of sensor
+    ///
+    /// Constant: [`objects::C6`].
     pub fn c6(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1751,6 +2362,10 @@ impl<C> Eco<C> {
         objects::C6.at(&mut self.client)
     }
     /// c7: register 20.
+    ///
+    /// Number of the node: on Modbus 1 to 90, on CANopen 1 to 99; EtherCAT doesn't need it, and PROFINET has IP addresses
+    ///
+    /// Constant: [`objects::C7`].
     pub fn c7(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1762,6 +2377,10 @@ impl<C> Eco<C> {
         objects::C7.at(&mut self.client)
     }
     /// c8: register 21.
+    ///
+    /// What the three inputs of the miniECO do; \`mini\_inputs\` has pins and functions
+    ///
+    /// Constant: [`objects::C8`]. Values: [`MiniInputs`](types::MiniInputs).
     pub fn c8(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1773,6 +2392,10 @@ impl<C> Eco<C> {
         objects::C8.at(&mut self.client)
     }
     /// c9: register 22.
+    ///
+    /// How the drive works; some values choose a bus
+    ///
+    /// Constant: [`objects::C9`]. Values: [`Network`](types::Network).
     pub fn c9(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1784,6 +2407,10 @@ impl<C> Eco<C> {
         objects::C9.at(&mut self.client)
     }
     /// I1: register 35.
+    ///
+    /// Proportional gain of the position loop
+    ///
+    /// Constant: [`objects::I1`].
     pub fn i1(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1795,6 +2422,10 @@ impl<C> Eco<C> {
         objects::I1.at(&mut self.client)
     }
     /// I2: register 36.
+    ///
+    /// Integral gain of the position loop
+    ///
+    /// Constant: [`objects::I2`].
     pub fn i2(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1806,6 +2437,10 @@ impl<C> Eco<C> {
         objects::I2.at(&mut self.client)
     }
     /// I3: register 37.
+    ///
+    /// Derivative gain of the position loop
+    ///
+    /// Constant: [`objects::I3`].
     pub fn i3(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1817,6 +2452,10 @@ impl<C> Eco<C> {
         objects::I3.at(&mut self.client)
     }
     /// I4: register 38.
+    ///
+    /// Compensation of inertia
+    ///
+    /// Constant: [`objects::I4`].
     pub fn i4(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1828,6 +2467,10 @@ impl<C> Eco<C> {
         objects::I4.at(&mut self.client)
     }
     /// I5: register 39.
+    ///
+    /// How long the position may be wrong
+    ///
+    /// Constant: [`objects::I5`].
     pub fn i5(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1839,6 +2482,10 @@ impl<C> Eco<C> {
         objects::I5.at(&mut self.client)
     }
     /// I6: register 90.
+    ///
+    /// How an external encoder is used
+    ///
+    /// Constant: [`objects::I6`].
     pub fn i6(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1850,6 +2497,10 @@ impl<C> Eco<C> {
         objects::I6.at(&mut self.client)
     }
     /// I7: register 99.
+    ///
+    /// Reserved
+    ///
+    /// Constant: [`objects::I7`].
     pub fn i7(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1861,6 +2512,10 @@ impl<C> Eco<C> {
         objects::I7.at(&mut self.client)
     }
     /// O1: register 81.
+    ///
+    /// Current at this moment. That it can only be read isn't said of it
+    ///
+    /// Constant: [`objects::O1`].
     pub fn o1(
         &mut self,
     ) -> objects::ReadOnlyAccess<
@@ -1872,6 +2527,10 @@ impl<C> Eco<C> {
         objects::O1.at(&mut self.client)
     }
     /// O2: register 82.
+    ///
+    /// Effective current. That it can only be read isn't said of it
+    ///
+    /// Constant: [`objects::O2`].
     pub fn o2(
         &mut self,
     ) -> objects::ReadOnlyAccess<
@@ -1883,6 +2542,10 @@ impl<C> Eco<C> {
         objects::O2.at(&mut self.client)
     }
     /// O3: register 83.
+    ///
+    /// Overload, of I²t. That it can only be read isn't said of it
+    ///
+    /// Constant: [`objects::O3`].
     pub fn o3(
         &mut self,
     ) -> objects::ReadOnlyAccess<
@@ -1894,6 +2557,10 @@ impl<C> Eco<C> {
         objects::O3.at(&mut self.client)
     }
     /// P1: register 41.
+    ///
+    /// Pulses a turn of the motor, hundreds: P1   100 + P2
+    ///
+    /// Constant: [`objects::P1`]. Part of [`PULSES_PER_TURN`].
     pub fn p1(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1905,6 +2572,10 @@ impl<C> Eco<C> {
         objects::P1.at(&mut self.client)
     }
     /// P2: register 42.
+    ///
+    /// Pulses a turn of the motor, units: P1   100 + P2
+    ///
+    /// Constant: [`objects::P2`]. Part of [`PULSES_PER_TURN`].
     pub fn p2(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1916,6 +2587,10 @@ impl<C> Eco<C> {
         objects::P2.at(&mut self.client)
     }
     /// P3: register 43.
+    ///
+    /// Largest following error, hundreds: P3   100 + P4
+    ///
+    /// Constant: [`objects::P3`]. Part of [`MAX_FOLLOWING_ERROR_P`].
     pub fn p3(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1927,6 +2602,10 @@ impl<C> Eco<C> {
         objects::P3.at(&mut self.client)
     }
     /// P4: register 44.
+    ///
+    /// Largest following error, units: P3   100 + P4
+    ///
+    /// Constant: [`objects::P4`]. Part of [`MAX_FOLLOWING_ERROR_P`].
     pub fn p4(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1938,6 +2617,10 @@ impl<C> Eco<C> {
         objects::P4.at(&mut self.client)
     }
     /// P5: register 45.
+    ///
+    /// Acceleration
+    ///
+    /// Constant: [`objects::P5`].
     pub fn p5(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1949,6 +2632,10 @@ impl<C> Eco<C> {
         objects::P5.at(&mut self.client)
     }
     /// P6: register 46.
+    ///
+    /// Deceleration
+    ///
+    /// Constant: [`objects::P6`].
     pub fn p6(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1960,6 +2647,10 @@ impl<C> Eco<C> {
         objects::P6.at(&mut self.client)
     }
     /// P7: register 47.
+    ///
+    /// Greatest speed
+    ///
+    /// Constant: [`objects::P7`].
     pub fn p7(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1971,6 +2662,10 @@ impl<C> Eco<C> {
         objects::P7.at(&mut self.client)
     }
     /// A1: register 48.
+    ///
+    /// Marks of the master encoder, hundreds: A1   100 + A2
+    ///
+    /// Constant: [`objects::A1`]. Part of [`MASTER_ENCODER_MARKS`].
     pub fn a1(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1982,6 +2677,10 @@ impl<C> Eco<C> {
         objects::A1.at(&mut self.client)
     }
     /// A2: register 49.
+    ///
+    /// Marks of the master encoder, units: A1   100 + A2
+    ///
+    /// Constant: [`objects::A2`]. Part of [`MASTER_ENCODER_MARKS`].
     pub fn a2(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -1993,6 +2692,10 @@ impl<C> Eco<C> {
         objects::A2.at(&mut self.client)
     }
     /// A3: register 50.
+    ///
+    /// Numerator of the ratio
+    ///
+    /// Constant: [`objects::A3`].
     pub fn a3(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -2004,6 +2707,10 @@ impl<C> Eco<C> {
         objects::A3.at(&mut self.client)
     }
     /// A4: register 51.
+    ///
+    /// Denominator of the ratio
+    ///
+    /// Constant: [`objects::A4`].
     pub fn a4(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -2015,6 +2722,10 @@ impl<C> Eco<C> {
         objects::A4.at(&mut self.client)
     }
     /// A5: register 52.
+    ///
+    /// Largest following error, hundreds: A5   100 + A6
+    ///
+    /// Constant: [`objects::A5`]. Part of [`MAX_FOLLOWING_ERROR_A`].
     pub fn a5(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -2026,6 +2737,10 @@ impl<C> Eco<C> {
         objects::A5.at(&mut self.client)
     }
     /// A6: register 53.
+    ///
+    /// Largest following error, units: A5   100 + A6
+    ///
+    /// Constant: [`objects::A6`]. Part of [`MAX_FOLLOWING_ERROR_A`].
     pub fn a6(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -2037,6 +2752,10 @@ impl<C> Eco<C> {
         objects::A6.at(&mut self.client)
     }
     /// H1: register 59.
+    ///
+    /// How the axis looks for its zero
+    ///
+    /// Constant: [`objects::H1`].
     pub fn h1(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -2048,6 +2767,10 @@ impl<C> Eco<C> {
         objects::H1.at(&mut self.client)
     }
     /// H2: register 60.
+    ///
+    /// Speed towards the switch, of the rated speed
+    ///
+    /// Constant: [`objects::H2`].
     pub fn h2(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -2059,6 +2782,10 @@ impl<C> Eco<C> {
         objects::H2.at(&mut self.client)
     }
     /// H3: register 61.
+    ///
+    /// Speed towards the marker, of the rated speed
+    ///
+    /// Constant: [`objects::H3`].
     pub fn h3(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -2070,6 +2797,10 @@ impl<C> Eco<C> {
         objects::H3.at(&mut self.client)
     }
     /// H4: register 62.
+    ///
+    /// Acceleration and deceleration of homing
+    ///
+    /// Constant: [`objects::H4`].
     pub fn h4(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -2081,6 +2812,10 @@ impl<C> Eco<C> {
         objects::H4.at(&mut self.client)
     }
     /// H5: register 63.
+    ///
+    /// Sign of the offset whose amount is H6   10000 + H7   100 + H8
+    ///
+    /// Constant: [`objects::H5`]. Part of [`SPACE_OFFSET`].
     pub fn h5(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -2092,6 +2827,10 @@ impl<C> Eco<C> {
         objects::H5.at(&mut self.client)
     }
     /// H6: register 64.
+    ///
+    /// Offset in pulses of the master encoder, ten thousands; its sign is H5
+    ///
+    /// Constant: [`objects::H6`]. Part of [`SPACE_OFFSET`].
     pub fn h6(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -2103,6 +2842,10 @@ impl<C> Eco<C> {
         objects::H6.at(&mut self.client)
     }
     /// H7: register 65.
+    ///
+    /// Offset in pulses of the master encoder, hundreds; its sign is H5
+    ///
+    /// Constant: [`objects::H7`]. Part of [`SPACE_OFFSET`].
     pub fn h7(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -2114,6 +2857,10 @@ impl<C> Eco<C> {
         objects::H7.at(&mut self.client)
     }
     /// H8: register 66.
+    ///
+    /// Offset in pulses of the master encoder, units; its sign is H5
+    ///
+    /// Constant: [`objects::H8`]. Part of [`SPACE_OFFSET`].
     pub fn h8(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -2125,6 +2872,10 @@ impl<C> Eco<C> {
         objects::H8.at(&mut self.client)
     }
     /// H9: register 67.
+    ///
+    /// Adjusts the offset by hand
+    ///
+    /// Constant: [`objects::H9`].
     pub fn h9(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -2136,6 +2887,10 @@ impl<C> Eco<C> {
         objects::H9.at(&mut self.client)
     }
     /// n1: register 40.
+    ///
+    /// Bit rate of CANopen
+    ///
+    /// Constant: [`objects::N1`]. Values: [`BitRate`](types::BitRate).
     pub fn n1(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -2147,28 +2902,39 @@ impl<C> Eco<C> {
         objects::N1.at(&mut self.client)
     }
     /// save\_to\_flash: register 14338.
+    ///
+    /// Saves registers and parameters, with the torque off
+    ///
+    /// Constant: [`objects::SAVE_TO_FLASH`].
     pub fn save_to_flash(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, u16, rt::OnModbus> {
         objects::SAVE_TO_FLASH.at(&mut self.client)
     }
     /// save\_to\_flash\_32: register 14338.
+    ///
+    /// The same with 32 bits, by function 16
+    ///
+    /// Constant: [`objects::SAVE_TO_FLASH_32`].
     pub fn save_to_flash_32(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, u32, rt::OnModbus> {
         objects::SAVE_TO_FLASH_32.at(&mut self.client)
     }
-    /// Device Type: 0x1000.
+    /// Device Type: 0x1000:00.
+    /// Constant: [`objects::DEVICE_TYPE`]. Values: [`DeviceType`](types::DeviceType).
     pub fn device_type(&mut self) -> objects::ConstantAccess<'_, C, types::DeviceType> {
         objects::DEVICE_TYPE.at(&mut self.client)
     }
-    /// Error Register: 0x1001.
+    /// Error Register: 0x1001:00.
+    /// Constant: [`objects::ERROR_REGISTER`]. Values: [`ErrorRegister`](types::ErrorRegister).
     pub fn error_register(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ErrorRegister> {
         objects::ERROR_REGISTER.at(&mut self.client)
     }
     /// Pre Defined Error Field: 0x1003.
+    /// Constants: [`objects::pre_defined_error_field`].
     pub fn pre_defined_error_field(
         &mut self,
     ) -> objects::pre_defined_error_field::Accessors<'_, C> {
@@ -2176,43 +2942,56 @@ impl<C> Eco<C> {
             client: &mut self.client,
         }
     }
-    /// Cob-Id Sync: 0x1005.
+    /// Cob-Id Sync: 0x1005:00.
+    /// Constant: [`objects::COB_ID_SYNC`]. Values: [`SyncIdentifier`](types::SyncIdentifier).
     pub fn cob_id_sync(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::SyncIdentifier> {
         objects::COB_ID_SYNC.at(&mut self.client)
     }
-    /// Manufacturer Device Name: 0x1008.
+    /// Manufacturer Device Name: 0x1008:00.
+    /// Constant: [`objects::MANUFACTURER_DEVICE_NAME`].
     pub fn manufacturer_device_name(
         &mut self,
     ) -> objects::ConstantAccess<'_, C, rt::VisibleString> {
         objects::MANUFACTURER_DEVICE_NAME.at(&mut self.client)
     }
-    /// Manufacturer Hardware Version: 0x1009.
+    /// Manufacturer Hardware Version: 0x1009:00.
+    /// Constant: [`objects::MANUFACTURER_HARDWARE_VERSION`].
     pub fn manufacturer_hardware_version(
         &mut self,
     ) -> objects::ConstantAccess<'_, C, rt::VisibleString> {
         objects::MANUFACTURER_HARDWARE_VERSION.at(&mut self.client)
     }
-    /// Manufacturer Software Version: 0x100A.
+    /// Manufacturer Software Version: 0x100A:00.
+    /// Constant: [`objects::MANUFACTURER_SOFTWARE_VERSION`].
     pub fn manufacturer_software_version(
         &mut self,
     ) -> objects::ConstantAccess<'_, C, rt::VisibleString> {
         objects::MANUFACTURER_SOFTWARE_VERSION.at(&mut self.client)
     }
-    /// Guard Time: 0x100C.
+    /// Guard Time: 0x100C:00.
+    ///
+    /// A request is answered even where its DLC is 0; before 3.00 it has to be 1
+    ///
+    /// Constant: [`objects::GUARD_TIME`].
     pub fn guard_time(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
         objects::GUARD_TIME.at(&mut self.client)
     }
-    /// Life Time Factor: 0x100D.
+    /// Life Time Factor: 0x100D:00.
+    ///
+    /// Times Guard Time, the longest time between two requests of the master. Where it runs out, an EMCY is enabled; the drive answers again once the master asks again, and the EMCY isn't reset
+    ///
+    /// Constant: [`objects::LIFE_TIME_FACTOR`].
     pub fn life_time_factor(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u8, 1>, 0>> {
         objects::LIFE_TIME_FACTOR.at(&mut self.client)
     }
     /// Store Parameter Field: 0x1010.
+    /// Constants: [`objects::store_parameter_field`].
     pub fn store_parameter_field(
         &mut self,
     ) -> objects::store_parameter_field::Accessors<'_, C> {
@@ -2220,31 +2999,39 @@ impl<C> Eco<C> {
             client: &mut self.client,
         }
     }
-    /// Cob Id Emcy: 0x1014.
+    /// Cob Id Emcy: 0x1014:00.
+    /// Constant: [`objects::COB_ID_EMCY`]. Values: [`EmergencyIdentifier`](types::EmergencyIdentifier).
     pub fn cob_id_emcy(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::EmergencyIdentifier> {
         objects::COB_ID_EMCY.at(&mut self.client)
     }
-    /// Inhibit Emcy: 0x1015.
+    /// Inhibit Emcy: 0x1015:00.
+    /// Constant: [`objects::INHIBIT_EMCY`].
     pub fn inhibit_emcy(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
         objects::INHIBIT_EMCY.at(&mut self.client)
     }
-    /// Producer Heartbeat Time: 0x1017.
+    /// Producer Heartbeat Time: 0x1017:00.
+    ///
+    /// While it isn't 0, requests of node guarding are answered with the state, but the toggle bit doesn't change
+    ///
+    /// Constant: [`objects::PRODUCER_HEARTBEAT_TIME`].
     pub fn producer_heartbeat_time(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
         objects::PRODUCER_HEARTBEAT_TIME.at(&mut self.client)
     }
     /// Identity Object: 0x1018.
+    /// Constants: [`objects::identity_object`].
     pub fn identity_object(&mut self) -> objects::identity_object::Accessors<'_, C> {
         objects::identity_object::Accessors {
             client: &mut self.client,
         }
     }
     /// Receive PDO 1 Communication Parameter: 0x1400.
+    /// Constants: [`objects::receive_pdo_1_communication_parameter`].
     pub fn receive_pdo_1_communication_parameter(
         &mut self,
     ) -> objects::receive_pdo_1_communication_parameter::Accessors<'_, C> {
@@ -2253,6 +3040,7 @@ impl<C> Eco<C> {
         }
     }
     /// Receive PDO 2 Communication Parameter: 0x1401.
+    /// Constants: [`objects::receive_pdo_2_communication_parameter`].
     pub fn receive_pdo_2_communication_parameter(
         &mut self,
     ) -> objects::receive_pdo_2_communication_parameter::Accessors<'_, C> {
@@ -2261,6 +3049,7 @@ impl<C> Eco<C> {
         }
     }
     /// Receive PDO 3 Communication Parameter: 0x1402.
+    /// Constants: [`objects::receive_pdo_3_communication_parameter`].
     pub fn receive_pdo_3_communication_parameter(
         &mut self,
     ) -> objects::receive_pdo_3_communication_parameter::Accessors<'_, C> {
@@ -2269,6 +3058,7 @@ impl<C> Eco<C> {
         }
     }
     /// Receive PDO 4 Communication Parameter: 0x1403.
+    /// Constants: [`objects::receive_pdo_4_communication_parameter`].
     pub fn receive_pdo_4_communication_parameter(
         &mut self,
     ) -> objects::receive_pdo_4_communication_parameter::Accessors<'_, C> {
@@ -2277,6 +3067,7 @@ impl<C> Eco<C> {
         }
     }
     /// Receive PDO 1 Mapping Parameter: 0x1600.
+    /// Constants: [`objects::receive_pdo_1_mapping_parameter`].
     pub fn receive_pdo_1_mapping_parameter(
         &mut self,
     ) -> objects::receive_pdo_1_mapping_parameter::Accessors<'_, C> {
@@ -2285,6 +3076,7 @@ impl<C> Eco<C> {
         }
     }
     /// Receive PDO 2 Mapping Parameter: 0x1601.
+    /// Constants: [`objects::receive_pdo_2_mapping_parameter`].
     pub fn receive_pdo_2_mapping_parameter(
         &mut self,
     ) -> objects::receive_pdo_2_mapping_parameter::Accessors<'_, C> {
@@ -2293,6 +3085,7 @@ impl<C> Eco<C> {
         }
     }
     /// Receive PDO 3 Mapping Parameter: 0x1602.
+    /// Constants: [`objects::receive_pdo_3_mapping_parameter`].
     pub fn receive_pdo_3_mapping_parameter(
         &mut self,
     ) -> objects::receive_pdo_3_mapping_parameter::Accessors<'_, C> {
@@ -2301,6 +3094,7 @@ impl<C> Eco<C> {
         }
     }
     /// Receive PDO 4 Mapping Parameter: 0x1603.
+    /// Constants: [`objects::receive_pdo_4_mapping_parameter`].
     pub fn receive_pdo_4_mapping_parameter(
         &mut self,
     ) -> objects::receive_pdo_4_mapping_parameter::Accessors<'_, C> {
@@ -2309,6 +3103,7 @@ impl<C> Eco<C> {
         }
     }
     /// Transmit PDO 1 Communication Parameter: 0x1800.
+    /// Constants: [`objects::transmit_pdo_1_communication_parameter`].
     pub fn transmit_pdo_1_communication_parameter(
         &mut self,
     ) -> objects::transmit_pdo_1_communication_parameter::Accessors<'_, C> {
@@ -2317,6 +3112,7 @@ impl<C> Eco<C> {
         }
     }
     /// Transmit PDO 2 Communication Parameter: 0x1801.
+    /// Constants: [`objects::transmit_pdo_2_communication_parameter`].
     pub fn transmit_pdo_2_communication_parameter(
         &mut self,
     ) -> objects::transmit_pdo_2_communication_parameter::Accessors<'_, C> {
@@ -2325,6 +3121,7 @@ impl<C> Eco<C> {
         }
     }
     /// Transmit PDO 3 Communication Parameter: 0x1802.
+    /// Constants: [`objects::transmit_pdo_3_communication_parameter`].
     pub fn transmit_pdo_3_communication_parameter(
         &mut self,
     ) -> objects::transmit_pdo_3_communication_parameter::Accessors<'_, C> {
@@ -2333,6 +3130,7 @@ impl<C> Eco<C> {
         }
     }
     /// Transmit PDO 4 Communication Parameter: 0x1803.
+    /// Constants: [`objects::transmit_pdo_4_communication_parameter`].
     pub fn transmit_pdo_4_communication_parameter(
         &mut self,
     ) -> objects::transmit_pdo_4_communication_parameter::Accessors<'_, C> {
@@ -2341,6 +3139,7 @@ impl<C> Eco<C> {
         }
     }
     /// Transmit PDO 1 Mapping Parameter: 0x1A00.
+    /// Constants: [`objects::transmit_pdo_1_mapping_parameter`].
     pub fn transmit_pdo_1_mapping_parameter(
         &mut self,
     ) -> objects::transmit_pdo_1_mapping_parameter::Accessors<'_, C> {
@@ -2349,6 +3148,7 @@ impl<C> Eco<C> {
         }
     }
     /// Transmit PDO 2 Mapping Parameter: 0x1A01.
+    /// Constants: [`objects::transmit_pdo_2_mapping_parameter`].
     pub fn transmit_pdo_2_mapping_parameter(
         &mut self,
     ) -> objects::transmit_pdo_2_mapping_parameter::Accessors<'_, C> {
@@ -2357,6 +3157,7 @@ impl<C> Eco<C> {
         }
     }
     /// Transmit PDO 3 Mapping Parameter: 0x1A02.
+    /// Constants: [`objects::transmit_pdo_3_mapping_parameter`].
     pub fn transmit_pdo_3_mapping_parameter(
         &mut self,
     ) -> objects::transmit_pdo_3_mapping_parameter::Accessors<'_, C> {
@@ -2365,6 +3166,7 @@ impl<C> Eco<C> {
         }
     }
     /// Transmit PDO 4 Mapping Parameter: 0x1A03.
+    /// Constants: [`objects::transmit_pdo_4_mapping_parameter`].
     pub fn transmit_pdo_4_mapping_parameter(
         &mut self,
     ) -> objects::transmit_pdo_4_mapping_parameter::Accessors<'_, C> {
@@ -2373,18 +3175,21 @@ impl<C> Eco<C> {
         }
     }
     /// RxPDO Assign: 0x1C12.
+    /// Constants: [`objects::rx_pdo_assign`].
     pub fn rx_pdo_assign(&mut self) -> objects::rx_pdo_assign::Accessors<'_, C> {
         objects::rx_pdo_assign::Accessors {
             client: &mut self.client,
         }
     }
     /// TxPDO Assign: 0x1C13.
+    /// Constants: [`objects::tx_pdo_assign`].
     pub fn tx_pdo_assign(&mut self) -> objects::tx_pdo_assign::Accessors<'_, C> {
         objects::tx_pdo_assign::Accessors {
             client: &mut self.client,
         }
     }
     /// Drive Parameters Settings: 0x2000.
+    /// Constants: [`objects::drive_parameters_settings`].
     pub fn drive_parameters_settings(
         &mut self,
     ) -> objects::drive_parameters_settings::Accessors<'_, C> {
@@ -2392,25 +3197,38 @@ impl<C> Eco<C> {
             client: &mut self.client,
         }
     }
-    /// IP Set Point 16: 0x2002.
+    /// IP Set Point 16: 0x2002:00.
+    ///
+    /// Next position of the interpolator, in 16 bits: 0x60C1:1 has 32
+    ///
+    /// Constant: [`objects::IP_SET_POINT_16`].
     pub fn ip_set_point_16(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::PerItem<i16, 1>> {
         objects::IP_SET_POINT_16.at(&mut self.client)
     }
-    /// Position Actual Value 16: 0x2003.
+    /// Position Actual Value 16: 0x2003:00.
+    ///
+    /// Lower half of the position
+    ///
+    /// Constant: [`objects::POSITION_ACTUAL_VALUE_16`].
     pub fn position_actual_value_16(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<i16, 1>> {
         objects::POSITION_ACTUAL_VALUE_16.at(&mut self.client)
     }
-    /// Latched User Position 16: 0x2004.
+    /// Latched User Position 16: 0x2004:00.
+    ///
+    /// Lower half of the latched position
+    ///
+    /// Constant: [`objects::LATCHED_USER_POSITION_16`].
     pub fn latched_user_position_16(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::PerItem<i16, 1>> {
         objects::LATCHED_USER_POSITION_16.at(&mut self.client)
     }
     /// Drive Variable Read: 0x2005.
+    /// Constants: [`objects::drive_variable_read`].
     pub fn drive_variable_read(
         &mut self,
     ) -> objects::drive_variable_read::Accessors<'_, C> {
@@ -2419,6 +3237,7 @@ impl<C> Eco<C> {
         }
     }
     /// Drive Variable Write: 0x2006.
+    /// Constants: [`objects::drive_variable_write`].
     pub fn drive_variable_write(
         &mut self,
     ) -> objects::drive_variable_write::Accessors<'_, C> {
@@ -2426,55 +3245,83 @@ impl<C> Eco<C> {
             client: &mut self.client,
         }
     }
-    /// Save Parameters: 0x2007.
+    /// Save Parameters: 0x2007:00.
+    ///
+    /// Saves registers and parameters, with the axis disabled
+    ///
+    /// Constant: [`objects::SAVE_PARAMETERS`].
     pub fn save_parameters(&mut self) -> objects::WriteOnlyAccess<'_, C, u8, rt::OnCoE> {
         objects::SAVE_PARAMETERS.at(&mut self.client)
     }
-    /// Error Codes: 0x603F.
+    /// Error Codes: 0x603F:00.
+    ///
+    /// Error by the code of EtherCAT; \`ethercat\_alarms\` has it for each alarm. Several alarms share one, and alarm 30 has none
+    ///
+    /// Constant: [`objects::ERROR_CODES`].
     pub fn error_codes(&mut self) -> objects::ReadOnlyAccess<'_, C, u16, rt::OnCoE> {
         objects::ERROR_CODES.at(&mut self.client)
     }
-    /// Controlword: 0x6040.
+    /// Controlword: 0x6040:00.
+    ///
+    /// Commands of DSP 402; control\_word has the vendor's own
+    ///
+    /// Constant: [`objects::CONTROLWORD`]. Values: [`Controlword`](types::Controlword). Carried by [`InterpolatedPosition`](pdo::InterpolatedPosition), [`Mode`](pdo::Mode), [`Position`](pdo::Position), [`Velocity`](pdo::Velocity).
     pub fn controlword(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::Controlword> {
         objects::CONTROLWORD.at(&mut self.client)
     }
-    /// Statusword: 0x6041.
+    /// Statusword: 0x6041:00.
+    ///
+    /// State by DSP 402; status\_word has the vendor's own
+    ///
+    /// Constant: [`objects::STATUSWORD`]. Values: [`Statusword`](types::Statusword). Carried by [`Status`](pdo::Status), [`ModeDisplay`](pdo::ModeDisplay), [`ActualPosition`](pdo::ActualPosition), [`ActualVelocity`](pdo::ActualVelocity).
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
-    /// Modes Of Operation Display: 0x6061.
+    /// Modes Of Operation Display: 0x6061:00.
+    ///
+    /// The mode that is
+    ///
+    /// Constant: [`objects::MODES_OF_OPERATION_DISPLAY`]. Values: [`Mode`](types::Mode). Carried by [`ModeDisplay`](pdo::ModeDisplay).
     pub fn modes_of_operation_display(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::Mode, objects::OnCanOpenCoEImage> {
         objects::MODES_OF_OPERATION_DISPLAY.at(&mut self.client)
     }
-    /// Velocity Sensor Actual Value: 0x6069.
+    /// Velocity Sensor Actual Value: 0x6069:00.
+    ///
+    /// Speed of a sensor with 8192 pulses a turn; that of the master axis in increments a millisecond, while bit 12 of the Controlword is set
+    ///
+    /// Constant: [`objects::VELOCITY_SENSOR_ACTUAL_VALUE`].
     pub fn velocity_sensor_actual_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::VELOCITY_SENSOR_ACTUAL_VALUE.at(&mut self.client)
     }
-    /// Velocity Demand Value: 0x606B.
+    /// Velocity Demand Value: 0x606B:00.
+    /// Constant: [`objects::VELOCITY_DEMAND_VALUE`].
     pub fn velocity_demand_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, rt::PerItem<i32, 60>> {
         objects::VELOCITY_DEMAND_VALUE.at(&mut self.client)
     }
     /// Feed Constant: 0x6092.
+    /// Constants: [`objects::feed_constant`].
     pub fn feed_constant(&mut self) -> objects::feed_constant::Accessors<'_, C> {
         objects::feed_constant::Accessors {
             client: &mut self.client,
         }
     }
     /// Homing Speeds: 0x6099.
+    /// Constants: [`objects::homing_speeds`].
     pub fn homing_speeds(&mut self) -> objects::homing_speeds::Accessors<'_, C> {
         objects::homing_speeds::Accessors {
             client: &mut self.client,
         }
     }
     /// Interpolation Data Record: 0x60C1.
+    /// Constants: [`objects::interpolation_data_record`].
     pub fn interpolation_data_record(
         &mut self,
     ) -> objects::interpolation_data_record::Accessors<'_, C> {
@@ -2483,6 +3330,7 @@ impl<C> Eco<C> {
         }
     }
     /// Interpolation Time Period: 0x60C2.
+    /// Constants: [`objects::interpolation_time_period`].
     pub fn interpolation_time_period(
         &mut self,
     ) -> objects::interpolation_time_period::Accessors<'_, C> {
@@ -2490,35 +3338,41 @@ impl<C> Eco<C> {
             client: &mut self.client,
         }
     }
-    /// Max Slippage: 0x60F8.
+    /// Max Slippage: 0x60F8:00.
+    /// Constant: [`objects::MAX_SLIPPAGE`].
     pub fn max_slippage(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::MAX_SLIPPAGE.at(&mut self.client)
     }
     /// Digital Outputs: 0x60FE.
+    /// Constants: [`objects::digital_outputs`].
     pub fn digital_outputs(&mut self) -> objects::digital_outputs::Accessors<'_, C> {
         objects::digital_outputs::Accessors {
             client: &mut self.client,
         }
     }
-    /// Supported Drive Modes: 0x6502.
+    /// Supported Drive Modes: 0x6502:00.
+    /// Constant: [`objects::SUPPORTED_DRIVE_MODES`]. Values: [`SupportedDriveModes`](types::SupportedDriveModes).
     pub fn supported_drive_modes(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::SupportedDriveModes> {
         objects::SUPPORTED_DRIVE_MODES.at(&mut self.client)
     }
-    /// Drive Manufacturer: 0x6504.
+    /// Drive Manufacturer: 0x6504:00.
+    /// Constant: [`objects::DRIVE_MANUFACTURER`].
     pub fn drive_manufacturer(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, rt::VisibleString> {
         objects::DRIVE_MANUFACTURER.at(&mut self.client)
     }
-    /// Http Drive Catalog Address: 0x6505.
+    /// Http Drive Catalog Address: 0x6505:00.
+    /// Constant: [`objects::HTTP_DRIVE_CATALOG_ADDRESS`].
     pub fn http_drive_catalog_address(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, rt::VisibleString> {
         objects::HTTP_DRIVE_CATALOG_ADDRESS.at(&mut self.client)
     }
-    /// Single Device Type: 0x67FF.
+    /// Single Device Type: 0x67FF:00.
+    /// Constant: [`objects::SINGLE_DEVICE_TYPE`].
     pub fn single_device_type(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::SINGLE_DEVICE_TYPE.at(&mut self.client)
     }
@@ -2531,6 +3385,20 @@ pub mod types {
     /// Mode of operation.
     ///
     /// Manual, line 75-79, 5646-5649.
+    ///
+    /// Values of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION), [`MODES_OF_OPERATION_DISPLAY`](super::objects::MODES_OF_OPERATION_DISPLAY).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 1 | [`Positioner`](Self::Positioner) |  |
+    /// | 3 | [`Velocity`](Self::Velocity) |  |
+    /// | 6 | [`Homing`](Self::Homing) |  |
+    /// | 7 | [`Interpolator`](Self::Interpolator) |  |
+    /// | -1 | [`PulsePositioner`](Self::PulsePositioner) | On some models only. |
+    /// | -2 | [`ElectricAxis`](Self::ElectricAxis) | On some models only. |
+    /// | -50 | [`SaveAndLoad`](Self::SaveAndLoad) | 0x6060 doesn't have it: CANopen saves with 0x1010. |
+    /// | -127 | [`AnalogueReference`](Self::AnalogueReference) | Of speed; on some models only. |
+    /// | 8 | [`CyclicSynchronousPosition`](Self::CyclicSynchronousPosition) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Mode {
         /// 1: positioner. Manual, line 75, 3946, 5646: modo posizionatore.
@@ -2600,6 +3468,13 @@ pub mod types {
     /// The methods that examples use; the companion manual has all.
     ///
     /// Manual, line 1422, 4261, 6384.
+    ///
+    /// Values of [`HOMING_METHOD`](super::objects::HOMING_METHOD).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 33 | [`MarkerBackwards`](Self::MarkerBackwards) |
+    /// | 34 | [`MarkerForwards`](Self::MarkerForwards) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum HomingMethod {
         /// 33: marker backwards. Manual, line 1422, 6384.
@@ -2639,6 +3514,14 @@ pub mod types {
     /// MotionProfile.
     ///
     /// Manual, line 3968-3972.
+    ///
+    /// Values of [`MOTION_PROFILE_TYPE`](super::objects::MOTION_PROFILE_TYPE).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Trapezoidal`](Self::Trapezoidal) |
+    /// | -1 | [`SRamp`](Self::SRamp) |
+    /// | -2 | [`SineRamp`](Self::SineRamp) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum MotionProfile {
         /// 0: trapezoidal. Manual, line 3969: profilo trapezoidale.
@@ -2682,6 +3565,13 @@ pub mod types {
     /// Exceptions.
     ///
     /// Manual, line 628, 1023.
+    ///
+    /// Values of [`E3`](super::objects::E3).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 6 | [`NoParity`](Self::NoParity) | Of Modbus; even parity otherwise. |
+    /// | 9 | [`AddressesForSiemens`](Self::AddressesForSiemens) | Parameters from 40001 on, registers from 44096. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Exceptions {
         /// 6: no parity. Of Modbus; even parity otherwise. Manual, line 628: nessuna parità.
@@ -2723,6 +3613,18 @@ pub mod types {
     /// Functions of the inputs on pins 11 (DIR), 10 (PULSE) and 5 (IEN) of connector CN1.
     ///
     /// Manual, line 1841-1900, 4646-4705.
+    ///
+    /// Values of [`C8`](super::objects::C8).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`LimitsAndHome`](Self::LimitsAndHome) |  |
+    /// | 1 | [`LimitsAndLatch`](Self::LimitsAndLatch) |  |
+    /// | 2 | [`LimitsAndStart`](Self::LimitsAndStart) |  |
+    /// | 3 | [`StartHomeAndLatch`](Self::StartHomeAndLatch) | start, home and latch. |
+    /// | 4 | [`StartAndNegativeLimit`](Self::StartAndNegativeLimit) |  |
+    /// | 5 | [`StartAndPositiveLimit`](Self::StartAndPositiveLimit) |  |
+    /// | 6 | [`StartAndHome`](Self::StartAndHome) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum MiniInputs {
         /// 0: limits and home. Manual, line 1852-1858.
@@ -2784,6 +3686,15 @@ pub mod types {
     /// The values that choose a bus; c9 may have others, which aren't printed.
     ///
     /// Manual, line 622, 3414, 5522, 6023.
+    ///
+    /// Values of [`C9`](super::objects::C9).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 3 | [`ModbusRtu`](Self::ModbusRtu) |
+    /// | 5 | [`CaNopen`](Self::CaNopen) |
+    /// | 11 | [`EtherCat`](Self::EtherCat) |
+    /// | 13 | [`Profinet`](Self::Profinet) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Network {
         /// 3: Modbus RTU. Manual, line 622.
@@ -2831,6 +3742,19 @@ pub mod types {
     /// BitRate.
     ///
     /// Manual, line 3422-3429, 4202-4203.
+    ///
+    /// Values of [`N1`](super::objects::N1).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 1 | [`_10KbitS`](Self::_10KbitS) | 10 kbit/s. |
+    /// | 2 | [`_20KbitS`](Self::_20KbitS) | 20 kbit/s. |
+    /// | 3 | [`_50KbitS`](Self::_50KbitS) | 50 kbit/s. |
+    /// | 4 | [`_125KbitS`](Self::_125KbitS) | 125 kbit/s. |
+    /// | 5 | [`_250KbitS`](Self::_250KbitS) | 250 kbit/s. |
+    /// | 6 | [`_500KbitS`](Self::_500KbitS) | 500 kbit/s. |
+    /// | 7 | [`_800KbitS`](Self::_800KbitS) | 800 kbit/s. |
+    /// | 8 | [`_1MbitS`](Self::_1MbitS) | 1 Mbit/s. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum BitRate {
         /// 1: 10 kbit/s. Manual, line 3422.
@@ -2894,6 +3818,14 @@ pub mod types {
     /// TransmissionType.
     ///
     /// Manual, line 2744-2767, 4165-4187.
+    ///
+    /// Values of [`receive_pdo_1_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_1`](super::objects::receive_pdo_1_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_1), [`receive_pdo_2_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_2`](super::objects::receive_pdo_2_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_2), [`receive_pdo_3_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_3`](super::objects::receive_pdo_3_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_3), [`receive_pdo_4_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_4`](super::objects::receive_pdo_4_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_4), [`transmit_pdo_1_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_1`](super::objects::transmit_pdo_1_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_1), [`transmit_pdo_2_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_2`](super::objects::transmit_pdo_2_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_2), [`transmit_pdo_3_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_3`](super::objects::transmit_pdo_3_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_3), [`transmit_pdo_4_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_4`](super::objects::transmit_pdo_4_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_4).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`AcyclicSynchronous`](Self::AcyclicSynchronous) | A TPDO at the next SYNC after its event; an RPDO acts at the next SYNC. |
+    /// | 252 | [`SynchronousOnRequest`](Self::SynchronousOnRequest) | Not among those that the drive describes. |
+    /// | 253 | [`AsynchronousOnRequest`](Self::AsynchronousOnRequest) | Not among those that the drive describes. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TransmissionType {
         /// 0: acyclic synchronous. A TPDO at the next SYNC after its event; an RPDO acts at the next SYNC. Manual, line 2749, 4175-4176, 4186-4187.
@@ -2935,6 +3867,13 @@ pub mod types {
         }
     }
     /// Statusword homing.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`NotDone`](Self::NotDone) |
+    /// | 1 | [`Done`](Self::Done) |
+    /// | 2 | [`Interrupted`](Self::Interrupted) |
+    /// | 3 | [`Forbidden`](Self::Forbidden) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum StatuswordHoming {
         /// 0: not done.
@@ -2976,6 +3915,16 @@ pub mod types {
         }
     }
     /// StoreParameters.
+    ///
+    /// Values of [`store_parameter_field::SAVE_ALL_PARAMETERS`](super::objects::store_parameter_field::SAVE_ALL_PARAMETERS).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`Never`](Self::Never) | Read: parameters are not kept. |
+    /// | 1 | [`OnCommand`](Self::OnCommand) | Read: parameters are kept on command. |
+    /// | 2 | [`AtOnce`](Self::AtOnce) | Read: the device keeps parameters by itself. |
+    /// | 3 | [`OnCommandAndAtOnce`](Self::OnCommandAndAtOnce) | Read: both. |
+    /// | 0x65766173 | [`Save`](Self::Save) | To write: the letters s, a, v, e. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum StoreParameters {
         /// 0: never. Read: parameters are not kept.
@@ -3030,7 +3979,26 @@ pub mod types {
     ///
     /// Manual, line 47-67, 89-125.
     ///
+    /// Values of [`CONTROL_WORD`](super::objects::CONTROL_WORD).
+    ///
     /// Bits 0xFF00 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`torque_enable`](Self::torque_enable) | The motor has torque. |
+    /// | 1 | [`motion_enable`](Self::motion_enable) | The axis may move. |
+    /// | 2 | [`stop`](Self::stop) |  |
+    /// | 3 | [`alarm_reset`](Self::alarm_reset) |  |
+    /// | 4 | [`latch_reset`](Self::latch_reset) | Resets bit 4 of the status word. |
+    /// | 5 | [`in_positioner().start_positioning()`](DriveCommandInPositioner::start_positioning) | Acts on the change from 0 to 1. |
+    /// | 5 | [`in_interpolator().start_interpolation()`](DriveCommandInInterpolator::start_interpolation) |  |
+    /// | 5 | [`in_save_and_load().save()`](DriveCommandInSaveAndLoad::save) | Registers and parameters, to flash. Acts on the change from 0 to 1. |
+    /// | 6 | [`in_positioner().update_on_the_fly()`](DriveCommandInPositioner::update_on_the_fly) | A new set-point replaces the one under way. |
+    /// | 6 | [`in_save_and_load().load()`](DriveCommandInSaveAndLoad::load) | Registers and parameters, from flash. Acts on the change from 0 to 1. |
+    /// | 6 | [`in_homing().homing()`](DriveCommandInHoming::homing) | The edge starts homing. Acts on the change from 0 to 1. |
+    /// | 6 | [`in_electric_axis().couple()`](DriveCommandInElectricAxis::couple) | The axis follows its master. |
+    /// | 7 | [`in_positioner().incremental()`](DriveCommandInPositioner::incremental) | The set-point is a distance. |
+    /// | 8–15 | reserved | Written as 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DriveCommand(u16);
     impl DriveCommand {
@@ -3091,23 +4059,23 @@ pub mod types {
         pub const fn with_latch_reset(self, value: bool) -> Self {
             Self((self.0 & !0x10) | ((value as u16) << 4))
         }
-        /// The bits that have their meaning while modes\_of\_operation is positioner (1).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is positioner (1).
         pub const fn in_positioner(self) -> DriveCommandInPositioner {
             DriveCommandInPositioner(self.0)
         }
-        /// The bits that have their meaning while modes\_of\_operation is interpolator (7).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is interpolator (7).
         pub const fn in_interpolator(self) -> DriveCommandInInterpolator {
             DriveCommandInInterpolator(self.0)
         }
-        /// The bits that have their meaning while modes\_of\_operation is save and load (-50).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is save and load (-50).
         pub const fn in_save_and_load(self) -> DriveCommandInSaveAndLoad {
             DriveCommandInSaveAndLoad(self.0)
         }
-        /// The bits that have their meaning while modes\_of\_operation is homing (6).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is homing (6).
         pub const fn in_homing(self) -> DriveCommandInHoming {
             DriveCommandInHoming(self.0)
         }
-        /// The bits that have their meaning while modes\_of\_operation is electric axis (-2).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is electric axis (-2).
         pub const fn in_electric_axis(self) -> DriveCommandInElectricAxis {
             DriveCommandInElectricAxis(self.0)
         }
@@ -3140,7 +4108,7 @@ pub mod types {
             bits.finish()
         }
     }
-    /// [`DriveCommand`] while modes\_of\_operation is positioner (1).
+    /// [`DriveCommand`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is positioner (1).
     #[derive(Clone, Copy)]
     pub struct DriveCommandInPositioner(u16);
     impl DriveCommandInPositioner {
@@ -3176,7 +4144,7 @@ pub mod types {
             Self((self.0 & !0x80) | ((value as u16) << 7))
         }
     }
-    /// [`DriveCommand`] while modes\_of\_operation is interpolator (7).
+    /// [`DriveCommand`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is interpolator (7).
     #[derive(Clone, Copy)]
     pub struct DriveCommandInInterpolator(u16);
     impl DriveCommandInInterpolator {
@@ -3194,7 +4162,7 @@ pub mod types {
             Self((self.0 & !0x20) | ((value as u16) << 5))
         }
     }
-    /// [`DriveCommand`] while modes\_of\_operation is save and load (-50).
+    /// [`DriveCommand`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is save and load (-50).
     #[derive(Clone, Copy)]
     pub struct DriveCommandInSaveAndLoad(u16);
     impl DriveCommandInSaveAndLoad {
@@ -3221,7 +4189,7 @@ pub mod types {
             Self((self.0 & !0x40) | ((value as u16) << 6))
         }
     }
-    /// [`DriveCommand`] while modes\_of\_operation is homing (6).
+    /// [`DriveCommand`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is homing (6).
     #[derive(Clone, Copy)]
     pub struct DriveCommandInHoming(u16);
     impl DriveCommandInHoming {
@@ -3239,7 +4207,7 @@ pub mod types {
             Self((self.0 & !0x40) | ((value as u16) << 6))
         }
     }
-    /// [`DriveCommand`] while modes\_of\_operation is electric axis (-2).
+    /// [`DriveCommand`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is electric axis (-2).
     #[derive(Clone, Copy)]
     pub struct DriveCommandInElectricAxis(u16);
     impl DriveCommandInElectricAxis {
@@ -3262,6 +4230,27 @@ pub mod types {
     /// Status word R05.
     ///
     /// Manual, line 142-162, 197-234.
+    ///
+    /// Values of [`STATUS_WORD`](super::objects::STATUS_WORD).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`torque_enabled`](Self::torque_enabled) |  |
+    /// | 1 | [`motion_enabled`](Self::motion_enabled) |  |
+    /// | 2 | [`stopping`](Self::stopping) | On the stop ramp. |
+    /// | 3 | [`alarm`](Self::alarm) |  |
+    /// | 4 | [`position_latched`](Self::position_latched) | latched\_position can be read. |
+    /// | 5 | [`in_positioner().ready_for_set_point()`](DriveStatusInPositioner::ready_for_set_point) |  |
+    /// | 5 | [`in_interpolator().interpolating()`](DriveStatusInInterpolator::interpolating) |  |
+    /// | 5 | [`in_save_and_load().saved()`](DriveStatusInSaveAndLoad::saved) |  |
+    /// | 6 | [`in_positioner().end_of_job()`](DriveStatusInPositioner::end_of_job) |  |
+    /// | 6 | [`in_save_and_load().loaded()`](DriveStatusInSaveAndLoad::loaded) |  |
+    /// | 6 | [`in_homing().homing_done()`](DriveStatusInHoming::homing_done) |  |
+    /// | 6 | [`in_electric_axis().coupled()`](DriveStatusInElectricAxis::coupled) | The axis follows its master. |
+    /// | 7 | [`in_positioner().following_error()`](DriveStatusInPositioner::following_error) |  |
+    /// | 7 | [`in_homing().homing_error()`](DriveStatusInHoming::homing_error) |  |
+    /// | 7 | [`in_velocity().standing_still()`](DriveStatusInVelocity::standing_still) |  |
+    /// | 8–15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DriveStatus(u16);
     impl DriveStatus {
@@ -3322,27 +4311,27 @@ pub mod types {
         pub const fn with_position_latched(self, value: bool) -> Self {
             Self((self.0 & !0x10) | ((value as u16) << 4))
         }
-        /// The bits that have their meaning while modes\_of\_operation is positioner (1).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is positioner (1).
         pub const fn in_positioner(self) -> DriveStatusInPositioner {
             DriveStatusInPositioner(self.0)
         }
-        /// The bits that have their meaning while modes\_of\_operation is interpolator (7).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is interpolator (7).
         pub const fn in_interpolator(self) -> DriveStatusInInterpolator {
             DriveStatusInInterpolator(self.0)
         }
-        /// The bits that have their meaning while modes\_of\_operation is save and load (-50).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is save and load (-50).
         pub const fn in_save_and_load(self) -> DriveStatusInSaveAndLoad {
             DriveStatusInSaveAndLoad(self.0)
         }
-        /// The bits that have their meaning while modes\_of\_operation is homing (6).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is homing (6).
         pub const fn in_homing(self) -> DriveStatusInHoming {
             DriveStatusInHoming(self.0)
         }
-        /// The bits that have their meaning while modes\_of\_operation is electric axis (-2).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is electric axis (-2).
         pub const fn in_electric_axis(self) -> DriveStatusInElectricAxis {
             DriveStatusInElectricAxis(self.0)
         }
-        /// The bits that have their meaning while modes\_of\_operation is velocity (3).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is velocity (3).
         pub const fn in_velocity(self) -> DriveStatusInVelocity {
             DriveStatusInVelocity(self.0)
         }
@@ -3372,7 +4361,7 @@ pub mod types {
             bits.finish()
         }
     }
-    /// [`DriveStatus`] while modes\_of\_operation is positioner (1).
+    /// [`DriveStatus`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is positioner (1).
     #[derive(Clone, Copy)]
     pub struct DriveStatusInPositioner(u16);
     impl DriveStatusInPositioner {
@@ -3408,7 +4397,7 @@ pub mod types {
             Self((self.0 & !0x80) | ((value as u16) << 7))
         }
     }
-    /// [`DriveStatus`] while modes\_of\_operation is interpolator (7).
+    /// [`DriveStatus`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is interpolator (7).
     #[derive(Clone, Copy)]
     pub struct DriveStatusInInterpolator(u16);
     impl DriveStatusInInterpolator {
@@ -3426,7 +4415,7 @@ pub mod types {
             Self((self.0 & !0x20) | ((value as u16) << 5))
         }
     }
-    /// [`DriveStatus`] while modes\_of\_operation is save and load (-50).
+    /// [`DriveStatus`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is save and load (-50).
     #[derive(Clone, Copy)]
     pub struct DriveStatusInSaveAndLoad(u16);
     impl DriveStatusInSaveAndLoad {
@@ -3453,7 +4442,7 @@ pub mod types {
             Self((self.0 & !0x40) | ((value as u16) << 6))
         }
     }
-    /// [`DriveStatus`] while modes\_of\_operation is homing (6).
+    /// [`DriveStatus`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is homing (6).
     #[derive(Clone, Copy)]
     pub struct DriveStatusInHoming(u16);
     impl DriveStatusInHoming {
@@ -3480,7 +4469,7 @@ pub mod types {
             Self((self.0 & !0x80) | ((value as u16) << 7))
         }
     }
-    /// [`DriveStatus`] while modes\_of\_operation is electric axis (-2).
+    /// [`DriveStatus`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is electric axis (-2).
     #[derive(Clone, Copy)]
     pub struct DriveStatusInElectricAxis(u16);
     impl DriveStatusInElectricAxis {
@@ -3498,7 +4487,7 @@ pub mod types {
             Self((self.0 & !0x40) | ((value as u16) << 6))
         }
     }
-    /// [`DriveStatus`] while modes\_of\_operation is velocity (3).
+    /// [`DriveStatus`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is velocity (3).
     #[derive(Clone, Copy)]
     pub struct DriveStatusInVelocity(u16);
     impl DriveStatusInVelocity {
@@ -3521,6 +4510,24 @@ pub mod types {
     /// Inputs of connector CN2; of the miniECO those of CN1 that c8 gives a function. An input whose function isn't used is free for any purpose; later versions may give the free ones a function.
     ///
     /// Manual, line 1697-1699, 1793-1800, 1804-1827, 1832-1900, 4613-4636, 4637-4705, 4767-4774.
+    ///
+    /// Values of [`DIGITAL_INPUTS`](super::objects::DIGITAL_INPUTS).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`position_latch`](Self::position_latch) | Pin 11; of the miniECO pin 5 with c8 = 1 and 3. |
+    /// | 1 | [`start`](Self::start) | Pin 1; of the miniECO pin 5 with c8 = 2, pin 11 with c8 = 3 to 6. |
+    /// | 2 | [`input_2`](Self::input_2) | Pin 2. |
+    /// | 3 | [`input_3`](Self::input_3) | Pin 3. |
+    /// | 4 | [`input_4`](Self::input_4) | Pin 4. |
+    /// | 5 | [`select`](Self::select) | Pin 5: high takes aux\_in\_1 for the target. |
+    /// | 6 | [`input_6`](Self::input_6) | Pin 6. |
+    /// | 7 | [`input_7`](Self::input_7) | Pin 7. |
+    /// | 8 | [`negative_limit_switch`](Self::negative_limit_switch) | Pin 8; of the miniECO pin 11 with c8 = 0 to 2, pin 10 with c8 = 4. |
+    /// | 9 | [`positive_limit_switch`](Self::positive_limit_switch) | Pin 9; of the miniECO pin 10 with c8 = 0 to 2 and 5. |
+    /// | 10 | [`home_switch`](Self::home_switch) | Pin 14; of the miniECO pin 5 with c8 = 0, pin 10 with c8 = 3 and 6. |
+    /// | 11 | [`input_11`](Self::input_11) | Pin 10. |
+    /// | 12–31 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DigitalInputs(u32);
     impl DigitalInputs {
@@ -3682,6 +4689,17 @@ pub mod types {
     /// Outputs of connector CN2. An output whose function isn't used is free for any purpose.
     ///
     /// Manual, line 1901-1944, 4709-4747, 4775-4782.
+    ///
+    /// Values of [`digital_outputs::DIGITAL_OUTPUTS`](super::objects::digital_outputs::DIGITAL_OUTPUTS), [`digital_outputs::DIGITAL_OUT_MASK`](super::objects::digital_outputs::DIGITAL_OUT_MASK).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`output_0`](Self::output_0) | Pin 12; no function on the miniECO. |
+    /// | 1 | [`output_1`](Self::output_1) | Pin 13. |
+    /// | 1 | [`fan`](Self::fan) | Pin 13: forces the fan. |
+    /// | 2 | [`brake`](Self::brake) | Pin 16; some models drive the brake with it. |
+    /// | 3 | [`output_3`](Self::output_3) | Pin 15; no function on the miniECO. |
+    /// | 4–31 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DigitalOutputs(u32);
     impl DigitalOutputs {
@@ -3772,7 +4790,20 @@ pub mod types {
     ///
     /// Manual, line 2977-2999.
     ///
+    /// Values of [`ERROR_REGISTER`](super::objects::ERROR_REGISTER).
+    ///
     /// Bits 0x40 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`generic_error`](Self::generic_error) |  |
+    /// | 1 | [`current`](Self::current) |  |
+    /// | 2 | [`voltage`](Self::voltage) |  |
+    /// | 3 | [`temperature`](Self::temperature) |  |
+    /// | 4 | [`communication_error`](Self::communication_error) |  |
+    /// | 5 | [`device_profile_specific`](Self::device_profile_specific) |  |
+    /// | 6 | reserved | Written as 0. |
+    /// | 7 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ErrorRegister(u8);
     impl ErrorRegister {
@@ -3885,6 +4916,14 @@ pub mod types {
     /// MappedObject.
     ///
     /// Manual, line 2711-2714.
+    ///
+    /// Values of [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_1_OF_RPDO_1`](super::objects::receive_pdo_1_mapping_parameter::MAPPED_OBJECT_1_OF_RPDO_1), [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_2_OF_RPDO_1`](super::objects::receive_pdo_1_mapping_parameter::MAPPED_OBJECT_2_OF_RPDO_1), [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_3_OF_RPDO_1`](super::objects::receive_pdo_1_mapping_parameter::MAPPED_OBJECT_3_OF_RPDO_1), [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_4_OF_RPDO_1`](super::objects::receive_pdo_1_mapping_parameter::MAPPED_OBJECT_4_OF_RPDO_1), [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_5_OF_RPDO_1`](super::objects::receive_pdo_1_mapping_parameter::MAPPED_OBJECT_5_OF_RPDO_1), [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_6_OF_RPDO_1`](super::objects::receive_pdo_1_mapping_parameter::MAPPED_OBJECT_6_OF_RPDO_1), [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_7_OF_RPDO_1`](super::objects::receive_pdo_1_mapping_parameter::MAPPED_OBJECT_7_OF_RPDO_1), [`receive_pdo_1_mapping_parameter::MAPPED_OBJECT_8_OF_RPDO_1`](super::objects::receive_pdo_1_mapping_parameter::MAPPED_OBJECT_8_OF_RPDO_1) and 56 more.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–7 | [`length`](Self::length) | In bits. |
+    /// | 8–15 | [`sub_index`](Self::sub_index) |  |
+    /// | 16–31 | [`index`](Self::index) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct MappedObject(u32);
     impl MappedObject {
@@ -3962,7 +5001,29 @@ pub mod types {
     ///
     /// Manual, line 3911-3921, 4282-4300.
     ///
+    /// Values of [`CONTROLWORD`](super::objects::CONTROLWORD).
+    ///
     /// Bits 0xA600 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`switch_on`](Self::switch_on) |  |
+    /// | 1 | [`enable_voltage`](Self::enable_voltage) |  |
+    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 asks for a quick stop. Holds while the bit is 0. |
+    /// | 3 | [`enable_operation`](Self::enable_operation) |  |
+    /// | 4 | [`in_positioner().new_set_point()`](ControlwordInPositioner::new_set_point) | Acts on the change from 0 to 1. |
+    /// | 4 | [`in_homing().start_homing()`](ControlwordInHoming::start_homing) | Acts on the change from 0 to 1. |
+    /// | 4 | [`in_interpolator().interpolate()`](ControlwordInInterpolator::interpolate) |  |
+    /// | 5 | [`in_positioner().change_set_immediately()`](ControlwordInPositioner::change_set_immediately) |  |
+    /// | 6 | [`in_positioner().relative()`](ControlwordInPositioner::relative) |  |
+    /// | 7 | [`fault_reset`](Self::fault_reset) | Acts on the change from 0 to 1. |
+    /// | 8 | [`halt`](Self::halt) |  |
+    /// | 9–10 | reserved | Written as 0. |
+    /// | 11 | [`in_electric_axis().couple()`](ControlwordInElectricAxis::couple) | Starts the electric axis. |
+    /// | 12 | [`show_master_speed`](Self::show_master_speed) | 0x6069 shows the speed of the master axis. |
+    /// | 13 | reserved | Written as 0. |
+    /// | 14 | [`latch_reset`](Self::latch_reset) | Resets bit 14 of the Statusword. Acts on the change from 0 to 1. |
+    /// | 15 | reserved | Written as 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Controlword(u16);
     impl Controlword {
@@ -4050,19 +5111,19 @@ pub mod types {
         pub const fn with_latch_reset(self, value: bool) -> Self {
             Self((self.0 & !0x4000) | ((value as u16) << 14))
         }
-        /// The bits that have their meaning while modes\_of\_operation is positioner (1).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is positioner (1).
         pub const fn in_positioner(self) -> ControlwordInPositioner {
             ControlwordInPositioner(self.0)
         }
-        /// The bits that have their meaning while modes\_of\_operation is homing (6).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is homing (6).
         pub const fn in_homing(self) -> ControlwordInHoming {
             ControlwordInHoming(self.0)
         }
-        /// The bits that have their meaning while modes\_of\_operation is interpolator (7).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is interpolator (7).
         pub const fn in_interpolator(self) -> ControlwordInInterpolator {
             ControlwordInInterpolator(self.0)
         }
-        /// The bits that have their meaning while modes\_of\_operation is electric axis (-2).
+        /// The bits that have their meaning while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is electric axis (-2).
         pub const fn in_electric_axis(self) -> ControlwordInElectricAxis {
             ControlwordInElectricAxis(self.0)
         }
@@ -4098,7 +5159,7 @@ pub mod types {
             bits.finish()
         }
     }
-    /// [`Controlword`] while modes\_of\_operation is positioner (1).
+    /// [`Controlword`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is positioner (1).
     #[derive(Clone, Copy)]
     pub struct ControlwordInPositioner(u16);
     impl ControlwordInPositioner {
@@ -4134,7 +5195,7 @@ pub mod types {
             Self((self.0 & !0x40) | ((value as u16) << 6))
         }
     }
-    /// [`Controlword`] while modes\_of\_operation is homing (6).
+    /// [`Controlword`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is homing (6).
     #[derive(Clone, Copy)]
     pub struct ControlwordInHoming(u16);
     impl ControlwordInHoming {
@@ -4152,7 +5213,7 @@ pub mod types {
             Self((self.0 & !0x10) | ((value as u16) << 4))
         }
     }
-    /// [`Controlword`] while modes\_of\_operation is interpolator (7).
+    /// [`Controlword`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is interpolator (7).
     #[derive(Clone, Copy)]
     pub struct ControlwordInInterpolator(u16);
     impl ControlwordInInterpolator {
@@ -4170,7 +5231,7 @@ pub mod types {
             Self((self.0 & !0x10) | ((value as u16) << 4))
         }
     }
-    /// [`Controlword`] while modes\_of\_operation is electric axis (-2).
+    /// [`Controlword`] while [modes\_of\_operation](super::objects::MODES_OF_OPERATION) is electric axis (-2).
     #[derive(Clone, Copy)]
     pub struct ControlwordInElectricAxis(u16);
     impl ControlwordInElectricAxis {
@@ -4193,6 +5254,26 @@ pub mod types {
     /// Bits 8, 14 and 15 are the vendor's, bits 12 and 13 are described for homing; the others are those of DSP 402, which the manual refers to.
     ///
     /// Manual, line 3923-3939, 4293-4298, 4398-4399.
+    ///
+    /// Values of [`STATUSWORD`](super::objects::STATUSWORD).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`ready_to_switch_on`](Self::ready_to_switch_on) |  |
+    /// | 1 | [`switched_on`](Self::switched_on) |  |
+    /// | 2 | [`operation_enabled`](Self::operation_enabled) |  |
+    /// | 3 | [`fault`](Self::fault) |  |
+    /// | 4 | [`voltage_enabled`](Self::voltage_enabled) |  |
+    /// | 5 | [`quick_stop`](Self::quick_stop) | 0 while a quick stop is asked for. Holds while the bit is 0. |
+    /// | 6 | [`switch_on_disabled`](Self::switch_on_disabled) |  |
+    /// | 7 | [`warning`](Self::warning) |  |
+    /// | 8 | [`latch_input`](Self::latch_input) | Level of the latch input: its rising edge takes the position. |
+    /// | 9 | [`remote`](Self::remote) |  |
+    /// | 10 | [`target_reached`](Self::target_reached) |  |
+    /// | 11 | [`internal_limit_active`](Self::internal_limit_active) |  |
+    /// | 12–13 | [`in_homing().homing()`](StatuswordInHoming::homing) | Values: [`StatuswordHoming`]. |
+    /// | 14 | [`position_latched`](Self::position_latched) | A new position is in latched\_position; bit 14 of the Controlword resets it. |
+    /// | 15 | [`velocity_forced_to_zero`](Self::velocity_forced_to_zero) | The speed wanted is 0: the axis is disabled (TEN low), or may not move (IEN low). |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Statusword(u16);
     impl Statusword {
@@ -4334,7 +5415,7 @@ pub mod types {
         pub const fn with_velocity_forced_to_zero(self, value: bool) -> Self {
             Self((self.0 & !0x8000) | ((value as u16) << 15))
         }
-        /// The bits that have their meaning while Modes Of Operation Display is homing (6).
+        /// The bits that have their meaning while [Modes Of Operation Display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
         pub const fn in_homing(self) -> StatuswordInHoming {
             StatuswordInHoming(self.0)
         }
@@ -4373,7 +5454,7 @@ pub mod types {
             bits.finish()
         }
     }
-    /// [`Statusword`] while Modes Of Operation Display is homing (6).
+    /// [`Statusword`] while [Modes Of Operation Display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
     #[derive(Clone, Copy)]
     pub struct StatuswordInHoming(u16);
     impl StatuswordInHoming {
@@ -4393,7 +5474,25 @@ pub mod types {
     }
     /// SupportedDriveModes.
     ///
+    /// Values of [`SUPPORTED_DRIVE_MODES`](super::objects::SUPPORTED_DRIVE_MODES).
+    ///
     /// Bits 0xF810 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`profile_position`](Self::profile_position) |  |
+    /// | 1 | [`velocity`](Self::velocity) |  |
+    /// | 2 | [`profile_velocity`](Self::profile_velocity) |  |
+    /// | 3 | [`profile_torque`](Self::profile_torque) |  |
+    /// | 4 | reserved | Written as 0. |
+    /// | 5 | [`homing`](Self::homing) |  |
+    /// | 6 | [`interpolated_position`](Self::interpolated_position) |  |
+    /// | 7 | [`cyclic_synchronous_position`](Self::cyclic_synchronous_position) |  |
+    /// | 8 | [`cyclic_synchronous_velocity`](Self::cyclic_synchronous_velocity) |  |
+    /// | 9 | [`cyclic_synchronous_torque`](Self::cyclic_synchronous_torque) |  |
+    /// | 10 | [`cyclic_synchronous_torque_with_angle`](Self::cyclic_synchronous_torque_with_angle) |  |
+    /// | 11–15 | reserved | Written as 0. |
+    /// | 16–31 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct SupportedDriveModes(u32);
     impl SupportedDriveModes {
@@ -4556,6 +5655,13 @@ pub mod types {
         }
     }
     /// DeviceType.
+    ///
+    /// Values of [`DEVICE_TYPE`](super::objects::DEVICE_TYPE).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–15 | [`profile`](Self::profile) | 0 where it follows none. |
+    /// | 16–31 | [`additional_information`](Self::additional_information) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DeviceType(u32);
     impl DeviceType {
@@ -4618,6 +5724,13 @@ pub mod types {
         }
     }
     /// ErrorFieldEntry.
+    ///
+    /// Values of [`pre_defined_error_field::STANDARD_OF_ERROR_TYPE`](super::objects::pre_defined_error_field::STANDARD_OF_ERROR_TYPE).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0–15 | [`error_code`](Self::error_code) |
+    /// | 16–31 | [`additional_information`](Self::additional_information) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ErrorFieldEntry(u32);
     impl ErrorFieldEntry {
@@ -4685,6 +5798,14 @@ pub mod types {
         }
     }
     /// SyncIdentifier.
+    ///
+    /// Values of [`COB_ID_SYNC`](super::objects::COB_ID_SYNC).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–28 | [`identifier`](Self::identifier) |  |
+    /// | 29 | [`extended`](Self::extended) | The identifier has 29 bits. |
+    /// | 30 | [`generates`](Self::generates) | The device sends SYNC. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct SyncIdentifier(u32);
     impl SyncIdentifier {
@@ -4758,7 +5879,16 @@ pub mod types {
     }
     /// EmergencyIdentifier.
     ///
+    /// Values of [`COB_ID_EMCY`](super::objects::COB_ID_EMCY).
+    ///
     /// Bits 0x40000000 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–28 | [`identifier`](Self::identifier) |  |
+    /// | 29 | [`extended`](Self::extended) | The identifier has 29 bits. |
+    /// | 30 | reserved | Written as 0. |
+    /// | 31 | [`valid`](Self::valid) | 0 where it is in use. Holds while the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct EmergencyIdentifier(u32);
     impl EmergencyIdentifier {
@@ -4834,6 +5964,14 @@ pub mod types {
         }
     }
     /// ReceivePdoIdentifier.
+    ///
+    /// Values of [`receive_pdo_1_communication_parameter::COB_ID_OF_RPDO_1`](super::objects::receive_pdo_1_communication_parameter::COB_ID_OF_RPDO_1), [`receive_pdo_2_communication_parameter::COB_ID_OF_RPDO_2`](super::objects::receive_pdo_2_communication_parameter::COB_ID_OF_RPDO_2), [`receive_pdo_3_communication_parameter::COB_ID_OF_RPDO_3`](super::objects::receive_pdo_3_communication_parameter::COB_ID_OF_RPDO_3), [`receive_pdo_4_communication_parameter::COB_ID_OF_RPDO_4`](super::objects::receive_pdo_4_communication_parameter::COB_ID_OF_RPDO_4).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–28 | [`identifier`](Self::identifier) |  |
+    /// | 29 | [`extended`](Self::extended) | The identifier has 29 bits. |
+    /// | 31 | [`valid`](Self::valid) | 0 where the PDO is in use. Holds while the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ReceivePdoIdentifier(u32);
     impl ReceivePdoIdentifier {
@@ -4906,6 +6044,15 @@ pub mod types {
         }
     }
     /// TransmitPdoIdentifier.
+    ///
+    /// Values of [`transmit_pdo_1_communication_parameter::COB_ID_OF_TPDO_1`](super::objects::transmit_pdo_1_communication_parameter::COB_ID_OF_TPDO_1), [`transmit_pdo_2_communication_parameter::COB_ID_OF_TPDO_2`](super::objects::transmit_pdo_2_communication_parameter::COB_ID_OF_TPDO_2), [`transmit_pdo_3_communication_parameter::COB_ID_OF_TPDO_3`](super::objects::transmit_pdo_3_communication_parameter::COB_ID_OF_TPDO_3), [`transmit_pdo_4_communication_parameter::COB_ID_OF_TPDO_4`](super::objects::transmit_pdo_4_communication_parameter::COB_ID_OF_TPDO_4).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–28 | [`identifier`](Self::identifier) |  |
+    /// | 29 | [`extended`](Self::extended) | The identifier has 29 bits. |
+    /// | 30 | [`remote_request`](Self::remote_request) | 0 where the PDO may be asked for by a remote frame. Holds while the bit is 0. |
+    /// | 31 | [`valid`](Self::valid) | 0 where the PDO is in use. Holds while the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct TransmitPdoIdentifier(u32);
     impl TransmitPdoIdentifier {
@@ -4987,7 +6134,18 @@ pub mod types {
             bits.finish()
         }
     }
-    /// States of drive, as Statusword tells them.
+    /// States of drive, as [Statusword](super::objects::STATUSWORD) tells them.
+    ///
+    /// | State | Mask | Value |
+    /// |---|---|---|
+    /// | [`NotReadyToSwitchOn`](Self::NotReadyToSwitchOn) | 0x4F | 0 |
+    /// | [`SwitchOnDisabled`](Self::SwitchOnDisabled) | 0x4F | 0x40 |
+    /// | [`ReadyToSwitchOn`](Self::ReadyToSwitchOn) | 0x6F | 0x21 |
+    /// | [`SwitchedOn`](Self::SwitchedOn) | 0x6F | 0x23 |
+    /// | [`OperationEnabled`](Self::OperationEnabled) | 0x6F | 0x27 |
+    /// | [`QuickStopActive`](Self::QuickStopActive) | 0x6F | 0x7 |
+    /// | [`FaultReactionActive`](Self::FaultReactionActive) | 0x4F | 0xF |
+    /// | [`Fault`](Self::Fault) | 0x4F | 0x8 |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum State {
         /// not ready to switch on: 0 of the bits 0x4F.
@@ -5126,26 +6284,38 @@ pub mod types {
             rt::Step::toward(Self::TRANSITIONS, self as u8, target as u8)
         }
     }
-    /// Commands of drive, as Controlword takes them.
+    /// Commands of drive, as [Controlword](super::objects::CONTROLWORD) takes them.
+    ///
+    /// | Command | Mask | Value |
+    /// |---|---|---|
+    /// | [`Shutdown`](Self::Shutdown) | 0x87 | 0x6 |
+    /// | [`SwitchOn`](Self::SwitchOn) | 0x8F | 0x7 |
+    /// | [`EnableOperation`](Self::EnableOperation) | 0x8F | 0xF |
+    /// | [`DisableVoltage`](Self::DisableVoltage) | 0x82 | 0 |
+    /// | [`QuickStop`](Self::QuickStop) | 0x86 | 0x2 |
+    /// | [`DisableOperation`](Self::DisableOperation) | 0x8F | 0x7 |
+    /// | [`FaultReset`](Self::FaultReset) | 0x80 | 0x80 |
     ///
     /// Transitions:
     ///
-    /// - 1: not\_ready\_to\_switch\_on to switch\_on\_disabled, by itself
-    /// - 2: switch\_on\_disabled to ready\_to\_switch\_on, on shutdown
-    /// - 3: ready\_to\_switch\_on to switched\_on, on switch\_on
-    /// - 4: switched\_on to operation\_enabled, on enable\_operation
-    /// - 5: operation\_enabled to switched\_on, on disable\_operation
-    /// - 6: switched\_on to ready\_to\_switch\_on, on shutdown
-    /// - 7: ready\_to\_switch\_on to switch\_on\_disabled, on disable\_voltage
-    /// - 8: operation\_enabled to ready\_to\_switch\_on, on shutdown
-    /// - 9: operation\_enabled to switch\_on\_disabled, on disable\_voltage
-    /// - 10: switched\_on to switch\_on\_disabled, on disable\_voltage
-    /// - 11: operation\_enabled to quick\_stop\_active, on quick\_stop
-    /// - 12: quick\_stop\_active to switch\_on\_disabled, on disable\_voltage
-    /// - 14: fault\_reaction\_active to fault, by itself
-    /// - 15: fault to switch\_on\_disabled, on fault\_reset
-    /// - 16: quick\_stop\_active to operation\_enabled, on enable\_operation
-    /// - 13: any state to fault\_reaction\_active, by itself. After a fault.
+    /// | No. | From | To | By | Meaning |
+    /// |---|---|---|---|---|
+    /// | 1 | [`NotReadyToSwitchOn`](State::NotReadyToSwitchOn) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | itself |  |
+    /// | 2 | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`Shutdown`](Command::Shutdown) |  |
+    /// | 3 | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`SwitchedOn`](State::SwitchedOn) | [`SwitchOn`](Command::SwitchOn) |  |
+    /// | 4 | [`SwitchedOn`](State::SwitchedOn) | [`OperationEnabled`](State::OperationEnabled) | [`EnableOperation`](Command::EnableOperation) |  |
+    /// | 5 | [`OperationEnabled`](State::OperationEnabled) | [`SwitchedOn`](State::SwitchedOn) | [`DisableOperation`](Command::DisableOperation) |  |
+    /// | 6 | [`SwitchedOn`](State::SwitchedOn) | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`Shutdown`](Command::Shutdown) |  |
+    /// | 7 | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](Command::DisableVoltage) |  |
+    /// | 8 | [`OperationEnabled`](State::OperationEnabled) | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`Shutdown`](Command::Shutdown) |  |
+    /// | 9 | [`OperationEnabled`](State::OperationEnabled) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](Command::DisableVoltage) |  |
+    /// | 10 | [`SwitchedOn`](State::SwitchedOn) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](Command::DisableVoltage) |  |
+    /// | 11 | [`OperationEnabled`](State::OperationEnabled) | [`QuickStopActive`](State::QuickStopActive) | [`QuickStop`](Command::QuickStop) |  |
+    /// | 12 | [`QuickStopActive`](State::QuickStopActive) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](Command::DisableVoltage) |  |
+    /// | 14 | [`FaultReactionActive`](State::FaultReactionActive) | [`Fault`](State::Fault) | itself |  |
+    /// | 15 | [`Fault`](State::Fault) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`FaultReset`](Command::FaultReset) |  |
+    /// | 16 | [`QuickStopActive`](State::QuickStopActive) | [`OperationEnabled`](State::OperationEnabled) | [`EnableOperation`](Command::EnableOperation) |  |
+    /// | 13 | any state | [`FaultReactionActive`](State::FaultReactionActive) | itself | After a fault. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Command {
         /// shutdown: 0x6 of the bits 0x87.
@@ -5207,6 +6377,8 @@ pub mod codes {
     /// Manual, line 1945-2062.
     ///
     /// Further columns: reaction.
+    ///
+    /// As a type: [`GeneralAlarms`].
     pub static GENERAL_ALARMS: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             1,
@@ -5343,6 +6515,28 @@ pub mod codes {
         ),
     ];
     /// A code of [`GENERAL_ALARMS`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 1 | [`IgbtModule`](Self::IgbtModule) | Over-current, over-temperature or short circuit of the power stage. |
+    /// | 2 | [`MotorTemperature`](Self::MotorTemperature) | The motor is too hot. |
+    /// | 3 | [`MotorCurrent`](Self::MotorCurrent) | The current of the motor is too high. |
+    /// | 4 | [`OverVoltage`](Self::OverVoltage) | Too much voltage on the DC bus. |
+    /// | 5 | [`UnderVoltage`](Self::UnderVoltage) | Not enough voltage on the DC bus. |
+    /// | 6 | [`DriveTemperature`](Self::DriveTemperature) | The drive is too hot. |
+    /// | 7 | [`Hardware`](Self::Hardware) | The hardware is broken; no reaction is printed. |
+    /// | 8 | [`PositionSensor`](Self::PositionSensor) | The resolver or encoder doesn't work. |
+    /// | 9 | [`NonVolatileMemory`](Self::NonVolatileMemory) | The flash doesn't work. |
+    /// | 0xA | [`BrakingResistor`](Self::BrakingResistor) | The braking resistor is on too much. |
+    /// | 0xD | [`Network`](Self::Network) | An error of the network's communication. |
+    /// | 0xE | [`Homing`](Self::Homing) | An error during homing. |
+    /// | 0xF | [`Overflow`](Self::Overflow) | Of positioning. |
+    /// | 0x10 | [`FollowingError`](Self::FollowingError) | Too large for longer than its time. |
+    /// | 0x16 | [`AbsoluteEncoderNotHomed`](Self::AbsoluteEncoderNotHomed) | Its zero wasn't set. |
+    /// | 0x17 | [`AbsoluteEncoderNotAligned`](Self::AbsoluteEncoderNotAligned) | The motor wasn't aligned with it yet. |
+    /// | 0x18 | [`AbsoluteEncoderCommunication`](Self::AbsoluteEncoderCommunication) | Drive and encoder don't reach each other. |
+    /// | 0x19 | [`AxisMovedAtPowerOn`](Self::AxisMovedAtPowerOn) | Seen by the absolute encoder. |
+    /// | 0x1A | [`ConfigurationNotAllowed`](Self::ConfigurationNotAllowed) | A mode that doesn't go with an external encoder. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum GeneralAlarms {
         /// 1: IGBT module. Over-current, over-temperature or short circuit of the power stage. Manual, line 1955-1957: Allarme modulo IGBT.
@@ -5449,6 +6643,8 @@ pub mod codes {
     /// On ethercat.
     ///
     /// Further columns: error code.
+    ///
+    /// As a type: [`EthercatAlarms`].
     pub static ETHERCAT_ALARMS: &[rt::codes::Code] = &[
         rt::codes::Code::new(1, 1, "IGBT", "", &[rt::codes::Cell::Number(9024)]),
         rt::codes::Code::new(
@@ -5642,6 +6838,37 @@ pub mod codes {
         ),
     ];
     /// A code of [`ETHERCAT_ALARMS`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 1 | [`Igbt`](Self::Igbt) |  |
+    /// | 2 | [`MotorTemperature`](Self::MotorTemperature) |  |
+    /// | 3 | [`MotorOverCurrent`](Self::MotorOverCurrent) |  |
+    /// | 4 | [`OverVoltage`](Self::OverVoltage) |  |
+    /// | 5 | [`UnderVoltage`](Self::UnderVoltage) |  |
+    /// | 6 | [`DriveTemperature`](Self::DriveTemperature) |  |
+    /// | 7 | [`DspInFault`](Self::DspInFault) |  |
+    /// | 8 | [`MotorSensor`](Self::MotorSensor) |  |
+    /// | 9 | [`FlashMemory`](Self::FlashMemory) |  |
+    /// | 0xA | [`BrakingResistor`](Self::BrakingResistor) |  |
+    /// | 0xB | [`NetworkCommunication`](Self::NetworkCommunication) |  |
+    /// | 0xC | [`DuringHoming`](Self::DuringHoming) |  |
+    /// | 0xD | [`Communication`](Self::Communication) |  |
+    /// | 0xE | [`HomingNotEndedProperly`](Self::HomingNotEndedProperly) |  |
+    /// | 0xF | [`Overflow`](Self::Overflow) |  |
+    /// | 0x10 | [`FollowingError`](Self::FollowingError) |  |
+    /// | 0x14 | [`LimitSwitch1`](Self::LimitSwitch1) |  |
+    /// | 0x15 | [`LimitSwitch2`](Self::LimitSwitch2) |  |
+    /// | 0x17 | [`AbsoluteEncoderNotAligned`](Self::AbsoluteEncoderNotAligned) |  |
+    /// | 0x18 | [`NoCommunicationWithAbsoluteEncoder`](Self::NoCommunicationWithAbsoluteEncoder) |  |
+    /// | 0x19 | [`AbsoluteEncoderAxisMovedAtPowerOn`](Self::AbsoluteEncoderAxisMovedAtPowerOn) | absolute encoder, axis moved at power-on. |
+    /// | 0x1A | [`ModeNotAllowed`](Self::ModeNotAllowed) |  |
+    /// | 0x1E | [`InternalCommunicationTimedOut`](Self::InternalCommunicationTimedOut) |  |
+    /// | 0x1F | [`InternalCommunication1`](Self::InternalCommunication1) |  |
+    /// | 0x20 | [`InternalCommunication2`](Self::InternalCommunication2) |  |
+    /// | 0x21 | [`PdoMappingFailed`](Self::PdoMappingFailed) |  |
+    /// | 0x22 | [`SynchronisationTimedOut`](Self::SynchronisationTimedOut) |  |
+    /// | 0x23 | [`EepromOfEtherCatAtStart`](Self::EepromOfEtherCatAtStart) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum EthercatAlarms {
         /// 1: IGBT. Manual, line 5879: Problema IGBT.
@@ -5784,6 +7011,8 @@ pub mod codes {
     /// On profinet.
     ///
     /// Further columns: resettable.
+    ///
+    /// As a type: [`ProfinetAlarms`].
     pub static PROFINET_ALARMS: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             0x1E,
@@ -5822,6 +7051,14 @@ pub mod codes {
         ),
     ];
     /// A code of [`PROFINET_ALARMS`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0x1E | [`InternalCommunicationTimedOut`](Self::InternalCommunicationTimedOut) |  |
+    /// | 0x1F | [`InitialisationOfTheInterfacePhase1`](Self::InitialisationOfTheInterfacePhase1) | initialisation of the interface, phase 1. |
+    /// | 0x20 | [`InitialisationOfTheInterfacePhase2`](Self::InitialisationOfTheInterfacePhase2) | initialisation of the interface, phase 2. |
+    /// | 0x21 | [`FieldbusNotStartedProperly`](Self::FieldbusNotStartedProperly) |  |
+    /// | 0x22 | [`SynchronisationTimedOut`](Self::SynchronisationTimedOut) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ProfinetAlarms {
         /// 0x1E: internal communication timed out. Manual, line 6441: Timeout comunicazione interna al Drive.
@@ -5870,6 +7107,8 @@ pub mod codes {
     /// Manual, line 2386-2431, 2845-2924.
     ///
     /// On canopen.
+    ///
+    /// As a type: [`Emergency`].
     pub static EMERGENCY: &[rt::codes::Code] = &[
         rt::codes::Code::new(0, 0xFF, "error reset or no error", "", &[]),
         rt::codes::Code::new(0x1000, 0x10FF, "generic error", "", &[]),
@@ -5885,6 +7124,21 @@ pub mod codes {
         rt::codes::Code::new(0xFF00, 0xFFFF, "device specific", "", &[]),
     ];
     /// A code of [`EMERGENCY`].
+    ///
+    /// | Code | Name |
+    /// |---|---|
+    /// | 0 to 0xFF | [`ErrorResetOrNoError`](Self::ErrorResetOrNoError) |
+    /// | 0x1000 to 0x10FF | [`GenericError`](Self::GenericError) |
+    /// | 0x2000 to 0x2FFF | [`Current`](Self::Current) |
+    /// | 0x3000 to 0x3FFF | [`Voltage`](Self::Voltage) |
+    /// | 0x4000 to 0x4FFF | [`Temperature`](Self::Temperature) |
+    /// | 0x5000 to 0x50FF | [`DeviceHardware`](Self::DeviceHardware) |
+    /// | 0x6000 to 0x6FFF | [`DeviceSoftware`](Self::DeviceSoftware) |
+    /// | 0x7000 to 0x70FF | [`AdditionalModules`](Self::AdditionalModules) |
+    /// | 0x8000 to 0x8FFF | [`Monitoring`](Self::Monitoring) |
+    /// | 0x9000 to 0x90FF | [`ExternalError`](Self::ExternalError) |
+    /// | 0xF000 to 0xF0FF | [`AdditionalFunctions`](Self::AdditionalFunctions) |
+    /// | 0xFF00 to 0xFFFF | [`DeviceSpecific`](Self::DeviceSpecific) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Emergency {
         /// 0 to 0xFF: error reset or no error. Manual, line 2900.
@@ -5961,6 +7215,8 @@ pub mod codes {
     /// Manual, line 2638-2651.
     ///
     /// On canopen, ethercat.
+    ///
+    /// As a type: [`SdoAbort`].
     pub static SDO_ABORT: &[rt::codes::Code] = &[
         rt::codes::Code::new(0x5030000, 0x5030000, "toggle bit not alternated", "", &[]),
         rt::codes::Code::new(0x5040001, 0x5040001, "invalid command specifier", "", &[]),
@@ -5978,6 +7234,17 @@ pub mod codes {
         rt::codes::Code::new(0x8000000, 0x8000000, "general error", "", &[]),
     ];
     /// A code of [`SDO_ABORT`].
+    ///
+    /// | Code | Name |
+    /// |---|---|
+    /// | 0x5030000 | [`ToggleBitNotAlternated`](Self::ToggleBitNotAlternated) |
+    /// | 0x5040001 | [`InvalidCommandSpecifier`](Self::InvalidCommandSpecifier) |
+    /// | 0x6010000 to 0x601000F | [`UnsupportedAccess`](Self::UnsupportedAccess) |
+    /// | 0x6010002 | [`WriteToWhatIsReadOnly`](Self::WriteToWhatIsReadOnly) |
+    /// | 0x6020000 | [`ObjectDoesNotExist`](Self::ObjectDoesNotExist) |
+    /// | 0x6070010 to 0x607001F | [`DataTypeDoesNotMatch`](Self::DataTypeDoesNotMatch) |
+    /// | 0x6090011 | [`SubIndexDoesNotExist`](Self::SubIndexDoesNotExist) |
+    /// | 0x8000000 | [`GeneralError`](Self::GeneralError) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum SdoAbort {
         /// 0x5030000: toggle bit not alternated. Manual, line 2644.
@@ -6039,6 +7306,8 @@ pub mod codes {
     /// Manual, line 3114-3132, 4130-4137.
     ///
     /// On canopen.
+    ///
+    /// As a type: [`NmtState`].
     pub static NMT_STATE: &[rt::codes::Code] = &[
         rt::codes::Code::new(0, 0, "boot-up", "", &[]),
         rt::codes::Code::new(4, 4, "stopped", "", &[]),
@@ -6046,6 +7315,13 @@ pub mod codes {
         rt::codes::Code::new(0x7F, 0x7F, "pre-operational", "", &[]),
     ];
     /// A code of [`NMT_STATE`].
+    ///
+    /// | Code | Name |
+    /// |---|---|
+    /// | 0 | [`BootUp`](Self::BootUp) |
+    /// | 4 | [`Stopped`](Self::Stopped) |
+    /// | 5 | [`Operational`](Self::Operational) |
+    /// | 0x7F | [`PreOperational`](Self::PreOperational) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum NmtState {
         /// 0: boot-up. Manual, line 3122.
@@ -6090,10 +7366,16 @@ pub mod codes {
     /// Manual, line 942, 970, 999, 1052-1087.
     ///
     /// On modbus.
+    ///
+    /// As a type: [`ModbusExceptions`].
     pub static MODBUS_EXCEPTIONS: &[rt::codes::Code] = &[
         rt::codes::Code::new(2, 2, "illegal data address", "", &[]),
     ];
     /// A code of [`MODBUS_EXCEPTIONS`].
+    ///
+    /// | Code | Name |
+    /// |---|---|
+    /// | 2 | [`IllegalDataAddress`](Self::IllegalDataAddress) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModbusExceptions {
         /// 2: illegal data address. Manual, line 1085.
@@ -6126,6 +7408,8 @@ pub mod codes {
     /// Manual, line 1841-1900, 4646-4705.
     ///
     /// Further columns: pin 11 (DIR), pin 10 (PULSE), pin 5 (IEN).
+    ///
+    /// As a type: [`MiniInputs`].
     pub static MINI_INPUTS: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             0,
@@ -6206,6 +7490,16 @@ pub mod codes {
         ),
     ];
     /// A code of [`MINI_INPUTS`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`LimitsAndHome`](Self::LimitsAndHome) |  |
+    /// | 1 | [`LimitsAndLatch`](Self::LimitsAndLatch) |  |
+    /// | 2 | [`LimitsAndStart`](Self::LimitsAndStart) |  |
+    /// | 3 | [`StartHomeAndLatch`](Self::StartHomeAndLatch) | start, home and latch. |
+    /// | 4 | [`StartAndNegativeLimit`](Self::StartAndNegativeLimit) |  |
+    /// | 5 | [`StartAndPositiveLimit`](Self::StartAndPositiveLimit) |  |
+    /// | 6 | [`StartAndHome`](Self::StartAndHome) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum MiniInputs {
         /// 0: limits and home. Manual, line 1852-1858.
@@ -6262,6 +7556,8 @@ pub mod codes {
     /// Manual, line 1718-1735, 1756-1790.
     ///
     /// Further columns: direction, function.
+    ///
+    /// As a type: [`Cn2Pins`].
     pub static CN2_PINS: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             1,
@@ -6383,6 +7679,25 @@ pub mod codes {
         ),
     ];
     /// A code of [`CN2_PINS`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 1 | [`Pin1`](Self::Pin1) | Its rising edge starts the positioner; high couples the electric axis. |
+    /// | 2 | [`Pin2`](Self::Pin2) |  |
+    /// | 3 | [`Pin3`](Self::Pin3) |  |
+    /// | 4 | [`Pin4`](Self::Pin4) |  |
+    /// | 5 | [`Pin5`](Self::Pin5) | Low takes target\_position, or target\_velocity, high takes aux\_in\_1. |
+    /// | 6 | [`Pin6`](Self::Pin6) |  |
+    /// | 7 | [`Pin7`](Self::Pin7) |  |
+    /// | 8 | [`Pin8`](Self::Pin8) |  |
+    /// | 9 | [`Pin9`](Self::Pin9) |  |
+    /// | 0xA | [`Pin10`](Self::Pin10) |  |
+    /// | 0xB | [`Pin11`](Self::Pin11) | High for 2 ms at least. |
+    /// | 0xC | [`Pin12`](Self::Pin12) | Falls at the start and rises at the target, by mode; always low in electric axis and analogue … |
+    /// | 0xD | [`Pin13`](Self::Pin13) |  |
+    /// | 0xE | [`Pin14`](Self::Pin14) |  |
+    /// | 0xF | [`Pin15`](Self::Pin15) | Rises in target\_window; from 2.40 on. |
+    /// | 0x10 | [`Pin16`](Self::Pin16) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Cn2Pins {
         /// 1: pin 1. Its rising edge starts the positioner; high couples the electric axis. Manual, line 1720, 1701-1707.
@@ -6469,6 +7784,8 @@ pub mod codes {
         }
     }
     /// drive errors.
+    ///
+    /// As a type: [`DriveErrors`].
     pub static DRIVE_ERRORS: &[rt::codes::Code] = &[
         rt::codes::Code::new(0x2310, 0x2310, "continuous over-current", "", &[]),
         rt::codes::Code::new(0x2320, 0x2320, "short circuit or earth leakage", "", &[]),
@@ -6505,6 +7822,42 @@ pub mod codes {
         rt::codes::Code::new(0xF004, 0xF004, "control", "", &[]),
     ];
     /// A code of [`DRIVE_ERRORS`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0x2310 | [`ContinuousOverCurrent`](Self::ContinuousOverCurrent) |  |
+    /// | 0x2320 | [`ShortCircuitOrEarthLeakage`](Self::ShortCircuitOrEarthLeakage) |  |
+    /// | 0x2330 | [`EarthLeakage`](Self::EarthLeakage) |  |
+    /// | 0x3110 | [`MainsOverVoltage`](Self::MainsOverVoltage) |  |
+    /// | 0x3120 | [`MainsUnderVoltage`](Self::MainsUnderVoltage) |  |
+    /// | 0x3130 | [`PhaseFailure`](Self::PhaseFailure) |  |
+    /// | 0x3210 | [`DcLinkOverVoltage`](Self::DcLinkOverVoltage) |  |
+    /// | 0x3220 | [`DcLinkUnderVoltage`](Self::DcLinkUnderVoltage) |  |
+    /// | 0x4110 | [`AmbientTemperatureTooHigh`](Self::AmbientTemperatureTooHigh) |  |
+    /// | 0x4210 | [`DeviceTemperatureTooHigh`](Self::DeviceTemperatureTooHigh) |  |
+    /// | 0x4310 | [`DriveTemperatureTooHigh`](Self::DriveTemperatureTooHigh) |  |
+    /// | 0x5530 | [`NonVolatileMemory`](Self::NonVolatileMemory) |  |
+    /// | 0x6010 | [`SoftwareResetByTheWatchdog`](Self::SoftwareResetByTheWatchdog) |  |
+    /// | 0x6310 | [`LossOfParameters`](Self::LossOfParameters) |  |
+    /// | 0x6320 | [`ParameterError`](Self::ParameterError) |  |
+    /// | 0x7110 | [`BrakeChopper`](Self::BrakeChopper) |  |
+    /// | 0x7121 | [`MotorBlocked`](Self::MotorBlocked) |  |
+    /// | 0x7122 | [`MotorErrorOrCommutation`](Self::MotorErrorOrCommutation) | motor error, or commutation. |
+    /// | 0x7305 | [`IncrementalSensor1`](Self::IncrementalSensor1) |  |
+    /// | 0x7306 | [`IncrementalSensor2`](Self::IncrementalSensor2) |  |
+    /// | 0x7310 | [`SpeedSensor`](Self::SpeedSensor) |  |
+    /// | 0x7320 | [`PositionSensor`](Self::PositionSensor) |  |
+    /// | 0x8311 | [`TorqueTooHigh`](Self::TorqueTooHigh) |  |
+    /// | 0x8331 | [`TorqueFault`](Self::TorqueFault) |  |
+    /// | 0x8400 | [`VelocityController`](Self::VelocityController) |  |
+    /// | 0x8500 | [`PositionController`](Self::PositionController) |  |
+    /// | 0x8600 | [`PositioningController`](Self::PositioningController) |  |
+    /// | 0x8611 | [`FollowingError`](Self::FollowingError) |  |
+    /// | 0x8612 | [`ReferenceLimit`](Self::ReferenceLimit) |  |
+    /// | 0xF001 | [`Deceleration`](Self::Deceleration) |  |
+    /// | 0xF002 | [`SubSynchronousRun`](Self::SubSynchronousRun) |  |
+    /// | 0xF003 | [`StrokeOperation`](Self::StrokeOperation) |  |
+    /// | 0xF004 | [`Control`](Self::Control) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DriveErrors {
         /// 0x2310: continuous over-current.
@@ -6665,6 +8018,18 @@ pub mod procedures {
     /// The values of the example of a positioner, on Modbus and PROFINET. c9 and d8 are set before, and the inputs TEN and IEN get 24 V behind it.
     ///
     /// Manual, line 1401-1439, 6374-6396.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [feed\_constant](super::objects::feed_constant::FEED_CONSTANT) | 60 |
+    /// | [profile\_acceleration](super::objects::PROFILE_ACCELERATION) | 100 |
+    /// | [profile\_deceleration](super::objects::PROFILE_DECELERATION) | 100 |
+    /// | [profile\_velocity](super::objects::PROFILE_VELOCITY) | 1000 |
+    /// | [motion\_profile\_type](super::objects::MOTION_PROFILE_TYPE) | 0 |
+    /// | [homing\_method](super::objects::HOMING_METHOD) | 33 |
+    /// | [home\_offset](super::objects::HOME_OFFSET) | 0 |
+    /// | [homing\_slow\_speed](super::objects::homing_speeds::HOMING_SLOW_SPEED) | 10 |
+    /// | [homing\_acceleration](super::objects::HOMING_ACCELERATION) | 100 |
     pub const CONFIGURE_POSITIONER: [rt::SdoWrite; 9] = [
         rt::SdoWrite::new_u32(0x6092, 0x01, 0x0000_003C),
         rt::SdoWrite::new_u32(0x6083, 0x00, 0x0000_0064),
@@ -6679,6 +8044,15 @@ pub mod procedures {
     /// Resets alarms and gives the motor torque, by DSP 402. The inputs TEN and IEN have to have 24 V all the while.
     ///
     /// Manual, line 4282-4291, 4474-4488, 4323-4332, 4366-4373, 4448-4457, 4541-4548.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [Controlword](super::objects::CONTROLWORD) | 0 |
+    /// | [Controlword](super::objects::CONTROLWORD) | 128 |
+    /// | [Controlword](super::objects::CONTROLWORD) | 0 |
+    /// | [Controlword](super::objects::CONTROLWORD) | 6 |
+    /// | [Controlword](super::objects::CONTROLWORD) | 7 |
+    /// | [Controlword](super::objects::CONTROLWORD) | 15 |
     pub const ENABLE: [rt::SdoWrite; 6] = [
         rt::SdoWrite::new_u16(0x6040, 0x00, 0x0000),
         rt::SdoWrite::new_u16(0x6040, 0x00, 0x0080),
@@ -6690,10 +8064,25 @@ pub mod procedures {
     /// Takes the torque off, by DSP 402.
     ///
     /// Manual, line 4248-4252, 4383, 4595.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [Controlword](super::objects::CONTROLWORD) | 2 |
     pub const DISABLE: [rt::SdoWrite; 1] = [rt::SdoWrite::new_u16(0x6040, 0x00, 0x0002)];
     /// Ten turns further, by DSP 402; the drive is enabled already. For a position instead of a distance, 0x000F and 0x001F.
     ///
     /// Manual, line 4301-4348.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [feed\_constant](super::objects::feed_constant::FEED_CONSTANT) | 6000 |
+    /// | [profile\_velocity](super::objects::PROFILE_VELOCITY) | 20000 |
+    /// | [profile\_acceleration](super::objects::PROFILE_ACCELERATION) | 200 |
+    /// | [profile\_deceleration](super::objects::PROFILE_DECELERATION) | 200 |
+    /// | [modes\_of\_operation](super::objects::MODES_OF_OPERATION) | 1 |
+    /// | [target\_position](super::objects::TARGET_POSITION) | 60000 |
+    /// | [Controlword](super::objects::CONTROLWORD) | 79 |
+    /// | [Controlword](super::objects::CONTROLWORD) | 95 |
     pub const POSITION_BY_402: [rt::SdoWrite; 8] = [
         rt::SdoWrite::new_u32(0x6092, 0x01, 0x0000_1770),
         rt::SdoWrite::new_u32(0x6081, 0x00, 0x0000_4E20),
@@ -6707,6 +8096,14 @@ pub mod procedures {
     /// 1000 rpm, by DSP 402; the drive is enabled already.
     ///
     /// Manual, line 4349-4377.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [feed\_constant](super::objects::feed_constant::FEED_CONSTANT) | 60 |
+    /// | [profile\_acceleration](super::objects::PROFILE_ACCELERATION) | 5 |
+    /// | [profile\_deceleration](super::objects::PROFILE_DECELERATION) | 5 |
+    /// | [modes\_of\_operation](super::objects::MODES_OF_OPERATION) | 3 |
+    /// | [target\_velocity](super::objects::TARGET_VELOCITY) | 1000 |
     pub const VELOCITY_BY_402: [rt::SdoWrite; 5] = [
         rt::SdoWrite::new_u32(0x6092, 0x01, 0x0000_003C),
         rt::SdoWrite::new_u32(0x6083, 0x00, 0x0000_0005),
@@ -6717,6 +8114,19 @@ pub mod procedures {
     /// Set-point and control word in RPDO 1, position and state in TPDO 1, each SYNC. Then the node is started by NMT, and SYNC sent cyclically.
     ///
     /// Manual, line 4419-4443, 4517-4539.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [0x1400:2](super::objects::receive_pdo_1_communication_parameter::TRANSMISSION_TYPE_OF_RPDO_1) | 1 |
+    /// | [0x1600:0](super::objects::receive_pdo_1_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1) | 0 |
+    /// | [0x1600:1](super::objects::receive_pdo_1_mapping_parameter::MAPPED_OBJECT_1_OF_RPDO_1) | 0x60C10120 |
+    /// | [0x1600:2](super::objects::receive_pdo_1_mapping_parameter::MAPPED_OBJECT_2_OF_RPDO_1) | 0x60400010 |
+    /// | [0x1600:0](super::objects::receive_pdo_1_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1) | 2 |
+    /// | [0x1800:2](super::objects::transmit_pdo_1_communication_parameter::TRANSMISSION_TYPE_OF_TPDO_1) | 1 |
+    /// | [0x1A00:0](super::objects::transmit_pdo_1_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1) | 0 |
+    /// | [0x1A00:1](super::objects::transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_1_OF_TPDO_1) | 0x60640020 |
+    /// | [0x1A00:2](super::objects::transmit_pdo_1_mapping_parameter::MAPPED_OBJECT_2_OF_TPDO_1) | 0x60410010 |
+    /// | [0x1A00:0](super::objects::transmit_pdo_1_mapping_parameter::NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1) | 2 |
     pub const MAP_INTERPOLATOR: [rt::SdoWrite; 10] = [
         rt::SdoWrite::new_u8(0x1400, 0x02, 0x01),
         rt::SdoWrite::new_u8(0x1600, 0x00, 0x00),
@@ -6732,6 +8142,13 @@ pub mod procedures {
     /// The interpolator, by DSP 402; the PDOs are mapped and the drive is enabled already. From the last step on the drive waits for a set-point and SYNC each millisecond. Once the axis stands still, 0x000F in the Controlword ends it, and neither is needed any more.
     ///
     /// Manual, line 4406-4472, 4566-4594.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [feed\_constant](super::objects::feed_constant::FEED_CONSTANT) | 6000 |
+    /// | [ip\_time\_units](super::objects::interpolation_time_period::IP_TIME_UNITS) | 1 |
+    /// | [modes\_of\_operation](super::objects::MODES_OF_OPERATION) | 7 |
+    /// | [Controlword](super::objects::CONTROLWORD) | 31 |
     pub const INTERPOLATE: [rt::SdoWrite; 4] = [
         rt::SdoWrite::new_u32(0x6092, 0x01, 0x0000_1770),
         rt::SdoWrite::new_u8(0x60C2, 0x01, 0x01),
@@ -6741,6 +8158,11 @@ pub mod procedures {
     /// Node guarding each 500 ms.
     ///
     /// Manual, line 4235-4242.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [Guard Time](super::objects::GUARD_TIME) | 500 |
+    /// | [Life Time Factor](super::objects::LIFE_TIME_FACTOR) | 2 |
     pub const GUARD: [rt::SdoWrite; 2] = [
         rt::SdoWrite::new_u16(0x100C, 0x00, 0x01F4),
         rt::SdoWrite::new_u8(0x100D, 0x00, 0x02),
@@ -6748,6 +8170,11 @@ pub mod procedures {
     /// No node guarding.
     ///
     /// Manual, line 4244-4246.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [Guard Time](super::objects::GUARD_TIME) | 0 |
+    /// | [Life Time Factor](super::objects::LIFE_TIME_FACTOR) | 0 |
     pub const STOP_GUARDING: [rt::SdoWrite; 2] = [
         rt::SdoWrite::new_u16(0x100C, 0x00, 0x0000),
         rt::SdoWrite::new_u8(0x100D, 0x00, 0x00),
@@ -6755,6 +8182,16 @@ pub mod procedures {
     /// Slot of the positioner.
     ///
     /// Manual, line 5598-5611, 5646: Position Mode.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [0x1C12:0](super::objects::rx_pdo_assign::NUMBER_OF_RX_PDOS) | 0 |
+    /// | [0x1C12:1](super::objects::rx_pdo_assign::FIRST_RX_PDO) | 5634 |
+    /// | [0x1C12:0](super::objects::rx_pdo_assign::NUMBER_OF_RX_PDOS) | 1 |
+    /// | [0x1C13:0](super::objects::tx_pdo_assign::NUMBER_OF_TX_PDOS) | 0 |
+    /// | [0x1C13:1](super::objects::tx_pdo_assign::FIRST_TX_PDO) | 6658 |
+    /// | [0x1C13:0](super::objects::tx_pdo_assign::NUMBER_OF_TX_PDOS) | 1 |
+    /// | [modes\_of\_operation](super::objects::MODES_OF_OPERATION) | 1 |
     pub const SLOT_POSITION: [rt::SdoWrite; 7] = [
         rt::SdoWrite::new_u8(0x1C12, 0x00, 0x00),
         rt::SdoWrite::new_u16(0x1C12, 0x01, 0x1602),
@@ -6767,6 +8204,16 @@ pub mod procedures {
     /// Slot of the interpolator, the default.
     ///
     /// Manual, line 5614-5625, 5647, 5845: Interpolated Mode.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [0x1C12:0](super::objects::rx_pdo_assign::NUMBER_OF_RX_PDOS) | 0 |
+    /// | [0x1C12:1](super::objects::rx_pdo_assign::FIRST_RX_PDO) | 5632 |
+    /// | [0x1C12:0](super::objects::rx_pdo_assign::NUMBER_OF_RX_PDOS) | 1 |
+    /// | [0x1C13:0](super::objects::tx_pdo_assign::NUMBER_OF_TX_PDOS) | 0 |
+    /// | [0x1C13:1](super::objects::tx_pdo_assign::FIRST_TX_PDO) | 6658 |
+    /// | [0x1C13:0](super::objects::tx_pdo_assign::NUMBER_OF_TX_PDOS) | 1 |
+    /// | [modes\_of\_operation](super::objects::MODES_OF_OPERATION) | 7 |
     pub const SLOT_INTERPOLATED: [rt::SdoWrite; 7] = [
         rt::SdoWrite::new_u8(0x1C12, 0x00, 0x00),
         rt::SdoWrite::new_u16(0x1C12, 0x01, 0x1600),
@@ -6779,6 +8226,16 @@ pub mod procedures {
     /// Slot of the velocity mode.
     ///
     /// Manual, line 5628-5640, 5648: Velocity Mode.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [0x1C12:0](super::objects::rx_pdo_assign::NUMBER_OF_RX_PDOS) | 0 |
+    /// | [0x1C12:1](super::objects::rx_pdo_assign::FIRST_RX_PDO) | 5635 |
+    /// | [0x1C12:0](super::objects::rx_pdo_assign::NUMBER_OF_RX_PDOS) | 1 |
+    /// | [0x1C13:0](super::objects::tx_pdo_assign::NUMBER_OF_TX_PDOS) | 0 |
+    /// | [0x1C13:1](super::objects::tx_pdo_assign::FIRST_TX_PDO) | 6659 |
+    /// | [0x1C13:0](super::objects::tx_pdo_assign::NUMBER_OF_TX_PDOS) | 1 |
+    /// | [modes\_of\_operation](super::objects::MODES_OF_OPERATION) | 3 |
     pub const SLOT_VELOCITY: [rt::SdoWrite; 7] = [
         rt::SdoWrite::new_u8(0x1C12, 0x00, 0x00),
         rt::SdoWrite::new_u16(0x1C12, 0x01, 0x1603),
@@ -6792,7 +8249,7 @@ pub mod procedures {
 /// Windows: what takes the number of a value, and what has the value then.
 pub mod windows {
     use ::lexibus as rt;
-    /// On CANopen: "Variable Read Address" takes a number, and "Variable Read Value" gives its value.
+    /// On CANopen: [Variable Read Address](super::objects::drive_variable_read::VARIABLE_READ_ADDRESS) takes a number, and [Variable Read Value](super::objects::drive_variable_read::VARIABLE_READ_VALUE) gives its value.
     pub const REGISTER_READ_CANOPEN: rt::ReadWindow<rt::Object> = rt::ReadWindow {
         number: rt::Object::new(0x2005, 0x01),
         number_bits: 16,
@@ -6800,7 +8257,7 @@ pub mod windows {
         value_bits: 32,
         handshake: rt::Handshake::after(3),
     };
-    /// On CANopen: "Variable Write Address" takes a number, and "Variable Write Value" takes its value.
+    /// On CANopen: [Variable Write Address](super::objects::drive_variable_write::VARIABLE_WRITE_ADDRESS) takes a number, and [Variable Write Value](super::objects::drive_variable_write::VARIABLE_WRITE_VALUE) takes its value.
     pub const REGISTER_WRITE_CANOPEN: rt::WriteWindow<rt::Object> = rt::WriteWindow {
         number: rt::Object::new(0x2006, 0x01),
         number_bits: 16,
@@ -6809,7 +8266,7 @@ pub mod windows {
         is_number_first: false,
         handshake: rt::Handshake::after(3),
     };
-    /// On EtherCAT: "Variable Read Address" takes a number, and "Variable Read Value" gives its value.
+    /// On EtherCAT: [Variable Read Address](super::objects::drive_variable_read::VARIABLE_READ_ADDRESS) takes a number, and [Variable Read Value](super::objects::drive_variable_read::VARIABLE_READ_VALUE) gives its value.
     pub const REGISTER_READ_COE: rt::ReadWindow<rt::Object> = rt::ReadWindow {
         number: rt::Object::new(0x2005, 0x01),
         number_bits: 16,
@@ -6817,7 +8274,7 @@ pub mod windows {
         value_bits: 32,
         handshake: rt::Handshake::after(3),
     };
-    /// On EtherCAT: "Variable Write Address" takes a number, and "Variable Write Value" takes its value.
+    /// On EtherCAT: [Variable Write Address](super::objects::drive_variable_write::VARIABLE_WRITE_ADDRESS) takes a number, and [Variable Write Value](super::objects::drive_variable_write::VARIABLE_WRITE_VALUE) takes its value.
     pub const REGISTER_WRITE_COE: rt::WriteWindow<rt::Object> = rt::WriteWindow {
         number: rt::Object::new(0x2006, 0x01),
         number_bits: 16,
@@ -6826,7 +8283,7 @@ pub mod windows {
         is_number_first: false,
         handshake: rt::Handshake::after(3),
     };
-    /// On PROFINET: "cyclic read address" takes a number, and "cyclic read value" gives its value.
+    /// On PROFINET: [cyclic read address](super::objects::CYCLIC_READ_ADDRESS) takes a number, and [cyclic read value](super::objects::CYCLIC_READ_VALUE) gives its value.
     pub const REGISTER_READ_IMAGE: rt::ReadWindow<rt::ImageField> = rt::ReadWindow {
         number: rt::ImageField::output(192, 16),
         number_bits: 16,
@@ -6834,7 +8291,7 @@ pub mod windows {
         value_bits: 32,
         handshake: rt::Handshake::after(3),
     };
-    /// On PROFINET: "cyclic write address" takes a number, and "cyclic write value" takes its value.
+    /// On PROFINET: [cyclic write address](super::objects::CYCLIC_WRITE_ADDRESS) takes a number, and [cyclic write value](super::objects::CYCLIC_WRITE_VALUE) takes its value.
     pub const REGISTER_WRITE_IMAGE: rt::WriteWindow<rt::ImageField> = rt::WriteWindow {
         number: rt::ImageField::output(208, 16),
         number_bits: 16,
@@ -6843,7 +8300,7 @@ pub mod windows {
         is_number_first: true,
         handshake: rt::Handshake::after(3),
     };
-    /// On CANopen: "Variable Read Address" takes a number, and "Variable Read Value" gives its value.
+    /// On CANopen: [Variable Read Address](super::objects::drive_variable_read::VARIABLE_READ_ADDRESS) takes a number, and [Variable Read Value](super::objects::drive_variable_read::VARIABLE_READ_VALUE) gives its value.
     pub const PARAMETER_READ_CANOPEN_0: rt::ReadWindow<rt::Object> = rt::ReadWindow {
         number: rt::Object::new(0x2005, 0x01),
         number_bits: 16,
@@ -6851,7 +8308,7 @@ pub mod windows {
         value_bits: 32,
         handshake: rt::Handshake::after(3),
     };
-    /// On CANopen: "Variable Write Address" takes a number, and "Variable Write Value" takes its value.
+    /// On CANopen: [Variable Write Address](super::objects::drive_variable_write::VARIABLE_WRITE_ADDRESS) takes a number, and [Variable Write Value](super::objects::drive_variable_write::VARIABLE_WRITE_VALUE) takes its value.
     pub const PARAMETER_WRITE_CANOPEN_0: rt::WriteWindow<rt::Object> = rt::WriteWindow {
         number: rt::Object::new(0x2006, 0x01),
         number_bits: 16,
@@ -6860,7 +8317,7 @@ pub mod windows {
         is_number_first: false,
         handshake: rt::Handshake::after(3),
     };
-    /// On EtherCAT: "Variable Read Address" takes a number, and "Variable Read Value" gives its value.
+    /// On EtherCAT: [Variable Read Address](super::objects::drive_variable_read::VARIABLE_READ_ADDRESS) takes a number, and [Variable Read Value](super::objects::drive_variable_read::VARIABLE_READ_VALUE) gives its value.
     pub const PARAMETER_READ_COE_0: rt::ReadWindow<rt::Object> = rt::ReadWindow {
         number: rt::Object::new(0x2005, 0x01),
         number_bits: 16,
@@ -6868,7 +8325,7 @@ pub mod windows {
         value_bits: 32,
         handshake: rt::Handshake::after(3),
     };
-    /// On EtherCAT: "Variable Write Address" takes a number, and "Variable Write Value" takes its value.
+    /// On EtherCAT: [Variable Write Address](super::objects::drive_variable_write::VARIABLE_WRITE_ADDRESS) takes a number, and [Variable Write Value](super::objects::drive_variable_write::VARIABLE_WRITE_VALUE) takes its value.
     pub const PARAMETER_WRITE_COE_0: rt::WriteWindow<rt::Object> = rt::WriteWindow {
         number: rt::Object::new(0x2006, 0x01),
         number_bits: 16,
@@ -6877,7 +8334,7 @@ pub mod windows {
         is_number_first: false,
         handshake: rt::Handshake::after(3),
     };
-    /// On PROFINET: "cyclic read address" takes a number, and "cyclic read value" gives its value.
+    /// On PROFINET: [cyclic read address](super::objects::CYCLIC_READ_ADDRESS) takes a number, and [cyclic read value](super::objects::CYCLIC_READ_VALUE) gives its value.
     pub const PARAMETER_READ_IMAGE: rt::ReadWindow<rt::ImageField> = rt::ReadWindow {
         number: rt::ImageField::output(192, 16),
         number_bits: 16,
@@ -6885,7 +8342,7 @@ pub mod windows {
         value_bits: 32,
         handshake: rt::Handshake::after(3),
     };
-    /// On PROFINET: "cyclic write address" takes a number, and "cyclic write value" takes its value.
+    /// On PROFINET: [cyclic write address](super::objects::CYCLIC_WRITE_ADDRESS) takes a number, and [cyclic write value](super::objects::CYCLIC_WRITE_VALUE) takes its value.
     pub const PARAMETER_WRITE_IMAGE: rt::WriteWindow<rt::ImageField> = rt::WriteWindow {
         number: rt::ImageField::output(208, 16),
         number_bits: 16,
@@ -6894,7 +8351,7 @@ pub mod windows {
         is_number_first: true,
         handshake: rt::Handshake::after(3),
     };
-    /// On CANopen: "Parameter Read Address" takes a number, and "Parameter Read Value" gives its value.
+    /// On CANopen: [Parameter Read Address](super::objects::drive_parameters_settings::PARAMETER_READ_ADDRESS) takes a number, and [Parameter Read Value](super::objects::drive_parameters_settings::PARAMETER_READ_VALUE) gives its value.
     pub const PARAMETER_READ_CANOPEN_2: rt::ReadWindow<rt::Object> = rt::ReadWindow {
         number: rt::Object::new(0x2000, 0x03),
         number_bits: 8,
@@ -6902,7 +8359,7 @@ pub mod windows {
         value_bits: 8,
         handshake: rt::Handshake::cleared(100),
     };
-    /// On CANopen: "Parameter Write Address" takes a number, and "Parameter Write Value" takes its value.
+    /// On CANopen: [Parameter Write Address](super::objects::drive_parameters_settings::PARAMETER_WRITE_ADDRESS) takes a number, and [Parameter Write Value](super::objects::drive_parameters_settings::PARAMETER_WRITE_VALUE) takes its value.
     pub const PARAMETER_WRITE_CANOPEN_2: rt::WriteWindow<rt::Object> = rt::WriteWindow {
         number: rt::Object::new(0x2000, 0x01),
         number_bits: 8,
@@ -6911,7 +8368,7 @@ pub mod windows {
         is_number_first: false,
         handshake: rt::Handshake::cleared(100),
     };
-    /// On EtherCAT: "Parameter Read Address" takes a number, and "Parameter Read Value" gives its value.
+    /// On EtherCAT: [Parameter Read Address](super::objects::drive_parameters_settings::PARAMETER_READ_ADDRESS) takes a number, and [Parameter Read Value](super::objects::drive_parameters_settings::PARAMETER_READ_VALUE) gives its value.
     pub const PARAMETER_READ_COE_2: rt::ReadWindow<rt::Object> = rt::ReadWindow {
         number: rt::Object::new(0x2000, 0x03),
         number_bits: 8,
@@ -6919,7 +8376,7 @@ pub mod windows {
         value_bits: 8,
         handshake: rt::Handshake::cleared(100),
     };
-    /// On EtherCAT: "Parameter Write Address" takes a number, and "Parameter Write Value" takes its value.
+    /// On EtherCAT: [Parameter Write Address](super::objects::drive_parameters_settings::PARAMETER_WRITE_ADDRESS) takes a number, and [Parameter Write Value](super::objects::drive_parameters_settings::PARAMETER_WRITE_VALUE) takes its value.
     pub const PARAMETER_WRITE_COE_2: rt::WriteWindow<rt::Object> = rt::WriteWindow {
         number: rt::Object::new(0x2000, 0x01),
         number_bits: 8,
@@ -7542,6 +8999,7 @@ pub mod objects {
     /// following\_error\_actual\_value.
     ///
     /// Bytes 8 to 11 of the image to the master, INTEGER32, ro.
+    /// Accessor: [`following_error_actual_value`](super::Eco::following_error_actual_value).
     ///
     /// Manual, line 6133: Following Error Actual Value.
     ///
@@ -7557,6 +9015,7 @@ pub mod objects {
     /// torque\_actual\_value.
     ///
     /// Bytes 12 to 13 of the image to the master, INTEGER16, ro.
+    /// Accessor: [`torque_actual_value`](super::Eco::torque_actual_value).
     ///
     /// Manual, line 6135: Torque Actual Value.
     ///
@@ -7572,6 +9031,7 @@ pub mod objects {
     /// cyclic read value.
     ///
     /// Bytes 16 to 19 of the image to the master, UNSIGNED32, ro.
+    /// Accessor: [`cyclic_read_value`](super::Eco::cyclic_read_value).
     ///
     /// At least 3 ms after the address
     ///
@@ -7587,6 +9047,7 @@ pub mod objects {
     /// cyclic read address.
     ///
     /// Bytes 24 to 25 of the image from the master, UNSIGNED16, rw.
+    /// Accessor: [`cyclic_read_address`](super::Eco::cyclic_read_address).
     ///
     /// Which variable is read: 1 to 99 a parameter, 0x8000 to 0x8FFF a register
     ///
@@ -7602,6 +9063,7 @@ pub mod objects {
     /// cyclic write address.
     ///
     /// Bytes 26 to 27 of the image from the master, UNSIGNED16, rw.
+    /// Accessor: [`cyclic_write_address`](super::Eco::cyclic_write_address).
     ///
     /// Which variable is written: 1 to 99 a parameter, 0x8000 to 0x8FFF a register
     ///
@@ -7619,6 +9081,7 @@ pub mod objects {
     /// cyclic write value.
     ///
     /// Bytes 28 to 31 of the image from the master, UNSIGNED32, rw.
+    /// Accessor: [`cyclic_write_value`](super::Eco::cyclic_write_value).
     ///
     /// Manual, line 6098, 6311: Variable Write Value.
     pub const CYCLIC_WRITE_VALUE: ReadWrite<u32, OnImageOut> = ReadWriteU32OnImageOut::new(
@@ -7632,6 +9095,7 @@ pub mod objects {
     /// control\_word.
     ///
     /// Holding register 32768 of 32 bits, bytes 0 to 1 of the image from the master, number 0x8000 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`control_word`](super::Eco::control_word). Values: [`DriveCommand`](super::types::DriveCommand).
     ///
     /// Commands of the vendor's own bits, which the mode of operation gives their meaning. On CANopen and EtherCAT, 0x6040 has others
     ///
@@ -7671,6 +9135,7 @@ pub mod objects {
     /// modes\_of\_operation.
     ///
     /// 0x6060:00, holding register 32769 of 32 bits, byte 2 of the image from the master, number 0x8001 behind a window on CANopen, EtherCAT, PROFINET, INTEGER8, rw, mappable into RPDOs, range \-127 to 127.
+    /// Accessor: [`modes_of_operation`](super::Eco::modes_of_operation). Values: [`Mode`](super::types::Mode). Carried by [`Mode`](super::pdo::Mode).
     ///
     /// The mode that is wanted; 0x6061 and the image show the one that is
     ///
@@ -7734,7 +9199,8 @@ pub mod objects {
     );
     /// following\_error\_window.
     ///
-    /// 0x6065:00, holding register 32771 of 32 bits, bytes 12 to 15 of the image from the master, number 0x8003 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 4294967295, stands for raw / feed\_constant rev.
+    /// 0x6065:00, holding register 32771 of 32 bits, bytes 12 to 15 of the image from the master, number 0x8003 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 4294967295, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
+    /// Accessor: [`following_error_window`](super::Eco::following_error_window).
     ///
     /// Largest distance between set-point and position. That the unit is the user's isn't said of it
     ///
@@ -7765,6 +9231,7 @@ pub mod objects {
     /// following\_error\_timeout.
     ///
     /// 0x6066:00, holding register 32772 of 32 bits, number 0x8004 behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 8191.
+    /// Accessor: [`following_error_timeout`](super::Eco::following_error_timeout).
     ///
     /// How long the following error may be too large
     ///
@@ -7787,6 +9254,7 @@ pub mod objects {
     /// status\_word.
     ///
     /// Holding register 32773 of 32 bits, bytes 0 to 1 of the image to the master, number 0x8005 behind a window on CANopen, EtherCAT, UNSIGNED16, ro.
+    /// Accessor: [`status_word`](super::Eco::status_word). Values: [`DriveStatus`](super::types::DriveStatus).
     ///
     /// The vendor's own bits. On CANopen and EtherCAT, 0x6041 has others
     ///
@@ -7814,7 +9282,8 @@ pub mod objects {
     );
     /// position\_actual\_value.
     ///
-    /// 0x6064:00, holding register 32774 of 32 bits, bytes 3 to 6 of the image to the master, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
+    /// 0x6064:00, holding register 32774 of 32 bits, bytes 3 to 6 of the image to the master, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
+    /// Accessor: [`position_actual_value`](super::Eco::position_actual_value). Carried by [`ActualPosition`](super::pdo::ActualPosition).
     ///
     /// Position in user units. Before 3.00 the drive refreshes it each millisecond, so that its time is uncertain by 1 ms
     ///
@@ -7841,7 +9310,8 @@ pub mod objects {
     );
     /// latched\_position.
     ///
-    /// 0x2001:00, holding register 32775 of 32 bits, number 0x8007 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
+    /// 0x2001:00, holding register 32775 of 32 bits, number 0x8007 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
+    /// Accessor: [`latched_position`](super::Eco::latched_position).
     ///
     /// The position where the latch input rose; a bit of the status word tells a new one
     ///
@@ -7870,7 +9340,8 @@ pub mod objects {
     );
     /// velocity\_actual\_value.
     ///
-    /// 0x606C:00, holding register 32776 of 32 bits, bytes 20 to 23 of the image to the master, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647, stands for raw × 60 / feed\_constant rpm.
+    /// 0x606C:00, holding register 32776 of 32 bits, bytes 20 to 23 of the image to the master, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647, stands for raw × 60 / [feed\_constant](feed_constant::FEED_CONSTANT) rpm.
+    /// Accessor: [`velocity_actual_value`](super::Eco::velocity_actual_value). Carried by [`ActualVelocity`](super::pdo::ActualVelocity).
     ///
     /// Speed in user units a second
     ///
@@ -7895,7 +9366,8 @@ pub mod objects {
     );
     /// target\_position.
     ///
-    /// 0x607A:00, holding register 32777 of 32 bits, bytes 3 to 6 of the image from the master, number 0x8009 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
+    /// 0x607A:00, holding register 32777 of 32 bits, bytes 3 to 6 of the image from the master, number 0x8009 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
+    /// Accessor: [`target_position`](super::Eco::target_position). Carried by [`Position`](super::pdo::Position).
     ///
     /// Where the positioner goes; the distance, where it is incremental
     ///
@@ -7926,7 +9398,8 @@ pub mod objects {
     );
     /// profile\_acceleration.
     ///
-    /// 0x6083:00, holding register 32778 of 32 bits, bytes 16 to 19 of the image from the master, number 0x800A behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / feed\_constant rev/s².
+    /// 0x6083:00, holding register 32778 of 32 bits, bytes 16 to 19 of the image from the master, number 0x800A behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / [feed\_constant](feed_constant::FEED_CONSTANT) rev/s².
+    /// Accessor: [`profile_acceleration`](super::Eco::profile_acceleration).
     ///
     /// Acceleration in user units a second, each millisecond
     ///
@@ -7952,7 +9425,8 @@ pub mod objects {
     );
     /// profile\_deceleration.
     ///
-    /// 0x6084:00, holding register 32779 of 32 bits, bytes 20 to 23 of the image from the master, number 0x800B behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / feed\_constant rev/s².
+    /// 0x6084:00, holding register 32779 of 32 bits, bytes 20 to 23 of the image from the master, number 0x800B behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / [feed\_constant](feed_constant::FEED_CONSTANT) rev/s².
+    /// Accessor: [`profile_deceleration`](super::Eco::profile_deceleration).
     ///
     /// Deceleration in user units a second, each millisecond
     ///
@@ -7978,7 +9452,8 @@ pub mod objects {
     );
     /// profile\_velocity.
     ///
-    /// 0x6081:00, holding register 32780 of 32 bits, bytes 8 to 11 of the image from the master, number 0x800C behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 60 / feed\_constant rpm.
+    /// 0x6081:00, holding register 32780 of 32 bits, bytes 8 to 11 of the image from the master, number 0x800C behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 60 / [feed\_constant](feed_constant::FEED_CONSTANT) rpm.
+    /// Accessor: [`profile_velocity`](super::Eco::profile_velocity).
     ///
     /// Speed of positioning in user units a second
     ///
@@ -8006,7 +9481,8 @@ pub mod objects {
     );
     /// target\_velocity.
     ///
-    /// 0x60FF:00, holding register 32781 of 32 bits, number 0x800D behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw × 60 / feed\_constant rpm.
+    /// 0x60FF:00, holding register 32781 of 32 bits, number 0x800D behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw × 60 / [feed\_constant](feed_constant::FEED_CONSTANT) rpm.
+    /// Accessor: [`target_velocity`](super::Eco::target_velocity). Carried by [`Velocity`](super::pdo::Velocity).
     ///
     /// Speed wanted in velocity mode
     ///
@@ -8032,6 +9508,7 @@ pub mod objects {
     /// velocity\_window.
     ///
     /// 0x606D:00, holding register 32782 of 32 bits, number 0x800E behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 65535.
+    /// Accessor: [`velocity_window`](super::Eco::velocity_window).
     ///
     /// Largest following error of the speed
     ///
@@ -8059,6 +9536,7 @@ pub mod objects {
     /// velocity\_window\_time.
     ///
     /// 0x606E:00, holding register 32783 of 32 bits, number 0x800F behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 32767.
+    /// Accessor: [`velocity_window_time`](super::Eco::velocity_window_time).
     ///
     /// Time of the speed's window
     ///
@@ -8081,6 +9559,7 @@ pub mod objects {
     /// velocity\_threshold.
     ///
     /// 0x606F:00, holding register 32784 of 32 bits, number 0x8010 behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 65535.
+    /// Accessor: [`velocity_threshold`](super::Eco::velocity_threshold).
     ///
     /// What the speed is compared with
     ///
@@ -8108,6 +9587,7 @@ pub mod objects {
     /// velocity\_threshold\_time.
     ///
     /// 0x6070:00, holding register 32785 of 32 bits, number 0x8011 behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 32767.
+    /// Accessor: [`velocity_threshold_time`](super::Eco::velocity_threshold_time).
     ///
     /// Time of the speed's threshold
     ///
@@ -8130,6 +9610,7 @@ pub mod objects {
     /// homing\_method.
     ///
     /// 0x6098:00, holding register 32786 of 32 bits, number 0x8012 behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 0 to 255.
+    /// Accessor: [`homing_method`](super::Eco::homing_method). Values: [`HomingMethod`](super::types::HomingMethod).
     ///
     /// How the axis looks for its zero
     ///
@@ -8156,7 +9637,8 @@ pub mod objects {
     );
     /// home\_offset.
     ///
-    /// 0x607C:00, holding register 32787 of 32 bits, number 0x8013 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
+    /// 0x607C:00, holding register 32787 of 32 bits, number 0x8013 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
+    /// Accessor: [`home_offset`](super::Eco::home_offset).
     ///
     /// Distance from the home position to zero: -1000 makes the position 1000 (L4265)
     ///
@@ -8181,7 +9663,8 @@ pub mod objects {
     );
     /// homing\_acceleration.
     ///
-    /// 0x609A:00, holding register 32790 of 32 bits, number 0x8016 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / feed\_constant rev/s².
+    /// 0x609A:00, holding register 32790 of 32 bits, number 0x8016 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / [feed\_constant](feed_constant::FEED_CONSTANT) rev/s².
+    /// Accessor: [`homing_acceleration`](super::Eco::homing_acceleration).
     ///
     /// Acceleration and deceleration of homing
     ///
@@ -8207,6 +9690,7 @@ pub mod objects {
     /// velocity\_master\_sensor.
     ///
     /// Holding register 32791 of 32 bits, number 0x8017 behind a window on CANopen, EtherCAT, PROFINET, INTEGER16, ro, range \-32768 to 32767.
+    /// Accessor: [`velocity_master_sensor`](super::Eco::velocity_master_sensor).
     ///
     /// Speed of the master's sensor, by its name
     ///
@@ -8232,6 +9716,7 @@ pub mod objects {
     /// master\_encoder\_increments.
     ///
     /// 0x3000:00, holding register 32792 of 32 bits, number 0x8018 behind a window on PROFINET, UNSIGNED16, rw, range 1 to 32767.
+    /// Accessor: [`master_encoder_increments`](super::Eco::master_encoder_increments).
     ///
     /// Pulses a turn of the master encoder, for the electric axis
     ///
@@ -8257,6 +9742,7 @@ pub mod objects {
     /// gear\_ratio\_numerator.
     ///
     /// 0x3001:00, holding register 32793 of 32 bits, number 0x8019 behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 1 to 32.
+    /// Accessor: [`gear_ratio_numerator`](super::Eco::gear_ratio_numerator).
     ///
     /// Numerator of the ratio to the master, for the electric axis
     ///
@@ -8279,6 +9765,7 @@ pub mod objects {
     /// gear\_ratio\_divisor.
     ///
     /// 0x3002:00, holding register 32794 of 32 bits, number 0x801A behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 1 to 255.
+    /// Accessor: [`gear_ratio_divisor`](super::Eco::gear_ratio_divisor).
     ///
     /// Denominator of the ratio to the master, for the electric axis
     ///
@@ -8301,6 +9788,7 @@ pub mod objects {
     /// motion\_profile\_type.
     ///
     /// 0x6086:00, holding register 32795 of 32 bits, number 0x801B behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
+    /// Accessor: [`motion_profile_type`](super::Eco::motion_profile_type). Values: [`MotionProfile`](super::types::MotionProfile).
     ///
     /// Shape of the ramps
     ///
@@ -8326,6 +9814,7 @@ pub mod objects {
     /// acceleration\_jerk.
     ///
     /// 0x3100:00, holding register 32796 of 32 bits, number 0x801C behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 1 to 99.
+    /// Accessor: [`acceleration_jerk`](super::Eco::acceleration_jerk).
     ///
     /// Jerk while accelerating; not every profile uses it
     ///
@@ -8348,6 +9837,7 @@ pub mod objects {
     /// deceleration\_jerk.
     ///
     /// 0x3101:00, holding register 32797 of 32 bits, number 0x801D behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 1 to 99.
+    /// Accessor: [`deceleration_jerk`](super::Eco::deceleration_jerk).
     ///
     /// Jerk while decelerating; not every profile uses it
     ///
@@ -8370,6 +9860,7 @@ pub mod objects {
     /// aux\_in\_1.
     ///
     /// 0x3201:00, holding register 32798 of 32 bits, number 0x801E behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_1`](super::Eco::aux_in_1).
     ///
     /// For any purpose. While the input Select is high, the target of the positioner, and the speed wanted (L1713, L1740)
     ///
@@ -8394,6 +9885,7 @@ pub mod objects {
     /// aux\_in\_2.
     ///
     /// 0x3202:00, holding register 32799 of 32 bits, number 0x801F behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_2`](super::Eco::aux_in_2).
     ///
     /// For any purpose
     ///
@@ -8416,6 +9908,7 @@ pub mod objects {
     /// aux\_out\_1.
     ///
     /// 0x3301:00, holding register 32800 of 32 bits, number 0x8020 behind a window on PROFINET, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_out_1`](super::Eco::aux_out_1).
     ///
     /// For any purpose
     ///
@@ -8442,6 +9935,7 @@ pub mod objects {
     /// aux\_out\_2.
     ///
     /// 0x3302:00, holding register 32801 of 32 bits, number 0x8021 behind a window on PROFINET, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_out_2`](super::Eco::aux_out_2).
     ///
     /// For any purpose
     ///
@@ -8468,6 +9962,7 @@ pub mod objects {
     /// aux\_in\_3.
     ///
     /// 0x3401:00, holding register 32802 of 32 bits, number 0x8022 behind a window on PROFINET, INTEGER16, rw, mappable into any PDO.
+    /// Accessor: [`aux_in_3`](super::Eco::aux_in_3).
     ///
     /// For any purpose
     ///
@@ -8492,6 +9987,7 @@ pub mod objects {
     /// torque\_max.
     ///
     /// 0x3402:00, holding register 32803 of 32 bits, number 0x8023 behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
+    /// Accessor: [`torque_max`](super::Eco::torque_max).
     ///
     /// Largest torque; as an object, an input for any purpose
     ///
@@ -8516,6 +10012,7 @@ pub mod objects {
     /// aux16\_out\_3.
     ///
     /// 0x3501:00, holding register 32804 of 32 bits, number 0x8024 behind a window on PROFINET, INTEGER16, ro, mappable into TPDOs, range \-32768 to 32767.
+    /// Accessor: [`aux16_out_3`](super::Eco::aux16_out_3).
     ///
     /// For any purpose
     ///
@@ -8542,6 +10039,7 @@ pub mod objects {
     /// aux16\_out\_4.
     ///
     /// 0x3502:00, holding register 32805 of 32 bits, number 0x8025 behind a window on PROFINET, INTEGER16, ro, mappable into TPDOs, range \-32768 to 32767.
+    /// Accessor: [`aux16_out_4`](super::Eco::aux16_out_4).
     ///
     /// For any purpose
     ///
@@ -8566,6 +10064,7 @@ pub mod objects {
     /// aux\_in\_5.
     ///
     /// 0x3601:00, holding register 32806 of 32 bits, number 0x8026 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_5`](super::Eco::aux_in_5).
     ///
     /// For any purpose
     ///
@@ -8588,6 +10087,7 @@ pub mod objects {
     /// aux\_in\_6.
     ///
     /// 0x3602:00, holding register 32807 of 32 bits, number 0x8027 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_6`](super::Eco::aux_in_6).
     ///
     /// For any purpose
     ///
@@ -8610,6 +10110,7 @@ pub mod objects {
     /// aux\_in\_7.
     ///
     /// 0x3603:00, holding register 32808 of 32 bits, number 0x8028 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_7`](super::Eco::aux_in_7).
     ///
     /// For any purpose
     ///
@@ -8632,6 +10133,7 @@ pub mod objects {
     /// aux\_in\_8.
     ///
     /// 0x3604:00, holding register 32809 of 32 bits, number 0x8029 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_8`](super::Eco::aux_in_8).
     ///
     /// For any purpose
     ///
@@ -8654,6 +10156,7 @@ pub mod objects {
     /// aux16\_in\_9.
     ///
     /// 0x3701:00, holding register 32810 of 32 bits, number 0x802A behind a window on PROFINET, INTEGER16, rw, mappable into any PDO.
+    /// Accessor: [`aux16_in_9`](super::Eco::aux16_in_9).
     ///
     /// For any purpose
     ///
@@ -8678,6 +10181,7 @@ pub mod objects {
     /// aux16\_in\_10.
     ///
     /// 0x3702:00, holding register 32811 of 32 bits, number 0x802B behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
+    /// Accessor: [`aux16_in_10`](super::Eco::aux16_in_10).
     ///
     /// For any purpose
     ///
@@ -8702,6 +10206,7 @@ pub mod objects {
     /// aux16\_in\_11.
     ///
     /// 0x3703:00, holding register 32812 of 32 bits, number 0x802C behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
+    /// Accessor: [`aux16_in_11`](super::Eco::aux16_in_11).
     ///
     /// For any purpose
     ///
@@ -8726,6 +10231,7 @@ pub mod objects {
     /// aux16\_in\_12.
     ///
     /// 0x3704:00, holding register 32813 of 32 bits, number 0x802D behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
+    /// Accessor: [`aux16_in_12`](super::Eco::aux16_in_12).
     ///
     /// For any purpose
     ///
@@ -8748,6 +10254,7 @@ pub mod objects {
     /// alarm\_code.
     ///
     /// Holding register 32814 of 32 bits, byte 7 of the image to the master, number 0x802E behind a window on CANopen, EtherCAT, UNSIGNED8, ro, range 0 to 255.
+    /// Accessor: [`alarm_code`](super::Eco::alarm_code).
     ///
     /// The alarm that there is; \`general\_alarms\` has the codes, and EtherCAT and PROFINET have further ones. EtherCAT shows another code in 0x603F
     ///
@@ -8769,6 +10276,7 @@ pub mod objects {
     /// digital\_inputs.
     ///
     /// 0x60FD:00, holding register 32816 of 32 bits, number 0x8030 behind a window on PROFINET, UNSIGNED32, ro, mappable into TPDOs, range 0 to 4294967295.
+    /// Accessor: [`digital_inputs`](super::Eco::digital_inputs). Values: [`DigitalInputs`](super::types::DigitalInputs).
     ///
     /// Levels of the inputs of connector CN2
     ///
@@ -8801,6 +10309,7 @@ pub mod objects {
     /// aux\_in\_13.
     ///
     /// Holding register 32819 of 32 bits, number 0x8033 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_13`](super::Eco::aux_in_13).
     ///
     /// By its name, an input as the others
     ///
@@ -8818,6 +10327,7 @@ pub mod objects {
     /// aux\_in\_14.
     ///
     /// Holding register 32820 of 32 bits, number 0x8034 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_14`](super::Eco::aux_in_14).
     ///
     /// By its name, an input as the others
     ///
@@ -8835,6 +10345,7 @@ pub mod objects {
     /// aux\_in\_15.
     ///
     /// Holding register 32821 of 32 bits, number 0x8035 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_15`](super::Eco::aux_in_15).
     ///
     /// By its name, an input as the others
     ///
@@ -8852,6 +10363,7 @@ pub mod objects {
     /// aux\_in\_16.
     ///
     /// Holding register 32822 of 32 bits, number 0x8036 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_16`](super::Eco::aux_in_16).
     ///
     /// By its name, an input as the others
     ///
@@ -8869,6 +10381,7 @@ pub mod objects {
     /// aux\_in\_17.
     ///
     /// Holding register 32823 of 32 bits, number 0x8037 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_17`](super::Eco::aux_in_17).
     ///
     /// By its name, an input as the others
     ///
@@ -8886,6 +10399,7 @@ pub mod objects {
     /// aux\_in\_18.
     ///
     /// Holding register 32824 of 32 bits, number 0x8038 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_18`](super::Eco::aux_in_18).
     ///
     /// By its name, an input as the others
     ///
@@ -8903,6 +10417,7 @@ pub mod objects {
     /// aux\_in\_19.
     ///
     /// Holding register 32825 of 32 bits, number 0x8039 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_19`](super::Eco::aux_in_19).
     ///
     /// By its name, an input as the others
     ///
@@ -8920,6 +10435,7 @@ pub mod objects {
     /// aux\_in\_20.
     ///
     /// Holding register 32826 of 32 bits, number 0x803A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_20`](super::Eco::aux_in_20).
     ///
     /// By its name, an input as the others
     ///
@@ -8937,6 +10453,7 @@ pub mod objects {
     /// aux\_in\_21.
     ///
     /// Holding register 32827 of 32 bits, number 0x803B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_21`](super::Eco::aux_in_21).
     ///
     /// By its name, an input as the others
     ///
@@ -8954,6 +10471,7 @@ pub mod objects {
     /// aux\_in\_22.
     ///
     /// Holding register 32828 of 32 bits, number 0x803C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`aux_in_22`](super::Eco::aux_in_22).
     ///
     /// By its name, an input as the others
     ///
@@ -8970,7 +10488,8 @@ pub mod objects {
     );
     /// target\_window.
     ///
-    /// Holding register 32829 of 32 bits, number 0x803D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647, stands for raw / feed\_constant rev.
+    /// Holding register 32829 of 32 bits, number 0x803D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
+    /// Accessor: [`target_window`](super::Eco::target_window).
     ///
     /// How near to its target the axis has to be for the output Target, which drives have from 2.40 on, in positioning. That the unit is the user's isn't said of it
     ///
@@ -8993,6 +10512,7 @@ pub mod objects {
     /// abs\_enc\_control.
     ///
     /// Holding register 32830 of 32 bits, number 0x803E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`abs_enc_control`](super::Eco::abs_enc_control).
     ///
     /// Controls the absolute encoder, by its name; no more is printed
     ///
@@ -9013,6 +10533,7 @@ pub mod objects {
     /// abs\_enc\_status.
     ///
     /// Holding register 32831 of 32 bits, number 0x803F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, ro, range \-2147483648 to 2147483647.
+    /// Accessor: [`abs_enc_status`](super::Eco::abs_enc_status).
     ///
     /// Status of the absolute encoder, by its name; no more is printed
     ///
@@ -9035,6 +10556,7 @@ pub mod objects {
     /// num\_ext\_enc.
     ///
     /// Holding register 32832 of 32 bits, number 0x8040 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`num_ext_enc`](super::Eco::num_ext_enc).
     ///
     /// Numerator for the external encoder, by its name; no more is printed
     ///
@@ -9055,6 +10577,7 @@ pub mod objects {
     /// den\_ext\_enc.
     ///
     /// Holding register 32833 of 32 bits, number 0x8041 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`den_ext_enc`](super::Eco::den_ext_enc).
     ///
     /// Denominator for the external encoder, by its name; no more is printed
     ///
@@ -9075,6 +10598,7 @@ pub mod objects {
     /// mechatronic\_66.
     ///
     /// Holding register 32834 of 32 bits, number 0x8042 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_66`](super::Eco::mechatronic_66).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9095,6 +10619,7 @@ pub mod objects {
     /// mechatronic\_67.
     ///
     /// Holding register 32835 of 32 bits, number 0x8043 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_67`](super::Eco::mechatronic_67).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9115,6 +10640,7 @@ pub mod objects {
     /// mechatronic\_68.
     ///
     /// Holding register 32836 of 32 bits, number 0x8044 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_68`](super::Eco::mechatronic_68).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9135,6 +10661,7 @@ pub mod objects {
     /// mechatronic\_69.
     ///
     /// Holding register 32837 of 32 bits, number 0x8045 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_69`](super::Eco::mechatronic_69).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9155,6 +10682,7 @@ pub mod objects {
     /// mechatronic\_70.
     ///
     /// Holding register 32838 of 32 bits, number 0x8046 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_70`](super::Eco::mechatronic_70).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9175,6 +10703,7 @@ pub mod objects {
     /// mechatronic\_71.
     ///
     /// Holding register 32839 of 32 bits, number 0x8047 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_71`](super::Eco::mechatronic_71).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9195,6 +10724,7 @@ pub mod objects {
     /// mechatronic\_72.
     ///
     /// Holding register 32840 of 32 bits, number 0x8048 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_72`](super::Eco::mechatronic_72).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9215,6 +10745,7 @@ pub mod objects {
     /// velocity\_rpm.
     ///
     /// Holding register 32841 of 32 bits, number 0x8049 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, ro, range \-2147483648 to 2147483647, in rpm.
+    /// Accessor: [`velocity_rpm`](super::Eco::velocity_rpm).
     ///
     /// Speed in rpm
     ///
@@ -9237,6 +10768,7 @@ pub mod objects {
     /// mechatronic\_74.
     ///
     /// Holding register 32842 of 32 bits, number 0x804A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_74`](super::Eco::mechatronic_74).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9257,6 +10789,7 @@ pub mod objects {
     /// mechatronic\_75.
     ///
     /// Holding register 32843 of 32 bits, number 0x804B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_75`](super::Eco::mechatronic_75).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9277,6 +10810,7 @@ pub mod objects {
     /// mechatronic\_76.
     ///
     /// Holding register 32844 of 32 bits, number 0x804C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_76`](super::Eco::mechatronic_76).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9297,6 +10831,7 @@ pub mod objects {
     /// mechatronic\_77.
     ///
     /// Holding register 32845 of 32 bits, number 0x804D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_77`](super::Eco::mechatronic_77).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9317,6 +10852,7 @@ pub mod objects {
     /// mechatronic\_78.
     ///
     /// Holding register 32846 of 32 bits, number 0x804E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_78`](super::Eco::mechatronic_78).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9337,6 +10873,7 @@ pub mod objects {
     /// mechatronic\_79.
     ///
     /// Holding register 32847 of 32 bits, number 0x804F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_79`](super::Eco::mechatronic_79).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9357,6 +10894,7 @@ pub mod objects {
     /// mechatronic\_80.
     ///
     /// Holding register 32848 of 32 bits, number 0x8050 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_80`](super::Eco::mechatronic_80).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9377,6 +10915,7 @@ pub mod objects {
     /// mechatronic\_81.
     ///
     /// Holding register 32849 of 32 bits, number 0x8051 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_81`](super::Eco::mechatronic_81).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9397,6 +10936,7 @@ pub mod objects {
     /// mechatronic\_82.
     ///
     /// Holding register 32850 of 32 bits, number 0x8052 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_82`](super::Eco::mechatronic_82).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9417,6 +10957,7 @@ pub mod objects {
     /// mechatronic\_83.
     ///
     /// Holding register 32851 of 32 bits, number 0x8053 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_83`](super::Eco::mechatronic_83).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9437,6 +10978,7 @@ pub mod objects {
     /// mechatronic\_84.
     ///
     /// Holding register 32852 of 32 bits, number 0x8054 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_84`](super::Eco::mechatronic_84).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9457,6 +10999,7 @@ pub mod objects {
     /// mechatronic\_85.
     ///
     /// Holding register 32853 of 32 bits, number 0x8055 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_85`](super::Eco::mechatronic_85).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9477,6 +11020,7 @@ pub mod objects {
     /// mechatronic\_86.
     ///
     /// Holding register 32854 of 32 bits, number 0x8056 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_86`](super::Eco::mechatronic_86).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9497,6 +11041,7 @@ pub mod objects {
     /// mechatronic\_87.
     ///
     /// Holding register 32855 of 32 bits, number 0x8057 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_87`](super::Eco::mechatronic_87).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9517,6 +11062,7 @@ pub mod objects {
     /// mechatronic\_88.
     ///
     /// Holding register 32856 of 32 bits, number 0x8058 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_88`](super::Eco::mechatronic_88).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9537,6 +11083,7 @@ pub mod objects {
     /// mechatronic\_89.
     ///
     /// Holding register 32857 of 32 bits, number 0x8059 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_89`](super::Eco::mechatronic_89).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9557,6 +11104,7 @@ pub mod objects {
     /// mechatronic\_90.
     ///
     /// Holding register 32858 of 32 bits, number 0x805A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_90`](super::Eco::mechatronic_90).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9577,6 +11125,7 @@ pub mod objects {
     /// mechatronic\_91.
     ///
     /// Holding register 32859 of 32 bits, number 0x805B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_91`](super::Eco::mechatronic_91).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9597,6 +11146,7 @@ pub mod objects {
     /// mechatronic\_92.
     ///
     /// Holding register 32860 of 32 bits, number 0x805C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_92`](super::Eco::mechatronic_92).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9617,6 +11167,7 @@ pub mod objects {
     /// mechatronic\_93.
     ///
     /// Holding register 32861 of 32 bits, number 0x805D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_93`](super::Eco::mechatronic_93).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9637,6 +11188,7 @@ pub mod objects {
     /// mechatronic\_94.
     ///
     /// Holding register 32862 of 32 bits, number 0x805E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_94`](super::Eco::mechatronic_94).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9657,6 +11209,7 @@ pub mod objects {
     /// mechatronic\_95.
     ///
     /// Holding register 32863 of 32 bits, number 0x805F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_95`](super::Eco::mechatronic_95).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9677,6 +11230,7 @@ pub mod objects {
     /// mechatronic\_96.
     ///
     /// Holding register 32864 of 32 bits, number 0x8060 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_96`](super::Eco::mechatronic_96).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9697,6 +11251,7 @@ pub mod objects {
     /// mechatronic\_97.
     ///
     /// Holding register 32865 of 32 bits, number 0x8061 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_97`](super::Eco::mechatronic_97).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9717,6 +11272,7 @@ pub mod objects {
     /// mechatronic\_98.
     ///
     /// Holding register 32866 of 32 bits, number 0x8062 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_98`](super::Eco::mechatronic_98).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9737,6 +11293,7 @@ pub mod objects {
     /// mechatronic\_99.
     ///
     /// Holding register 32867 of 32 bits, number 0x8063 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_99`](super::Eco::mechatronic_99).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9757,6 +11314,7 @@ pub mod objects {
     /// mechatronic\_100.
     ///
     /// Holding register 32868 of 32 bits, number 0x8064 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_100`](super::Eco::mechatronic_100).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9777,6 +11335,7 @@ pub mod objects {
     /// mechatronic\_101.
     ///
     /// Holding register 32869 of 32 bits, number 0x8065 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_101`](super::Eco::mechatronic_101).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9797,6 +11356,7 @@ pub mod objects {
     /// mechatronic\_102.
     ///
     /// Holding register 32870 of 32 bits, number 0x8066 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_102`](super::Eco::mechatronic_102).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9817,6 +11377,7 @@ pub mod objects {
     /// mechatronic\_103.
     ///
     /// Holding register 32871 of 32 bits, number 0x8067 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_103`](super::Eco::mechatronic_103).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9837,6 +11398,7 @@ pub mod objects {
     /// mechatronic\_104.
     ///
     /// Holding register 32872 of 32 bits, number 0x8068 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_104`](super::Eco::mechatronic_104).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9857,6 +11419,7 @@ pub mod objects {
     /// mechatronic\_105.
     ///
     /// Holding register 32873 of 32 bits, number 0x8069 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_105`](super::Eco::mechatronic_105).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9877,6 +11440,7 @@ pub mod objects {
     /// mechatronic\_106.
     ///
     /// Holding register 32874 of 32 bits, number 0x806A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_106`](super::Eco::mechatronic_106).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9897,6 +11461,7 @@ pub mod objects {
     /// mechatronic\_107.
     ///
     /// Holding register 32875 of 32 bits, number 0x806B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_107`](super::Eco::mechatronic_107).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9917,6 +11482,7 @@ pub mod objects {
     /// mechatronic\_108.
     ///
     /// Holding register 32876 of 32 bits, number 0x806C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_108`](super::Eco::mechatronic_108).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9937,6 +11503,7 @@ pub mod objects {
     /// mechatronic\_109.
     ///
     /// Holding register 32877 of 32 bits, number 0x806D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_109`](super::Eco::mechatronic_109).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9957,6 +11524,7 @@ pub mod objects {
     /// mechatronic\_110.
     ///
     /// Holding register 32878 of 32 bits, number 0x806E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_110`](super::Eco::mechatronic_110).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9977,6 +11545,7 @@ pub mod objects {
     /// mechatronic\_111.
     ///
     /// Holding register 32879 of 32 bits, number 0x806F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_111`](super::Eco::mechatronic_111).
     ///
     /// Of the functions for mechatronics
     ///
@@ -9997,6 +11566,7 @@ pub mod objects {
     /// mechatronic\_112.
     ///
     /// Holding register 32880 of 32 bits, number 0x8070 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_112`](super::Eco::mechatronic_112).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10017,6 +11587,7 @@ pub mod objects {
     /// mechatronic\_113.
     ///
     /// Holding register 32881 of 32 bits, number 0x8071 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_113`](super::Eco::mechatronic_113).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10037,6 +11608,7 @@ pub mod objects {
     /// mechatronic\_114.
     ///
     /// Holding register 32882 of 32 bits, number 0x8072 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_114`](super::Eco::mechatronic_114).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10057,6 +11629,7 @@ pub mod objects {
     /// mechatronic\_115.
     ///
     /// Holding register 32883 of 32 bits, number 0x8073 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_115`](super::Eco::mechatronic_115).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10077,6 +11650,7 @@ pub mod objects {
     /// mechatronic\_116.
     ///
     /// Holding register 32884 of 32 bits, number 0x8074 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_116`](super::Eco::mechatronic_116).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10097,6 +11671,7 @@ pub mod objects {
     /// mechatronic\_117.
     ///
     /// Holding register 32885 of 32 bits, number 0x8075 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_117`](super::Eco::mechatronic_117).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10117,6 +11692,7 @@ pub mod objects {
     /// mechatronic\_118.
     ///
     /// Holding register 32886 of 32 bits, number 0x8076 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_118`](super::Eco::mechatronic_118).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10137,6 +11713,7 @@ pub mod objects {
     /// mechatronic\_119.
     ///
     /// Holding register 32887 of 32 bits, number 0x8077 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_119`](super::Eco::mechatronic_119).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10157,6 +11734,7 @@ pub mod objects {
     /// mechatronic\_120.
     ///
     /// Holding register 32888 of 32 bits, number 0x8078 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_120`](super::Eco::mechatronic_120).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10177,6 +11755,7 @@ pub mod objects {
     /// mechatronic\_121.
     ///
     /// Holding register 32889 of 32 bits, number 0x8079 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_121`](super::Eco::mechatronic_121).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10197,6 +11776,7 @@ pub mod objects {
     /// mechatronic\_122.
     ///
     /// Holding register 32890 of 32 bits, number 0x807A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_122`](super::Eco::mechatronic_122).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10217,6 +11797,7 @@ pub mod objects {
     /// mechatronic\_123.
     ///
     /// Holding register 32891 of 32 bits, number 0x807B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_123`](super::Eco::mechatronic_123).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10237,6 +11818,7 @@ pub mod objects {
     /// mechatronic\_124.
     ///
     /// Holding register 32892 of 32 bits, number 0x807C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_124`](super::Eco::mechatronic_124).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10257,6 +11839,7 @@ pub mod objects {
     /// mechatronic\_125.
     ///
     /// Holding register 32893 of 32 bits, number 0x807D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_125`](super::Eco::mechatronic_125).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10277,6 +11860,7 @@ pub mod objects {
     /// mechatronic\_126.
     ///
     /// Holding register 32894 of 32 bits, number 0x807E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_126`](super::Eco::mechatronic_126).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10297,6 +11881,7 @@ pub mod objects {
     /// mechatronic\_127.
     ///
     /// Holding register 32895 of 32 bits, number 0x807F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_127`](super::Eco::mechatronic_127).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10317,6 +11902,7 @@ pub mod objects {
     /// mechatronic\_128.
     ///
     /// Holding register 32896 of 32 bits, number 0x8080 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_128`](super::Eco::mechatronic_128).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10337,6 +11923,7 @@ pub mod objects {
     /// mechatronic\_129.
     ///
     /// Holding register 32897 of 32 bits, number 0x8081 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_129`](super::Eco::mechatronic_129).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10357,6 +11944,7 @@ pub mod objects {
     /// mechatronic\_130.
     ///
     /// Holding register 32898 of 32 bits, number 0x8082 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_130`](super::Eco::mechatronic_130).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10377,6 +11965,7 @@ pub mod objects {
     /// mechatronic\_131.
     ///
     /// Holding register 32899 of 32 bits, number 0x8083 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_131`](super::Eco::mechatronic_131).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10397,6 +11986,7 @@ pub mod objects {
     /// mechatronic\_132.
     ///
     /// Holding register 32900 of 32 bits, number 0x8084 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_132`](super::Eco::mechatronic_132).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10417,6 +12007,7 @@ pub mod objects {
     /// mechatronic\_133.
     ///
     /// Holding register 32901 of 32 bits, number 0x8085 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
+    /// Accessor: [`mechatronic_133`](super::Eco::mechatronic_133).
     ///
     /// Of the functions for mechatronics
     ///
@@ -10437,6 +12028,7 @@ pub mod objects {
     /// d1.
     ///
     /// Holding register 1, number 0x0001 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`d1`](super::Eco::d1).
     ///
     /// Proportional gain of the velocity loop
     ///
@@ -10456,6 +12048,7 @@ pub mod objects {
     /// d2.
     ///
     /// Holding register 2, number 0x0002 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`d2`](super::Eco::d2).
     ///
     /// Integral gain of the velocity loop
     ///
@@ -10473,6 +12066,7 @@ pub mod objects {
     /// d3.
     ///
     /// Holding register 3, number 0x0003 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`d3`](super::Eco::d3).
     ///
     /// Greatest speed of the motor
     ///
@@ -10490,6 +12084,7 @@ pub mod objects {
     /// d4.
     ///
     /// Holding register 4, number 0x0004 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`d4`](super::Eco::d4).
     ///
     /// Adjusts the offset of the speed
     ///
@@ -10507,6 +12102,7 @@ pub mod objects {
     /// d5.
     ///
     /// Holding register 5, number 0x0005 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`d5`](super::Eco::d5).
     ///
     /// Greatest current of the motor
     ///
@@ -10524,6 +12120,7 @@ pub mod objects {
     /// d6.
     ///
     /// Holding register 6, number 0x0006 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`d6`](super::Eco::d6).
     ///
     /// Ratio of peak to rated current
     ///
@@ -10541,6 +12138,7 @@ pub mod objects {
     /// d7.
     ///
     /// Holding register 7, number 0x0007 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`d7`](super::Eco::d7).
     ///
     /// Sets the I²t function
     ///
@@ -10558,6 +12156,7 @@ pub mod objects {
     /// d8.
     ///
     /// Holding register 8, number 0x0008 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`d8`](super::Eco::d8).
     ///
     /// The motor: has to be chosen for the drive to work
     ///
@@ -10575,6 +12174,7 @@ pub mod objects {
     /// E1.
     ///
     /// Holding register 9, number 0x0009 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`e1`](super::Eco::e1).
     ///
     /// Greatest rated speed
     ///
@@ -10592,6 +12192,7 @@ pub mod objects {
     /// E2.
     ///
     /// Holding register 10, number 0x000A behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`e2`](super::Eco::e2).
     ///
     /// Filter of the reference input
     ///
@@ -10609,6 +12210,7 @@ pub mod objects {
     /// E3.
     ///
     /// Holding register 58, number 0x003A behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`e3`](super::Eco::e3). Values: [`Exceptions`](super::types::Exceptions).
     ///
     /// Exceptions from how the drive works otherwise
     ///
@@ -10631,6 +12233,7 @@ pub mod objects {
     /// E4.
     ///
     /// Holding register 55, number 0x0037 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`e4`](super::Eco::e4).
     ///
     /// Reserved
     ///
@@ -10650,6 +12253,7 @@ pub mod objects {
     /// F1.
     ///
     /// Holding register 11, number 0x000B behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`f1`](super::Eco::f1).
     ///
     /// Steepest acceleration
     ///
@@ -10667,6 +12271,7 @@ pub mod objects {
     /// F2.
     ///
     /// Holding register 12, number 0x000C behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`f2`](super::Eco::f2).
     ///
     /// Steepest deceleration
     ///
@@ -10684,6 +12289,7 @@ pub mod objects {
     /// F3.
     ///
     /// Holding register 13, number 0x000D behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`f3`](super::Eco::f3).
     ///
     /// Ramp of an emergency stop
     ///
@@ -10701,6 +12307,7 @@ pub mod objects {
     /// c1.
     ///
     /// Holding register 14, number 0x000E behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`c1`](super::Eco::c1).
     ///
     /// Pulses of the output RTE
     ///
@@ -10718,6 +12325,7 @@ pub mod objects {
     /// c2.
     ///
     /// Holding register 15, number 0x000F behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`c2`](super::Eco::c2).
     ///
     /// Direction in which the motor turns
     ///
@@ -10735,6 +12343,7 @@ pub mod objects {
     /// c3.
     ///
     /// Holding register 16, number 0x0010 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`c3`](super::Eco::c3).
     ///
     /// Control of speed or of torque
     ///
@@ -10752,6 +12361,7 @@ pub mod objects {
     /// c4.
     ///
     /// Holding register 17, number 0x0011 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`c4`](super::Eco::c4).
     ///
     /// Pole pairs of the resolver
     ///
@@ -10769,6 +12379,7 @@ pub mod objects {
     /// c5.
     ///
     /// Holding register 18, number 0x0012 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`c5`](super::Eco::c5).
     ///
     /// Pulses a turn of the encoder
     ///
@@ -10786,6 +12397,7 @@ pub mod objects {
     /// c6.
     ///
     /// Holding register 19, number 0x0013 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`c6`](super::Eco::c6).
     ///
     /// Kind of sensor
     ///
@@ -10803,6 +12415,7 @@ pub mod objects {
     /// c7.
     ///
     /// Holding register 20, number 0x0014 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, default 1, range 1 to 99.
+    /// Accessor: [`c7`](super::Eco::c7).
     ///
     /// Number of the node: on Modbus 1 to 90, on CANopen 1 to 99; EtherCAT doesn't need it, and PROFINET has IP addresses
     ///
@@ -10839,6 +12452,7 @@ pub mod objects {
     /// c8.
     ///
     /// Holding register 21, number 0x0015 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, default 6.
+    /// Accessor: [`c8`](super::Eco::c8). Values: [`MiniInputs`](super::types::MiniInputs).
     ///
     /// What the three inputs of the miniECO do; \`mini\_inputs\` has pins and functions
     ///
@@ -10861,6 +12475,7 @@ pub mod objects {
     /// c9.
     ///
     /// Holding register 22, number 0x0016 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`c9`](super::Eco::c9). Values: [`Network`](super::types::Network).
     ///
     /// How the drive works; some values choose a bus
     ///
@@ -10883,6 +12498,7 @@ pub mod objects {
     /// I1.
     ///
     /// Holding register 35, number 0x0023 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`i1`](super::Eco::i1).
     ///
     /// Proportional gain of the position loop
     ///
@@ -10900,6 +12516,7 @@ pub mod objects {
     /// I2.
     ///
     /// Holding register 36, number 0x0024 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`i2`](super::Eco::i2).
     ///
     /// Integral gain of the position loop
     ///
@@ -10917,6 +12534,7 @@ pub mod objects {
     /// I3.
     ///
     /// Holding register 37, number 0x0025 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`i3`](super::Eco::i3).
     ///
     /// Derivative gain of the position loop
     ///
@@ -10934,6 +12552,7 @@ pub mod objects {
     /// I4.
     ///
     /// Holding register 38, number 0x0026 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`i4`](super::Eco::i4).
     ///
     /// Compensation of inertia
     ///
@@ -10951,6 +12570,7 @@ pub mod objects {
     /// I5.
     ///
     /// Holding register 39, number 0x0027 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in 0.01 s.
+    /// Accessor: [`i5`](super::Eco::i5).
     ///
     /// How long the position may be wrong
     ///
@@ -10971,6 +12591,7 @@ pub mod objects {
     /// I6.
     ///
     /// Holding register 90, number 0x005A behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`i6`](super::Eco::i6).
     ///
     /// How an external encoder is used
     ///
@@ -10988,6 +12609,7 @@ pub mod objects {
     /// I7.
     ///
     /// Holding register 99, number 0x0063 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`i7`](super::Eco::i7).
     ///
     /// Reserved
     ///
@@ -11007,6 +12629,7 @@ pub mod objects {
     /// O1.
     ///
     /// Holding register 81, number 0x0051 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, ro.
+    /// Accessor: [`o1`](super::Eco::o1).
     ///
     /// Current at this moment. That it can only be read isn't said of it
     ///
@@ -11024,6 +12647,7 @@ pub mod objects {
     /// O2.
     ///
     /// Holding register 82, number 0x0052 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, ro.
+    /// Accessor: [`o2`](super::Eco::o2).
     ///
     /// Effective current. That it can only be read isn't said of it
     ///
@@ -11041,6 +12665,7 @@ pub mod objects {
     /// O3.
     ///
     /// Holding register 83, number 0x0053 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, ro, in %.
+    /// Accessor: [`o3`](super::Eco::o3).
     ///
     /// Overload, of I²t. That it can only be read isn't said of it
     ///
@@ -11058,6 +12683,7 @@ pub mod objects {
     /// P1.
     ///
     /// Holding register 41, number 0x0029 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`p1`](super::Eco::p1). Part of [`PULSES_PER_TURN`](super::PULSES_PER_TURN).
     ///
     /// Pulses a turn of the motor, hundreds: P1   100 + P2
     ///
@@ -11077,6 +12703,7 @@ pub mod objects {
     /// P2.
     ///
     /// Holding register 42, number 0x002A behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`p2`](super::Eco::p2). Part of [`PULSES_PER_TURN`](super::PULSES_PER_TURN).
     ///
     /// Pulses a turn of the motor, units: P1   100 + P2
     ///
@@ -11096,6 +12723,7 @@ pub mod objects {
     /// P3.
     ///
     /// Holding register 43, number 0x002B behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in 100 °.
+    /// Accessor: [`p3`](super::Eco::p3). Part of [`MAX_FOLLOWING_ERROR_P`](super::MAX_FOLLOWING_ERROR_P).
     ///
     /// Largest following error, hundreds: P3   100 + P4
     ///
@@ -11116,6 +12744,7 @@ pub mod objects {
     /// P4.
     ///
     /// Holding register 44, number 0x002C behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in °.
+    /// Accessor: [`p4`](super::Eco::p4). Part of [`MAX_FOLLOWING_ERROR_P`](super::MAX_FOLLOWING_ERROR_P).
     ///
     /// Largest following error, units: P3   100 + P4
     ///
@@ -11133,6 +12762,7 @@ pub mod objects {
     /// P5.
     ///
     /// Holding register 45, number 0x002D behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in ms/100rpm.
+    /// Accessor: [`p5`](super::Eco::p5).
     ///
     /// Acceleration
     ///
@@ -11150,6 +12780,7 @@ pub mod objects {
     /// P6.
     ///
     /// Holding register 46, number 0x002E behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in ms/100rpm.
+    /// Accessor: [`p6`](super::Eco::p6).
     ///
     /// Deceleration
     ///
@@ -11167,6 +12798,7 @@ pub mod objects {
     /// P7.
     ///
     /// Holding register 47, number 0x002F behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in 100 rpm.
+    /// Accessor: [`p7`](super::Eco::p7).
     ///
     /// Greatest speed
     ///
@@ -11187,6 +12819,7 @@ pub mod objects {
     /// A1.
     ///
     /// Holding register 48, number 0x0030 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`a1`](super::Eco::a1). Part of [`MASTER_ENCODER_MARKS`](super::MASTER_ENCODER_MARKS).
     ///
     /// Marks of the master encoder, hundreds: A1   100 + A2
     ///
@@ -11204,6 +12837,7 @@ pub mod objects {
     /// A2.
     ///
     /// Holding register 49, number 0x0031 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`a2`](super::Eco::a2). Part of [`MASTER_ENCODER_MARKS`](super::MASTER_ENCODER_MARKS).
     ///
     /// Marks of the master encoder, units: A1   100 + A2
     ///
@@ -11221,6 +12855,7 @@ pub mod objects {
     /// A3.
     ///
     /// Holding register 50, number 0x0032 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`a3`](super::Eco::a3).
     ///
     /// Numerator of the ratio
     ///
@@ -11238,6 +12873,7 @@ pub mod objects {
     /// A4.
     ///
     /// Holding register 51, number 0x0033 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`a4`](super::Eco::a4).
     ///
     /// Denominator of the ratio
     ///
@@ -11255,6 +12891,7 @@ pub mod objects {
     /// A5.
     ///
     /// Holding register 52, number 0x0034 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in 100 °.
+    /// Accessor: [`a5`](super::Eco::a5). Part of [`MAX_FOLLOWING_ERROR_A`](super::MAX_FOLLOWING_ERROR_A).
     ///
     /// Largest following error, hundreds: A5   100 + A6
     ///
@@ -11275,6 +12912,7 @@ pub mod objects {
     /// A6.
     ///
     /// Holding register 53, number 0x0035 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in °.
+    /// Accessor: [`a6`](super::Eco::a6). Part of [`MAX_FOLLOWING_ERROR_A`](super::MAX_FOLLOWING_ERROR_A).
     ///
     /// Largest following error, units: A5   100 + A6
     ///
@@ -11292,6 +12930,7 @@ pub mod objects {
     /// H1.
     ///
     /// Holding register 59, number 0x003B behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`h1`](super::Eco::h1).
     ///
     /// How the axis looks for its zero
     ///
@@ -11309,6 +12948,7 @@ pub mod objects {
     /// H2.
     ///
     /// Holding register 60, number 0x003C behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
+    /// Accessor: [`h2`](super::Eco::h2).
     ///
     /// Speed towards the switch, of the rated speed
     ///
@@ -11326,6 +12966,7 @@ pub mod objects {
     /// H3.
     ///
     /// Holding register 61, number 0x003D behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99 (0.1 to 9.9 %), in 0.1 %.
+    /// Accessor: [`h3`](super::Eco::h3).
     ///
     /// Speed towards the marker, of the rated speed
     ///
@@ -11348,6 +12989,7 @@ pub mod objects {
     /// H4.
     ///
     /// Holding register 62, number 0x003E behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in ms/100rpm.
+    /// Accessor: [`h4`](super::Eco::h4).
     ///
     /// Acceleration and deceleration of homing
     ///
@@ -11365,6 +13007,7 @@ pub mod objects {
     /// H5.
     ///
     /// Holding register 63, number 0x003F behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`h5`](super::Eco::h5). Part of [`SPACE_OFFSET`](super::SPACE_OFFSET).
     ///
     /// Sign of the offset whose amount is H6   10000 + H7   100 + H8
     ///
@@ -11382,6 +13025,7 @@ pub mod objects {
     /// H6.
     ///
     /// Holding register 64, number 0x0040 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`h6`](super::Eco::h6). Part of [`SPACE_OFFSET`](super::SPACE_OFFSET).
     ///
     /// Offset in pulses of the master encoder, ten thousands; its sign is H5
     ///
@@ -11399,6 +13043,7 @@ pub mod objects {
     /// H7.
     ///
     /// Holding register 65, number 0x0041 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`h7`](super::Eco::h7). Part of [`SPACE_OFFSET`](super::SPACE_OFFSET).
     ///
     /// Offset in pulses of the master encoder, hundreds; its sign is H5
     ///
@@ -11416,6 +13061,7 @@ pub mod objects {
     /// H8.
     ///
     /// Holding register 66, number 0x0042 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`h8`](super::Eco::h8). Part of [`SPACE_OFFSET`](super::SPACE_OFFSET).
     ///
     /// Offset in pulses of the master encoder, units; its sign is H5
     ///
@@ -11433,6 +13079,7 @@ pub mod objects {
     /// H9.
     ///
     /// Holding register 67, number 0x0043 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
+    /// Accessor: [`h9`](super::Eco::h9).
     ///
     /// Adjusts the offset by hand
     ///
@@ -11450,6 +13097,7 @@ pub mod objects {
     /// n1.
     ///
     /// Holding register 40, number 0x0028 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 8.
+    /// Accessor: [`n1`](super::Eco::n1). Values: [`BitRate`](super::types::BitRate).
     ///
     /// Bit rate of CANopen
     ///
@@ -11473,10 +13121,11 @@ pub mod objects {
     /// save\_to\_flash.
     ///
     /// Holding register 14338, UNSIGNED16, wo, one of 17.
+    /// Accessor: [`save_to_flash`](super::Eco::save_to_flash).
     ///
     /// Saves registers and parameters, with the torque off
     ///
-    /// Can be written only while status\_word \& 0x1 is 0. Keeps all registers and parameters; the drive is silent for some seconds then.
+    /// Can be written only while [status\_word](STATUS_WORD) \& 0x1 is 0. Keeps all registers and parameters; the drive is silent for some seconds then.
     ///
     /// Chapter Saving on Modbus. Manual, line 1037-1040, 1532.
     ///
@@ -11491,6 +13140,7 @@ pub mod objects {
     /// save\_to\_flash\_32.
     ///
     /// Holding registers 14338 to 14339, UNSIGNED32, wo, one of 17.
+    /// Accessor: [`save_to_flash_32`](super::Eco::save_to_flash_32).
     ///
     /// The same with 32 bits, by function 16
     ///
@@ -11507,6 +13157,7 @@ pub mod objects {
     /// Device Type.
     ///
     /// 0x1000:00, UNSIGNED32, const.
+    /// Accessor: [`device_type`](super::Eco::device_type). Values: [`DeviceType`](super::types::DeviceType).
     ///
     /// Manual, line 3457.
     pub const DEVICE_TYPE: Constant<super::types::DeviceType> = ConstantNamedDeviceType::shared_object(
@@ -11517,6 +13168,7 @@ pub mod objects {
     /// Error Register.
     ///
     /// 0x1001:00, UNSIGNED8, ro.
+    /// Accessor: [`error_register`](super::Eco::error_register). Values: [`ErrorRegister`](super::types::ErrorRegister).
     ///
     /// Manual, line 3466, 2977-2999.
     pub const ERROR_REGISTER: ReadOnly<super::types::ErrorRegister> = ReadOnlyNamedErrorRegister::shared_object(
@@ -11532,6 +13184,7 @@ pub mod objects {
         /// Number Of Error.
         ///
         /// 0x1003:00, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::number_of_error`].
         ///
         /// Only 0 can be written. Writing 0 clears 0x1003:1.
         ///
@@ -11549,6 +13202,7 @@ pub mod objects {
         /// Standard Of Error Type.
         ///
         /// 0x1003:01, UNSIGNED32, ro.
+        /// Accessor: [`Accessors::standard_of_error_type`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Manual, line 3482.
         pub const STANDARD_OF_ERROR_TYPE: super::ReadOnly<
@@ -11564,10 +13218,12 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number Of Error: 0x1003:00.
+            /// Constant: [`NUMBER_OF_ERROR`].
             pub fn number_of_error(&mut self) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_ERROR.at(self.client)
             }
             /// Standard Of Error Type: 0x1003:01.
+            /// Constant: [`STANDARD_OF_ERROR_TYPE`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn standard_of_error_type(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::ErrorFieldEntry> {
@@ -11578,6 +13234,7 @@ pub mod objects {
     /// Cob-Id Sync.
     ///
     /// 0x1005:00, UNSIGNED32, rw, default 128.
+    /// Accessor: [`cob_id_sync`](super::Eco::cob_id_sync). Values: [`SyncIdentifier`](super::types::SyncIdentifier).
     ///
     /// Manual, line 3511, 4466, 4579.
     pub const COB_ID_SYNC: ReadWrite<super::types::SyncIdentifier> = ReadWriteNamedSyncIdentifier::shared_object_with_default(
@@ -11589,6 +13246,7 @@ pub mod objects {
     /// Manufacturer Device Name.
     ///
     /// 0x1008:00, VISIBLE_STRING, const.
+    /// Accessor: [`manufacturer_device_name`](super::Eco::manufacturer_device_name).
     ///
     /// Manual, line 3516-3518.
     pub const MANUFACTURER_DEVICE_NAME: Constant<rt::VisibleString> = ConstantVisibleString::shared_object(
@@ -11599,6 +13257,7 @@ pub mod objects {
     /// Manufacturer Hardware Version.
     ///
     /// 0x1009:00, VISIBLE_STRING, const.
+    /// Accessor: [`manufacturer_hardware_version`](super::Eco::manufacturer_hardware_version).
     ///
     /// Manual, line 3523-3525.
     pub const MANUFACTURER_HARDWARE_VERSION: Constant<rt::VisibleString> = ConstantVisibleString::shared_object(
@@ -11609,6 +13268,7 @@ pub mod objects {
     /// Manufacturer Software Version.
     ///
     /// 0x100A:00, VISIBLE_STRING, const.
+    /// Accessor: [`manufacturer_software_version`](super::Eco::manufacturer_software_version).
     ///
     /// Manual, line 3530-3532.
     pub const MANUFACTURER_SOFTWARE_VERSION: Constant<rt::VisibleString> = ConstantVisibleString::shared_object(
@@ -11619,6 +13279,7 @@ pub mod objects {
     /// Guard Time.
     ///
     /// 0x100C:00, UNSIGNED16, rw, in ms.
+    /// Accessor: [`guard_time`](super::Eco::guard_time).
     ///
     /// A request is answered even where its DLC is 0; before 3.00 it has to be 1
     ///
@@ -11636,6 +13297,7 @@ pub mod objects {
     /// Life Time Factor.
     ///
     /// 0x100D:00, UNSIGNED8, rw.
+    /// Accessor: [`life_time_factor`](super::Eco::life_time_factor).
     ///
     /// Times Guard Time, the longest time between two requests of the master. Where it runs out, an EMCY is enabled; the drive answers again once the master asks again, and the EMCY isn't reset
     ///
@@ -11655,6 +13317,7 @@ pub mod objects {
         /// Number of entries of the store parameters.
         ///
         /// 0x1010:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_the_store_parameters`].
         ///
         /// Manual, line 3550.
         ///
@@ -11667,6 +13330,7 @@ pub mod objects {
         /// Save All Parameters.
         ///
         /// 0x1010:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::save_all_parameters`]. Values: [`StoreParameters`](super::super::types::StoreParameters).
         ///
         /// The letters save
         ///
@@ -11696,12 +13360,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of the store parameters: 0x1010:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_STORE_PARAMETERS`].
             pub fn number_of_entries_of_the_store_parameters(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_STORE_PARAMETERS.at(self.client)
             }
             /// Save All Parameters: 0x1010:01.
+            ///
+            /// The letters save
+            ///
+            /// Constant: [`SAVE_ALL_PARAMETERS`]. Values: [`StoreParameters`](super::super::types::StoreParameters).
             pub fn save_all_parameters(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::StoreParameters> {
@@ -11712,6 +13381,7 @@ pub mod objects {
     /// Cob Id Emcy.
     ///
     /// 0x1014:00, UNSIGNED32, rw.
+    /// Accessor: [`cob_id_emcy`](super::Eco::cob_id_emcy). Values: [`EmergencyIdentifier`](super::types::EmergencyIdentifier).
     ///
     /// Manual, line 3556.
     pub const COB_ID_EMCY: ReadWrite<super::types::EmergencyIdentifier> = ReadWriteNamedEmergencyIdentifier::shared_object(
@@ -11722,6 +13392,7 @@ pub mod objects {
     /// Inhibit Emcy.
     ///
     /// 0x1015:00, UNSIGNED16, rw, in 100 µs.
+    /// Accessor: [`inhibit_emcy`](super::Eco::inhibit_emcy).
     ///
     /// Manual, line 3561.
     pub const INHIBIT_EMCY: ReadWrite<rt::Scaled<u16, 100>> = ReadWriteU16Times100Per1::new(
@@ -11735,6 +13406,7 @@ pub mod objects {
     /// Producer Heartbeat Time.
     ///
     /// 0x1017:00, UNSIGNED16, rw, in ms.
+    /// Accessor: [`producer_heartbeat_time`](super::Eco::producer_heartbeat_time).
     ///
     /// While it isn't 0, requests of node guarding are answered with the state, but the toggle bit doesn't change
     ///
@@ -11756,6 +13428,7 @@ pub mod objects {
         /// Number of entries of the identity.
         ///
         /// 0x1018:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_the_identity`].
         ///
         /// Manual, line 3492.
         pub const NUMBER_OF_ENTRIES_OF_THE_IDENTITY: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
@@ -11766,6 +13439,7 @@ pub mod objects {
         /// Vendor Id.
         ///
         /// 0x1018:01, UNSIGNED32, ro.
+        /// Accessor: [`Accessors::vendor_id`].
         ///
         /// Manual, line 3497.
         ///
@@ -11781,12 +13455,14 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of the identity: 0x1018:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_IDENTITY`].
             pub fn number_of_entries_of_the_identity(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_IDENTITY.at(self.client)
             }
             /// Vendor Id: 0x1018:01.
+            /// Constant: [`VENDOR_ID`].
             pub fn vendor_id(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
                 VENDOR_ID.at(self.client)
             }
@@ -11800,6 +13476,7 @@ pub mod objects {
         /// Number of entries of RPDO 1.
         ///
         /// 0x1400:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_rpdo_1`].
         ///
         /// Manual, line 3571.
         pub const NUMBER_OF_ENTRIES_OF_RPDO_1: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
@@ -11810,6 +13487,7 @@ pub mod objects {
         /// COB-ID of RPDO 1.
         ///
         /// 0x1400:01, UNSIGNED32, rw, default \$NODEID+0x200.
+        /// Accessor: [`Accessors::cob_id_of_rpdo_1`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         ///
         /// Identifier of its frames; bit 31 set switches it off
         ///
@@ -11831,6 +13509,7 @@ pub mod objects {
         /// Transmission type of RPDO 1.
         ///
         /// 0x1400:02, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::transmission_type_of_rpdo_1`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// Manual, line 3573, 4423.
         pub const TRANSMISSION_TYPE_OF_RPDO_1: super::ReadWrite<
@@ -11846,12 +13525,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of RPDO 1: 0x1400:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_RPDO_1`].
             pub fn number_of_entries_of_rpdo_1(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_RPDO_1.at(self.client)
             }
             /// COB-ID of RPDO 1: 0x1400:01.
+            ///
+            /// Identifier of its frames; bit 31 set switches it off
+            ///
+            /// Constant: [`COB_ID_OF_RPDO_1`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id_of_rpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -11862,6 +13546,7 @@ pub mod objects {
                 COB_ID_OF_RPDO_1.at(self.client)
             }
             /// Transmission type of RPDO 1: 0x1400:02.
+            /// Constant: [`TRANSMISSION_TYPE_OF_RPDO_1`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_rpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
@@ -11876,6 +13561,7 @@ pub mod objects {
         /// Number of entries of RPDO 2.
         ///
         /// 0x1401:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_rpdo_2`].
         ///
         /// Manual, line 3580.
         pub const NUMBER_OF_ENTRIES_OF_RPDO_2: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
@@ -11886,6 +13572,7 @@ pub mod objects {
         /// COB-ID of RPDO 2.
         ///
         /// 0x1401:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::cob_id_of_rpdo_2`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         ///
         /// Identifier of its frames; bit 31 set switches it off
         ///
@@ -11900,6 +13587,7 @@ pub mod objects {
         /// Transmission type of RPDO 2.
         ///
         /// 0x1401:02, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::transmission_type_of_rpdo_2`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// Manual, line 3583.
         pub const TRANSMISSION_TYPE_OF_RPDO_2: super::ReadWrite<
@@ -11915,12 +13603,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of RPDO 2: 0x1401:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_RPDO_2`].
             pub fn number_of_entries_of_rpdo_2(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_RPDO_2.at(self.client)
             }
             /// COB-ID of RPDO 2: 0x1401:01.
+            ///
+            /// Identifier of its frames; bit 31 set switches it off
+            ///
+            /// Constant: [`COB_ID_OF_RPDO_2`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id_of_rpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -11931,6 +13624,7 @@ pub mod objects {
                 COB_ID_OF_RPDO_2.at(self.client)
             }
             /// Transmission type of RPDO 2: 0x1401:02.
+            /// Constant: [`TRANSMISSION_TYPE_OF_RPDO_2`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_rpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
@@ -11945,6 +13639,7 @@ pub mod objects {
         /// Number of entries of RPDO 3.
         ///
         /// 0x1402:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_rpdo_3`].
         ///
         /// From firmware 3\.00 on.
         ///
@@ -11957,6 +13652,7 @@ pub mod objects {
         /// COB-ID of RPDO 3.
         ///
         /// 0x1402:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::cob_id_of_rpdo_3`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         ///
         /// Identifier of its frames; bit 31 set switches it off
         ///
@@ -11973,6 +13669,7 @@ pub mod objects {
         /// Transmission type of RPDO 3.
         ///
         /// 0x1402:02, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::transmission_type_of_rpdo_3`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -11990,12 +13687,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of RPDO 3: 0x1402:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_RPDO_3`].
             pub fn number_of_entries_of_rpdo_3(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_RPDO_3.at(self.client)
             }
             /// COB-ID of RPDO 3: 0x1402:01.
+            ///
+            /// Identifier of its frames; bit 31 set switches it off
+            ///
+            /// Constant: [`COB_ID_OF_RPDO_3`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id_of_rpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -12006,6 +13708,7 @@ pub mod objects {
                 COB_ID_OF_RPDO_3.at(self.client)
             }
             /// Transmission type of RPDO 3: 0x1402:02.
+            /// Constant: [`TRANSMISSION_TYPE_OF_RPDO_3`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_rpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
@@ -12020,6 +13723,7 @@ pub mod objects {
         /// Number of entries of RPDO 4.
         ///
         /// 0x1403:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_rpdo_4`].
         ///
         /// From firmware 3\.00 on.
         ///
@@ -12032,6 +13736,7 @@ pub mod objects {
         /// COB-ID of RPDO 4.
         ///
         /// 0x1403:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::cob_id_of_rpdo_4`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         ///
         /// Identifier of its frames; bit 31 set switches it off
         ///
@@ -12048,6 +13753,7 @@ pub mod objects {
         /// Transmission type of RPDO 4.
         ///
         /// 0x1403:02, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::transmission_type_of_rpdo_4`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -12065,12 +13771,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of RPDO 4: 0x1403:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_RPDO_4`].
             pub fn number_of_entries_of_rpdo_4(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_RPDO_4.at(self.client)
             }
             /// COB-ID of RPDO 4: 0x1403:01.
+            ///
+            /// Identifier of its frames; bit 31 set switches it off
+            ///
+            /// Constant: [`COB_ID_OF_RPDO_4`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id_of_rpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -12081,6 +13792,7 @@ pub mod objects {
                 COB_ID_OF_RPDO_4.at(self.client)
             }
             /// Transmission type of RPDO 4: 0x1403:02.
+            /// Constant: [`TRANSMISSION_TYPE_OF_RPDO_4`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_rpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
@@ -12096,6 +13808,7 @@ pub mod objects {
         /// Number of mapped objects of RPDO 1.
         ///
         /// 0x1600:00, UNSIGNED8, rw, at most 8.
+        /// Accessor: [`Accessors::number_of_mapped_objects_of_rpdo_1`].
         ///
         /// 0 removes the mapping; the entries are written then.
         ///
@@ -12113,6 +13826,7 @@ pub mod objects {
         /// Mapped object 1 of RPDO 1.
         ///
         /// 0x1600:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_1_of_rpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// On ethercat: default 1614807056.
         ///
@@ -12127,6 +13841,7 @@ pub mod objects {
         /// Mapped object 2 of RPDO 1.
         ///
         /// 0x1600:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_2_of_rpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// On ethercat: default 1623261472.
         ///
@@ -12141,6 +13856,7 @@ pub mod objects {
         /// Mapped object 3 of RPDO 1.
         ///
         /// 0x1600:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_3_of_rpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3610.
         pub const MAPPED_OBJECT_3_OF_RPDO_1: super::ReadWrite<
@@ -12153,6 +13869,7 @@ pub mod objects {
         /// Mapped object 4 of RPDO 1.
         ///
         /// 0x1600:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_4_of_rpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3611.
         pub const MAPPED_OBJECT_4_OF_RPDO_1: super::ReadWrite<
@@ -12165,6 +13882,7 @@ pub mod objects {
         /// Mapped object 5 of RPDO 1.
         ///
         /// 0x1600:05, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_5_of_rpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3612.
         pub const MAPPED_OBJECT_5_OF_RPDO_1: super::ReadWrite<
@@ -12177,6 +13895,7 @@ pub mod objects {
         /// Mapped object 6 of RPDO 1.
         ///
         /// 0x1600:06, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_6_of_rpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3613.
         pub const MAPPED_OBJECT_6_OF_RPDO_1: super::ReadWrite<
@@ -12189,6 +13908,7 @@ pub mod objects {
         /// Mapped object 7 of RPDO 1.
         ///
         /// 0x1600:07, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_7_of_rpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3614.
         pub const MAPPED_OBJECT_7_OF_RPDO_1: super::ReadWrite<
@@ -12201,6 +13921,7 @@ pub mod objects {
         /// Mapped object 8 of RPDO 1.
         ///
         /// 0x1600:08, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_8_of_rpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3615.
         pub const MAPPED_OBJECT_8_OF_RPDO_1: super::ReadWrite<
@@ -12216,54 +13937,63 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects of RPDO 1: 0x1600:00.
+            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1`].
             pub fn number_of_mapped_objects_of_rpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 1 of RPDO 1: 0x1600:01.
+            /// Constant: [`MAPPED_OBJECT_1_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_rpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 2 of RPDO 1: 0x1600:02.
+            /// Constant: [`MAPPED_OBJECT_2_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_2_of_rpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 3 of RPDO 1: 0x1600:03.
+            /// Constant: [`MAPPED_OBJECT_3_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_rpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 4 of RPDO 1: 0x1600:04.
+            /// Constant: [`MAPPED_OBJECT_4_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_rpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 5 of RPDO 1: 0x1600:05.
+            /// Constant: [`MAPPED_OBJECT_5_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_rpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 6 of RPDO 1: 0x1600:06.
+            /// Constant: [`MAPPED_OBJECT_6_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_rpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 7 of RPDO 1: 0x1600:07.
+            /// Constant: [`MAPPED_OBJECT_7_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_rpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_RPDO_1.at(self.client)
             }
             /// Mapped object 8 of RPDO 1: 0x1600:08.
+            /// Constant: [`MAPPED_OBJECT_8_OF_RPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_rpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
@@ -12279,6 +14009,7 @@ pub mod objects {
         /// Number of mapped objects of RPDO 2.
         ///
         /// 0x1601:00, UNSIGNED8, rw, at most 8.
+        /// Accessor: [`Accessors::number_of_mapped_objects_of_rpdo_2`].
         ///
         /// 0 removes the mapping; the entries are written then.
         ///
@@ -12294,6 +14025,7 @@ pub mod objects {
         /// Mapped object 1 of RPDO 2.
         ///
         /// 0x1601:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_1_of_rpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// On ethercat: default 1614807056.
         ///
@@ -12308,6 +14040,7 @@ pub mod objects {
         /// Mapped object 2 of RPDO 2.
         ///
         /// 0x1601:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_2_of_rpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3623, 5547.
         ///
@@ -12322,6 +14055,7 @@ pub mod objects {
         /// Mapped object 3 of RPDO 2.
         ///
         /// 0x1601:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_3_of_rpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3624.
         pub const MAPPED_OBJECT_3_OF_RPDO_2: super::ReadWrite<
@@ -12334,6 +14068,7 @@ pub mod objects {
         /// Mapped object 4 of RPDO 2.
         ///
         /// 0x1601:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_4_of_rpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3625.
         pub const MAPPED_OBJECT_4_OF_RPDO_2: super::ReadWrite<
@@ -12346,6 +14081,7 @@ pub mod objects {
         /// Mapped object 5 of RPDO 2.
         ///
         /// 0x1601:05, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_5_of_rpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3626.
         pub const MAPPED_OBJECT_5_OF_RPDO_2: super::ReadWrite<
@@ -12358,6 +14094,7 @@ pub mod objects {
         /// Mapped object 6 of RPDO 2.
         ///
         /// 0x1601:06, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_6_of_rpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3627.
         pub const MAPPED_OBJECT_6_OF_RPDO_2: super::ReadWrite<
@@ -12370,6 +14107,7 @@ pub mod objects {
         /// Mapped object 7 of RPDO 2.
         ///
         /// 0x1601:07, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_7_of_rpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3628.
         pub const MAPPED_OBJECT_7_OF_RPDO_2: super::ReadWrite<
@@ -12382,6 +14120,7 @@ pub mod objects {
         /// Mapped object 8 of RPDO 2.
         ///
         /// 0x1601:08, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_8_of_rpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3629.
         pub const MAPPED_OBJECT_8_OF_RPDO_2: super::ReadWrite<
@@ -12397,54 +14136,63 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects of RPDO 2: 0x1601:00.
+            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_2`].
             pub fn number_of_mapped_objects_of_rpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 1 of RPDO 2: 0x1601:01.
+            /// Constant: [`MAPPED_OBJECT_1_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_rpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 2 of RPDO 2: 0x1601:02.
+            /// Constant: [`MAPPED_OBJECT_2_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_2_of_rpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 3 of RPDO 2: 0x1601:03.
+            /// Constant: [`MAPPED_OBJECT_3_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_rpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 4 of RPDO 2: 0x1601:04.
+            /// Constant: [`MAPPED_OBJECT_4_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_rpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 5 of RPDO 2: 0x1601:05.
+            /// Constant: [`MAPPED_OBJECT_5_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_rpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 6 of RPDO 2: 0x1601:06.
+            /// Constant: [`MAPPED_OBJECT_6_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_rpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 7 of RPDO 2: 0x1601:07.
+            /// Constant: [`MAPPED_OBJECT_7_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_rpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_RPDO_2.at(self.client)
             }
             /// Mapped object 8 of RPDO 2: 0x1601:08.
+            /// Constant: [`MAPPED_OBJECT_8_OF_RPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_rpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
@@ -12460,6 +14208,7 @@ pub mod objects {
         /// Number of mapped objects of RPDO 3.
         ///
         /// 0x1602:00, UNSIGNED8, rw, at most 8.
+        /// Accessor: [`Accessors::number_of_mapped_objects_of_rpdo_3`].
         ///
         /// 0 removes the mapping; the entries are written then.
         ///
@@ -12479,6 +14228,7 @@ pub mod objects {
         /// Mapped object 1 of RPDO 3.
         ///
         /// 0x1602:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_1_of_rpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// On ethercat: default 1614807056.
         ///
@@ -12495,6 +14245,7 @@ pub mod objects {
         /// Mapped object 2 of RPDO 3.
         ///
         /// 0x1602:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_2_of_rpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// On ethercat: default 1618608160.
         ///
@@ -12511,6 +14262,7 @@ pub mod objects {
         /// Mapped object 3 of RPDO 3.
         ///
         /// 0x1602:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_3_of_rpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -12525,6 +14277,7 @@ pub mod objects {
         /// Mapped object 4 of RPDO 3.
         ///
         /// 0x1602:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_4_of_rpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -12539,6 +14292,7 @@ pub mod objects {
         /// Mapped object 5 of RPDO 3.
         ///
         /// 0x1602:05, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_5_of_rpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -12553,6 +14307,7 @@ pub mod objects {
         /// Mapped object 6 of RPDO 3.
         ///
         /// 0x1602:06, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_6_of_rpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -12567,6 +14322,7 @@ pub mod objects {
         /// Mapped object 7 of RPDO 3.
         ///
         /// 0x1602:07, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_7_of_rpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -12581,6 +14337,7 @@ pub mod objects {
         /// Mapped object 8 of RPDO 3.
         ///
         /// 0x1602:08, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_8_of_rpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -12598,54 +14355,63 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects of RPDO 3: 0x1602:00.
+            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_3`].
             pub fn number_of_mapped_objects_of_rpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 1 of RPDO 3: 0x1602:01.
+            /// Constant: [`MAPPED_OBJECT_1_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_rpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 2 of RPDO 3: 0x1602:02.
+            /// Constant: [`MAPPED_OBJECT_2_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_2_of_rpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 3 of RPDO 3: 0x1602:03.
+            /// Constant: [`MAPPED_OBJECT_3_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_rpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 4 of RPDO 3: 0x1602:04.
+            /// Constant: [`MAPPED_OBJECT_4_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_rpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 5 of RPDO 3: 0x1602:05.
+            /// Constant: [`MAPPED_OBJECT_5_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_rpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 6 of RPDO 3: 0x1602:06.
+            /// Constant: [`MAPPED_OBJECT_6_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_rpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 7 of RPDO 3: 0x1602:07.
+            /// Constant: [`MAPPED_OBJECT_7_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_rpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_RPDO_3.at(self.client)
             }
             /// Mapped object 8 of RPDO 3: 0x1602:08.
+            /// Constant: [`MAPPED_OBJECT_8_OF_RPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_rpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
@@ -12661,6 +14427,7 @@ pub mod objects {
         /// Number of mapped objects of RPDO 4.
         ///
         /// 0x1603:00, UNSIGNED8, rw, at most 8.
+        /// Accessor: [`Accessors::number_of_mapped_objects_of_rpdo_4`].
         ///
         /// 0 removes the mapping; the entries are written then.
         ///
@@ -12680,6 +14447,7 @@ pub mod objects {
         /// Mapped object 1 of RPDO 4.
         ///
         /// 0x1603:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_1_of_rpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// On ethercat: default 1614807056.
         ///
@@ -12696,6 +14464,7 @@ pub mod objects {
         /// Mapped object 2 of RPDO 4.
         ///
         /// 0x1603:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_2_of_rpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// On ethercat: default 1627324448.
         ///
@@ -12712,6 +14481,7 @@ pub mod objects {
         /// Mapped object 3 of RPDO 4.
         ///
         /// 0x1603:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_3_of_rpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -12726,6 +14496,7 @@ pub mod objects {
         /// Mapped object 4 of RPDO 4.
         ///
         /// 0x1603:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_4_of_rpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -12740,6 +14511,7 @@ pub mod objects {
         /// Mapped object 5 of RPDO 4.
         ///
         /// 0x1603:05, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_5_of_rpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -12754,6 +14526,7 @@ pub mod objects {
         /// Mapped object 6 of RPDO 4.
         ///
         /// 0x1603:06, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_6_of_rpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -12768,6 +14541,7 @@ pub mod objects {
         /// Mapped object 7 of RPDO 4.
         ///
         /// 0x1603:07, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_7_of_rpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -12782,6 +14556,7 @@ pub mod objects {
         /// Mapped object 8 of RPDO 4.
         ///
         /// 0x1603:08, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_8_of_rpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -12799,54 +14574,63 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects of RPDO 4: 0x1603:00.
+            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_4`].
             pub fn number_of_mapped_objects_of_rpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 1 of RPDO 4: 0x1603:01.
+            /// Constant: [`MAPPED_OBJECT_1_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_rpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 2 of RPDO 4: 0x1603:02.
+            /// Constant: [`MAPPED_OBJECT_2_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_2_of_rpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 3 of RPDO 4: 0x1603:03.
+            /// Constant: [`MAPPED_OBJECT_3_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_rpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 4 of RPDO 4: 0x1603:04.
+            /// Constant: [`MAPPED_OBJECT_4_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_rpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 5 of RPDO 4: 0x1603:05.
+            /// Constant: [`MAPPED_OBJECT_5_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_rpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 6 of RPDO 4: 0x1603:06.
+            /// Constant: [`MAPPED_OBJECT_6_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_rpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 7 of RPDO 4: 0x1603:07.
+            /// Constant: [`MAPPED_OBJECT_7_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_rpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_RPDO_4.at(self.client)
             }
             /// Mapped object 8 of RPDO 4: 0x1603:08.
+            /// Constant: [`MAPPED_OBJECT_8_OF_RPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_rpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
@@ -12862,6 +14646,7 @@ pub mod objects {
         /// Number of entries of TPDO 1.
         ///
         /// 0x1800:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_tpdo_1`].
         ///
         /// Manual, line 3666.
         pub const NUMBER_OF_ENTRIES_OF_TPDO_1: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
@@ -12872,6 +14657,7 @@ pub mod objects {
         /// COB-ID of TPDO 1.
         ///
         /// 0x1800:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::cob_id_of_tpdo_1`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         ///
         /// Identifier of its frames; bit 31 set switches it off
         ///
@@ -12886,6 +14672,7 @@ pub mod objects {
         /// Transmission type of TPDO 1.
         ///
         /// 0x1800:02, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::transmission_type_of_tpdo_1`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// Manual, line 3668, 4439.
         pub const TRANSMISSION_TYPE_OF_TPDO_1: super::ReadWrite<
@@ -12898,6 +14685,7 @@ pub mod objects {
         /// Inhibit time of TPDO 1.
         ///
         /// 0x1800:03, UNSIGNED16, rw, in 100 µs.
+        /// Accessor: [`Accessors::inhibit_time_of_tpdo_1`].
         ///
         /// Least time between two PDOs
         ///
@@ -12915,6 +14703,7 @@ pub mod objects {
         /// Compatibility entry of TPDO 1.
         ///
         /// 0x1800:04, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::compatibility_entry_of_tpdo_1`].
         ///
         /// Manual, line 3670.
         pub const COMPATIBILITY_ENTRY_OF_TPDO_1: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
@@ -12925,6 +14714,7 @@ pub mod objects {
         /// Event timer of TPDO 1.
         ///
         /// 0x1800:05, UNSIGNED16, rw, in ms.
+        /// Accessor: [`Accessors::event_timer_of_tpdo_1`].
         ///
         /// Sends an asynchronous PDO when it runs out
         ///
@@ -12947,12 +14737,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of TPDO 1: 0x1800:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_TPDO_1`].
             pub fn number_of_entries_of_tpdo_1(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_TPDO_1.at(self.client)
             }
             /// COB-ID of TPDO 1: 0x1800:01.
+            ///
+            /// Identifier of its frames; bit 31 set switches it off
+            ///
+            /// Constant: [`COB_ID_OF_TPDO_1`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id_of_tpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -12963,24 +14758,34 @@ pub mod objects {
                 COB_ID_OF_TPDO_1.at(self.client)
             }
             /// Transmission type of TPDO 1: 0x1800:02.
+            /// Constant: [`TRANSMISSION_TYPE_OF_TPDO_1`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_tpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
                 TRANSMISSION_TYPE_OF_TPDO_1.at(self.client)
             }
             /// Inhibit time of TPDO 1: 0x1800:03.
+            ///
+            /// Least time between two PDOs
+            ///
+            /// Constant: [`INHIBIT_TIME_OF_TPDO_1`].
             pub fn inhibit_time_of_tpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
                 INHIBIT_TIME_OF_TPDO_1.at(self.client)
             }
             /// Compatibility entry of TPDO 1: 0x1800:04.
+            /// Constant: [`COMPATIBILITY_ENTRY_OF_TPDO_1`].
             pub fn compatibility_entry_of_tpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 COMPATIBILITY_ENTRY_OF_TPDO_1.at(self.client)
             }
             /// Event timer of TPDO 1: 0x1800:05.
+            ///
+            /// Sends an asynchronous PDO when it runs out
+            ///
+            /// Constant: [`EVENT_TIMER_OF_TPDO_1`].
             pub fn event_timer_of_tpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
@@ -12996,6 +14801,7 @@ pub mod objects {
         /// Number of entries of TPDO 2.
         ///
         /// 0x1801:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_tpdo_2`].
         ///
         /// Manual, line 3680.
         pub const NUMBER_OF_ENTRIES_OF_TPDO_2: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
@@ -13006,6 +14812,7 @@ pub mod objects {
         /// COB-ID of TPDO 2.
         ///
         /// 0x1801:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::cob_id_of_tpdo_2`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         ///
         /// Identifier of its frames; bit 31 set switches it off
         ///
@@ -13020,6 +14827,7 @@ pub mod objects {
         /// Transmission type of TPDO 2.
         ///
         /// 0x1801:02, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::transmission_type_of_tpdo_2`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// Manual, line 3682.
         pub const TRANSMISSION_TYPE_OF_TPDO_2: super::ReadWrite<
@@ -13032,6 +14840,7 @@ pub mod objects {
         /// Inhibit time of TPDO 2.
         ///
         /// 0x1801:03, UNSIGNED16, rw, in 100 µs.
+        /// Accessor: [`Accessors::inhibit_time_of_tpdo_2`].
         ///
         /// Least time between two PDOs
         ///
@@ -13047,6 +14856,7 @@ pub mod objects {
         /// Compatibility entry of TPDO 2.
         ///
         /// 0x1801:04, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::compatibility_entry_of_tpdo_2`].
         ///
         /// Manual, line 3684.
         pub const COMPATIBILITY_ENTRY_OF_TPDO_2: super::ReadWrite<u8> = super::ReadWriteU8::shared_object(
@@ -13057,6 +14867,7 @@ pub mod objects {
         /// Event timer of TPDO 2.
         ///
         /// 0x1801:05, UNSIGNED16, rw, in ms.
+        /// Accessor: [`Accessors::event_timer_of_tpdo_2`].
         ///
         /// Sends an asynchronous PDO when it runs out
         ///
@@ -13079,12 +14890,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of TPDO 2: 0x1801:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_TPDO_2`].
             pub fn number_of_entries_of_tpdo_2(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_TPDO_2.at(self.client)
             }
             /// COB-ID of TPDO 2: 0x1801:01.
+            ///
+            /// Identifier of its frames; bit 31 set switches it off
+            ///
+            /// Constant: [`COB_ID_OF_TPDO_2`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id_of_tpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -13095,24 +14911,34 @@ pub mod objects {
                 COB_ID_OF_TPDO_2.at(self.client)
             }
             /// Transmission type of TPDO 2: 0x1801:02.
+            /// Constant: [`TRANSMISSION_TYPE_OF_TPDO_2`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_tpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
                 TRANSMISSION_TYPE_OF_TPDO_2.at(self.client)
             }
             /// Inhibit time of TPDO 2: 0x1801:03.
+            ///
+            /// Least time between two PDOs
+            ///
+            /// Constant: [`INHIBIT_TIME_OF_TPDO_2`].
             pub fn inhibit_time_of_tpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
                 INHIBIT_TIME_OF_TPDO_2.at(self.client)
             }
             /// Compatibility entry of TPDO 2: 0x1801:04.
+            /// Constant: [`COMPATIBILITY_ENTRY_OF_TPDO_2`].
             pub fn compatibility_entry_of_tpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 COMPATIBILITY_ENTRY_OF_TPDO_2.at(self.client)
             }
             /// Event timer of TPDO 2: 0x1801:05.
+            ///
+            /// Sends an asynchronous PDO when it runs out
+            ///
+            /// Constant: [`EVENT_TIMER_OF_TPDO_2`].
             pub fn event_timer_of_tpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
@@ -13128,6 +14954,7 @@ pub mod objects {
         /// Number of entries of TPDO 3.
         ///
         /// 0x1802:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_tpdo_3`].
         ///
         /// From firmware 3\.00 on.
         ///
@@ -13140,6 +14967,7 @@ pub mod objects {
         /// COB-ID of TPDO 3.
         ///
         /// 0x1802:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::cob_id_of_tpdo_3`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         ///
         /// Identifier of its frames; bit 31 set switches it off
         ///
@@ -13156,6 +14984,7 @@ pub mod objects {
         /// Transmission type of TPDO 3.
         ///
         /// 0x1802:02, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::transmission_type_of_tpdo_3`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -13170,6 +14999,7 @@ pub mod objects {
         /// Inhibit time of TPDO 3.
         ///
         /// 0x1802:03, UNSIGNED16, rw, in 100 µs.
+        /// Accessor: [`Accessors::inhibit_time_of_tpdo_3`].
         ///
         /// Least time between two PDOs
         ///
@@ -13187,6 +15017,7 @@ pub mod objects {
         /// Compatibility entry of TPDO 3.
         ///
         /// 0x1802:04, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::compatibility_entry_of_tpdo_3`].
         ///
         /// From firmware 3\.05 on.
         ///
@@ -13199,6 +15030,7 @@ pub mod objects {
         /// Event timer of TPDO 3.
         ///
         /// 0x1802:05, UNSIGNED16, rw, in ms.
+        /// Accessor: [`Accessors::event_timer_of_tpdo_3`].
         ///
         /// Sends an asynchronous PDO when it runs out
         ///
@@ -13223,12 +15055,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of TPDO 3: 0x1802:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_TPDO_3`].
             pub fn number_of_entries_of_tpdo_3(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_TPDO_3.at(self.client)
             }
             /// COB-ID of TPDO 3: 0x1802:01.
+            ///
+            /// Identifier of its frames; bit 31 set switches it off
+            ///
+            /// Constant: [`COB_ID_OF_TPDO_3`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id_of_tpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -13239,24 +15076,34 @@ pub mod objects {
                 COB_ID_OF_TPDO_3.at(self.client)
             }
             /// Transmission type of TPDO 3: 0x1802:02.
+            /// Constant: [`TRANSMISSION_TYPE_OF_TPDO_3`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_tpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
                 TRANSMISSION_TYPE_OF_TPDO_3.at(self.client)
             }
             /// Inhibit time of TPDO 3: 0x1802:03.
+            ///
+            /// Least time between two PDOs
+            ///
+            /// Constant: [`INHIBIT_TIME_OF_TPDO_3`].
             pub fn inhibit_time_of_tpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
                 INHIBIT_TIME_OF_TPDO_3.at(self.client)
             }
             /// Compatibility entry of TPDO 3: 0x1802:04.
+            /// Constant: [`COMPATIBILITY_ENTRY_OF_TPDO_3`].
             pub fn compatibility_entry_of_tpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 COMPATIBILITY_ENTRY_OF_TPDO_3.at(self.client)
             }
             /// Event timer of TPDO 3: 0x1802:05.
+            ///
+            /// Sends an asynchronous PDO when it runs out
+            ///
+            /// Constant: [`EVENT_TIMER_OF_TPDO_3`].
             pub fn event_timer_of_tpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
@@ -13272,6 +15119,7 @@ pub mod objects {
         /// Number of entries of TPDO 4.
         ///
         /// 0x1803:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_tpdo_4`].
         ///
         /// From firmware 3\.00 on.
         ///
@@ -13284,6 +15132,7 @@ pub mod objects {
         /// COB-ID of TPDO 4.
         ///
         /// 0x1803:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::cob_id_of_tpdo_4`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         ///
         /// Identifier of its frames; bit 31 set switches it off
         ///
@@ -13300,6 +15149,7 @@ pub mod objects {
         /// Transmission type of TPDO 4.
         ///
         /// 0x1803:02, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::transmission_type_of_tpdo_4`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -13314,6 +15164,7 @@ pub mod objects {
         /// Inhibit time of TPDO 4.
         ///
         /// 0x1803:03, UNSIGNED16, rw, in 100 µs.
+        /// Accessor: [`Accessors::inhibit_time_of_tpdo_4`].
         ///
         /// Least time between two PDOs
         ///
@@ -13331,6 +15182,7 @@ pub mod objects {
         /// Compatibility entry of TPDO 4.
         ///
         /// 0x1803:04, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::compatibility_entry_of_tpdo_4`].
         ///
         /// From firmware 3\.05 on.
         ///
@@ -13343,6 +15195,7 @@ pub mod objects {
         /// Event timer of TPDO 4.
         ///
         /// 0x1803:05, UNSIGNED16, rw, in ms.
+        /// Accessor: [`Accessors::event_timer_of_tpdo_4`].
         ///
         /// Sends an asynchronous PDO when it runs out
         ///
@@ -13367,12 +15220,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of TPDO 4: 0x1803:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_TPDO_4`].
             pub fn number_of_entries_of_tpdo_4(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_TPDO_4.at(self.client)
             }
             /// COB-ID of TPDO 4: 0x1803:01.
+            ///
+            /// Identifier of its frames; bit 31 set switches it off
+            ///
+            /// Constant: [`COB_ID_OF_TPDO_4`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id_of_tpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -13383,24 +15241,34 @@ pub mod objects {
                 COB_ID_OF_TPDO_4.at(self.client)
             }
             /// Transmission type of TPDO 4: 0x1803:02.
+            /// Constant: [`TRANSMISSION_TYPE_OF_TPDO_4`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type_of_tpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::TransmissionType> {
                 TRANSMISSION_TYPE_OF_TPDO_4.at(self.client)
             }
             /// Inhibit time of TPDO 4: 0x1803:03.
+            ///
+            /// Least time between two PDOs
+            ///
+            /// Constant: [`INHIBIT_TIME_OF_TPDO_4`].
             pub fn inhibit_time_of_tpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>> {
                 INHIBIT_TIME_OF_TPDO_4.at(self.client)
             }
             /// Compatibility entry of TPDO 4: 0x1803:04.
+            /// Constant: [`COMPATIBILITY_ENTRY_OF_TPDO_4`].
             pub fn compatibility_entry_of_tpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 COMPATIBILITY_ENTRY_OF_TPDO_4.at(self.client)
             }
             /// Event timer of TPDO 4: 0x1803:05.
+            ///
+            /// Sends an asynchronous PDO when it runs out
+            ///
+            /// Constant: [`EVENT_TIMER_OF_TPDO_4`].
             pub fn event_timer_of_tpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
@@ -13416,6 +15284,7 @@ pub mod objects {
         /// Number of mapped objects of TPDO 1.
         ///
         /// 0x1A00:00, UNSIGNED8, rw, at most 8.
+        /// Accessor: [`Accessors::number_of_mapped_objects_of_tpdo_1`].
         ///
         /// 0 removes the mapping; the entries are written then.
         ///
@@ -13433,6 +15302,7 @@ pub mod objects {
         /// Mapped object 1 of TPDO 1.
         ///
         /// 0x1A00:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_1_of_tpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// On ethercat: default 1614872592.
         ///
@@ -13447,6 +15317,7 @@ pub mod objects {
         /// Mapped object 2 of TPDO 1.
         ///
         /// 0x1A00:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_2_of_tpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3723.
         pub const MAPPED_OBJECT_2_OF_TPDO_1: super::ReadWrite<
@@ -13459,6 +15330,7 @@ pub mod objects {
         /// Mapped object 3 of TPDO 1.
         ///
         /// 0x1A00:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_3_of_tpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3724.
         pub const MAPPED_OBJECT_3_OF_TPDO_1: super::ReadWrite<
@@ -13471,6 +15343,7 @@ pub mod objects {
         /// Mapped object 4 of TPDO 1.
         ///
         /// 0x1A00:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_4_of_tpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3725.
         pub const MAPPED_OBJECT_4_OF_TPDO_1: super::ReadWrite<
@@ -13483,6 +15356,7 @@ pub mod objects {
         /// Mapped object 5 of TPDO 1.
         ///
         /// 0x1A00:05, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_5_of_tpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3726.
         pub const MAPPED_OBJECT_5_OF_TPDO_1: super::ReadWrite<
@@ -13495,6 +15369,7 @@ pub mod objects {
         /// Mapped object 6 of TPDO 1.
         ///
         /// 0x1A00:06, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_6_of_tpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3727.
         pub const MAPPED_OBJECT_6_OF_TPDO_1: super::ReadWrite<
@@ -13507,6 +15382,7 @@ pub mod objects {
         /// Mapped object 7 of TPDO 1.
         ///
         /// 0x1A00:07, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_7_of_tpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3728.
         pub const MAPPED_OBJECT_7_OF_TPDO_1: super::ReadWrite<
@@ -13519,6 +15395,7 @@ pub mod objects {
         /// Mapped object 8 of TPDO 1.
         ///
         /// 0x1A00:08, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_8_of_tpdo_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3729.
         pub const MAPPED_OBJECT_8_OF_TPDO_1: super::ReadWrite<
@@ -13534,54 +15411,63 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects of TPDO 1: 0x1A00:00.
+            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1`].
             pub fn number_of_mapped_objects_of_tpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 1 of TPDO 1: 0x1A00:01.
+            /// Constant: [`MAPPED_OBJECT_1_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_tpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 2 of TPDO 1: 0x1A00:02.
+            /// Constant: [`MAPPED_OBJECT_2_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_2_of_tpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 3 of TPDO 1: 0x1A00:03.
+            /// Constant: [`MAPPED_OBJECT_3_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_tpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 4 of TPDO 1: 0x1A00:04.
+            /// Constant: [`MAPPED_OBJECT_4_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_tpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 5 of TPDO 1: 0x1A00:05.
+            /// Constant: [`MAPPED_OBJECT_5_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_tpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 6 of TPDO 1: 0x1A00:06.
+            /// Constant: [`MAPPED_OBJECT_6_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_tpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 7 of TPDO 1: 0x1A00:07.
+            /// Constant: [`MAPPED_OBJECT_7_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_tpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_TPDO_1.at(self.client)
             }
             /// Mapped object 8 of TPDO 1: 0x1A00:08.
+            /// Constant: [`MAPPED_OBJECT_8_OF_TPDO_1`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_tpdo_1(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
@@ -13597,6 +15483,7 @@ pub mod objects {
         /// Number of mapped objects of TPDO 2.
         ///
         /// 0x1A01:00, UNSIGNED8, rw, at most 8.
+        /// Accessor: [`Accessors::number_of_mapped_objects_of_tpdo_2`].
         ///
         /// 0 removes the mapping; the entries are written then.
         ///
@@ -13612,6 +15499,7 @@ pub mod objects {
         /// Mapped object 1 of TPDO 2.
         ///
         /// 0x1A01:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_1_of_tpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// On ethercat: default 1614872592.
         ///
@@ -13626,6 +15514,7 @@ pub mod objects {
         /// Mapped object 2 of TPDO 2.
         ///
         /// 0x1A01:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_2_of_tpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3737, 5566.
         ///
@@ -13640,6 +15529,7 @@ pub mod objects {
         /// Mapped object 3 of TPDO 2.
         ///
         /// 0x1A01:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_3_of_tpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3738.
         pub const MAPPED_OBJECT_3_OF_TPDO_2: super::ReadWrite<
@@ -13652,6 +15542,7 @@ pub mod objects {
         /// Mapped object 4 of TPDO 2.
         ///
         /// 0x1A01:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_4_of_tpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3739.
         pub const MAPPED_OBJECT_4_OF_TPDO_2: super::ReadWrite<
@@ -13664,6 +15555,7 @@ pub mod objects {
         /// Mapped object 5 of TPDO 2.
         ///
         /// 0x1A01:05, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_5_of_tpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3740.
         pub const MAPPED_OBJECT_5_OF_TPDO_2: super::ReadWrite<
@@ -13676,6 +15568,7 @@ pub mod objects {
         /// Mapped object 6 of TPDO 2.
         ///
         /// 0x1A01:06, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_6_of_tpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3741.
         pub const MAPPED_OBJECT_6_OF_TPDO_2: super::ReadWrite<
@@ -13688,6 +15581,7 @@ pub mod objects {
         /// Mapped object 7 of TPDO 2.
         ///
         /// 0x1A01:07, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_7_of_tpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3742.
         pub const MAPPED_OBJECT_7_OF_TPDO_2: super::ReadWrite<
@@ -13700,6 +15594,7 @@ pub mod objects {
         /// Mapped object 8 of TPDO 2.
         ///
         /// 0x1A01:08, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_8_of_tpdo_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// Manual, line 3743.
         pub const MAPPED_OBJECT_8_OF_TPDO_2: super::ReadWrite<
@@ -13715,54 +15610,63 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects of TPDO 2: 0x1A01:00.
+            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_2`].
             pub fn number_of_mapped_objects_of_tpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 1 of TPDO 2: 0x1A01:01.
+            /// Constant: [`MAPPED_OBJECT_1_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_tpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 2 of TPDO 2: 0x1A01:02.
+            /// Constant: [`MAPPED_OBJECT_2_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_2_of_tpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 3 of TPDO 2: 0x1A01:03.
+            /// Constant: [`MAPPED_OBJECT_3_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_tpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 4 of TPDO 2: 0x1A01:04.
+            /// Constant: [`MAPPED_OBJECT_4_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_tpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 5 of TPDO 2: 0x1A01:05.
+            /// Constant: [`MAPPED_OBJECT_5_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_tpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 6 of TPDO 2: 0x1A01:06.
+            /// Constant: [`MAPPED_OBJECT_6_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_tpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 7 of TPDO 2: 0x1A01:07.
+            /// Constant: [`MAPPED_OBJECT_7_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_tpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_TPDO_2.at(self.client)
             }
             /// Mapped object 8 of TPDO 2: 0x1A01:08.
+            /// Constant: [`MAPPED_OBJECT_8_OF_TPDO_2`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_tpdo_2(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
@@ -13778,6 +15682,7 @@ pub mod objects {
         /// Number of mapped objects of TPDO 3.
         ///
         /// 0x1A02:00, UNSIGNED8, rw, at most 8.
+        /// Accessor: [`Accessors::number_of_mapped_objects_of_tpdo_3`].
         ///
         /// 0 removes the mapping; the entries are written then.
         ///
@@ -13797,6 +15702,7 @@ pub mod objects {
         /// Mapped object 1 of TPDO 3.
         ///
         /// 0x1A02:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_1_of_tpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// On ethercat: default 1614872592.
         ///
@@ -13813,6 +15719,7 @@ pub mod objects {
         /// Mapped object 2 of TPDO 3.
         ///
         /// 0x1A02:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_2_of_tpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// On ethercat: default 1617166368.
         ///
@@ -13829,6 +15736,7 @@ pub mod objects {
         /// Mapped object 3 of TPDO 3.
         ///
         /// 0x1A02:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_3_of_tpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -13843,6 +15751,7 @@ pub mod objects {
         /// Mapped object 4 of TPDO 3.
         ///
         /// 0x1A02:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_4_of_tpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -13857,6 +15766,7 @@ pub mod objects {
         /// Mapped object 5 of TPDO 3.
         ///
         /// 0x1A02:05, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_5_of_tpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -13871,6 +15781,7 @@ pub mod objects {
         /// Mapped object 6 of TPDO 3.
         ///
         /// 0x1A02:06, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_6_of_tpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -13885,6 +15796,7 @@ pub mod objects {
         /// Mapped object 7 of TPDO 3.
         ///
         /// 0x1A02:07, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_7_of_tpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -13899,6 +15811,7 @@ pub mod objects {
         /// Mapped object 8 of TPDO 3.
         ///
         /// 0x1A02:08, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_8_of_tpdo_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -13916,54 +15829,63 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects of TPDO 3: 0x1A02:00.
+            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_3`].
             pub fn number_of_mapped_objects_of_tpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 1 of TPDO 3: 0x1A02:01.
+            /// Constant: [`MAPPED_OBJECT_1_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_tpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 2 of TPDO 3: 0x1A02:02.
+            /// Constant: [`MAPPED_OBJECT_2_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_2_of_tpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 3 of TPDO 3: 0x1A02:03.
+            /// Constant: [`MAPPED_OBJECT_3_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_tpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 4 of TPDO 3: 0x1A02:04.
+            /// Constant: [`MAPPED_OBJECT_4_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_tpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 5 of TPDO 3: 0x1A02:05.
+            /// Constant: [`MAPPED_OBJECT_5_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_tpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 6 of TPDO 3: 0x1A02:06.
+            /// Constant: [`MAPPED_OBJECT_6_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_tpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 7 of TPDO 3: 0x1A02:07.
+            /// Constant: [`MAPPED_OBJECT_7_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_tpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_TPDO_3.at(self.client)
             }
             /// Mapped object 8 of TPDO 3: 0x1A02:08.
+            /// Constant: [`MAPPED_OBJECT_8_OF_TPDO_3`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_tpdo_3(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
@@ -13979,6 +15901,7 @@ pub mod objects {
         /// Number of mapped objects of TPDO 4.
         ///
         /// 0x1A03:00, UNSIGNED8, rw, at most 8.
+        /// Accessor: [`Accessors::number_of_mapped_objects_of_tpdo_4`].
         ///
         /// 0 removes the mapping; the entries are written then.
         ///
@@ -13998,6 +15921,7 @@ pub mod objects {
         /// Mapped object 1 of TPDO 4.
         ///
         /// 0x1A03:01, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_1_of_tpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// On ethercat: default 1614872592.
         ///
@@ -14014,6 +15938,7 @@ pub mod objects {
         /// Mapped object 2 of TPDO 4.
         ///
         /// 0x1A03:02, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_2_of_tpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// On ethercat: default 1617690656.
         ///
@@ -14030,6 +15955,7 @@ pub mod objects {
         /// Mapped object 3 of TPDO 4.
         ///
         /// 0x1A03:03, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_3_of_tpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -14044,6 +15970,7 @@ pub mod objects {
         /// Mapped object 4 of TPDO 4.
         ///
         /// 0x1A03:04, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_4_of_tpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -14058,6 +15985,7 @@ pub mod objects {
         /// Mapped object 5 of TPDO 4.
         ///
         /// 0x1A03:05, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_5_of_tpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -14072,6 +16000,7 @@ pub mod objects {
         /// Mapped object 6 of TPDO 4.
         ///
         /// 0x1A03:06, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_6_of_tpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -14086,6 +16015,7 @@ pub mod objects {
         /// Mapped object 7 of TPDO 4.
         ///
         /// 0x1A03:07, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_7_of_tpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -14100,6 +16030,7 @@ pub mod objects {
         /// Mapped object 8 of TPDO 4.
         ///
         /// 0x1A03:08, UNSIGNED32, rw.
+        /// Accessor: [`Accessors::mapped_object_8_of_tpdo_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
         ///
         /// From firmware 3\.00 on.
         ///
@@ -14117,54 +16048,63 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of mapped objects of TPDO 4: 0x1A03:00.
+            /// Constant: [`NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_4`].
             pub fn number_of_mapped_objects_of_tpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 NUMBER_OF_MAPPED_OBJECTS_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 1 of TPDO 4: 0x1A03:01.
+            /// Constant: [`MAPPED_OBJECT_1_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_1_of_tpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_1_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 2 of TPDO 4: 0x1A03:02.
+            /// Constant: [`MAPPED_OBJECT_2_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_2_of_tpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_2_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 3 of TPDO 4: 0x1A03:03.
+            /// Constant: [`MAPPED_OBJECT_3_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_3_of_tpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_3_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 4 of TPDO 4: 0x1A03:04.
+            /// Constant: [`MAPPED_OBJECT_4_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_4_of_tpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_4_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 5 of TPDO 4: 0x1A03:05.
+            /// Constant: [`MAPPED_OBJECT_5_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_5_of_tpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_5_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 6 of TPDO 4: 0x1A03:06.
+            /// Constant: [`MAPPED_OBJECT_6_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_6_of_tpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_6_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 7 of TPDO 4: 0x1A03:07.
+            /// Constant: [`MAPPED_OBJECT_7_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_7_of_tpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
                 MAPPED_OBJECT_7_OF_TPDO_4.at(self.client)
             }
             /// Mapped object 8 of TPDO 4: 0x1A03:08.
+            /// Constant: [`MAPPED_OBJECT_8_OF_TPDO_4`]. Values: [`MappedObject`](super::super::types::MappedObject).
             pub fn mapped_object_8_of_tpdo_4(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, super::super::types::MappedObject> {
@@ -14180,6 +16120,7 @@ pub mod objects {
         /// Number of RxPDOs.
         ///
         /// 0x1C12:00, UNSIGNED8, rw, default 1.
+        /// Accessor: [`Accessors::number_of_rx_pdos`].
         ///
         /// Manual, line 5581.
         pub const NUMBER_OF_RX_PDOS: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::coe_object_with_default(
@@ -14191,6 +16132,7 @@ pub mod objects {
         /// First RxPDO.
         ///
         /// 0x1C12:01, UNSIGNED16, rw, default 5632.
+        /// Accessor: [`Accessors::first_rx_pdo`].
         ///
         /// Manual, line 5582.
         pub const FIRST_RX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object_with_default(
@@ -14202,6 +16144,7 @@ pub mod objects {
         /// Second RxPDO.
         ///
         /// 0x1C12:02, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::second_rx_pdo`].
         ///
         /// Manual, line 5652-5654, 5697-5700.
         pub const SECOND_RX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
@@ -14212,6 +16155,7 @@ pub mod objects {
         /// Third RxPDO.
         ///
         /// 0x1C12:03, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::third_rx_pdo`].
         ///
         /// Manual, line 5652-5654, 5697-5700.
         pub const THIRD_RX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
@@ -14222,6 +16166,7 @@ pub mod objects {
         /// Fourth RxPDO.
         ///
         /// 0x1C12:04, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::fourth_rx_pdo`].
         ///
         /// Manual, line 5652-5654, 5697-5700.
         pub const FOURTH_RX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
@@ -14235,30 +16180,35 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of RxPDOs: 0x1C12:00.
+            /// Constant: [`NUMBER_OF_RX_PDOS`].
             pub fn number_of_rx_pdos(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_RX_PDOS.at(self.client)
             }
             /// First RxPDO: 0x1C12:01.
+            /// Constant: [`FIRST_RX_PDO`].
             pub fn first_rx_pdo(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 FIRST_RX_PDO.at(self.client)
             }
             /// Second RxPDO: 0x1C12:02.
+            /// Constant: [`SECOND_RX_PDO`].
             pub fn second_rx_pdo(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 SECOND_RX_PDO.at(self.client)
             }
             /// Third RxPDO: 0x1C12:03.
+            /// Constant: [`THIRD_RX_PDO`].
             pub fn third_rx_pdo(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 THIRD_RX_PDO.at(self.client)
             }
             /// Fourth RxPDO: 0x1C12:04.
+            /// Constant: [`FOURTH_RX_PDO`].
             pub fn fourth_rx_pdo(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
@@ -14274,6 +16224,7 @@ pub mod objects {
         /// Number of TxPDOs.
         ///
         /// 0x1C13:00, UNSIGNED8, rw, default 1.
+        /// Accessor: [`Accessors::number_of_tx_pdos`].
         ///
         /// Manual, line 5581.
         pub const NUMBER_OF_TX_PDOS: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::coe_object_with_default(
@@ -14285,6 +16236,7 @@ pub mod objects {
         /// First TxPDO.
         ///
         /// 0x1C13:01, UNSIGNED16, rw, default 6658.
+        /// Accessor: [`Accessors::first_tx_pdo`].
         ///
         /// Manual, line 5582.
         pub const FIRST_TX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object_with_default(
@@ -14296,6 +16248,7 @@ pub mod objects {
         /// Second TxPDO.
         ///
         /// 0x1C13:02, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::second_tx_pdo`].
         ///
         /// Manual, line 5652-5654, 5697-5700.
         pub const SECOND_TX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
@@ -14306,6 +16259,7 @@ pub mod objects {
         /// Third TxPDO.
         ///
         /// 0x1C13:03, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::third_tx_pdo`].
         ///
         /// Manual, line 5652-5654, 5697-5700.
         pub const THIRD_TX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
@@ -14316,6 +16270,7 @@ pub mod objects {
         /// Fourth TxPDO.
         ///
         /// 0x1C13:04, UNSIGNED16, rw.
+        /// Accessor: [`Accessors::fourth_tx_pdo`].
         ///
         /// Manual, line 5652-5654, 5697-5700.
         pub const FOURTH_TX_PDO: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object(
@@ -14329,30 +16284,35 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of TxPDOs: 0x1C13:00.
+            /// Constant: [`NUMBER_OF_TX_PDOS`].
             pub fn number_of_tx_pdos(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCoE> {
                 NUMBER_OF_TX_PDOS.at(self.client)
             }
             /// First TxPDO: 0x1C13:01.
+            /// Constant: [`FIRST_TX_PDO`].
             pub fn first_tx_pdo(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 FIRST_TX_PDO.at(self.client)
             }
             /// Second TxPDO: 0x1C13:02.
+            /// Constant: [`SECOND_TX_PDO`].
             pub fn second_tx_pdo(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 SECOND_TX_PDO.at(self.client)
             }
             /// Third TxPDO: 0x1C13:03.
+            /// Constant: [`THIRD_TX_PDO`].
             pub fn third_tx_pdo(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
                 THIRD_TX_PDO.at(self.client)
             }
             /// Fourth TxPDO: 0x1C13:04.
+            /// Constant: [`FOURTH_TX_PDO`].
             pub fn fourth_tx_pdo(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
@@ -14367,6 +16327,7 @@ pub mod objects {
         /// Number of entries of the parameter window.
         ///
         /// 0x2000:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_the_parameter_window`].
         ///
         /// Manual, line 3849.
         pub const NUMBER_OF_ENTRIES_OF_THE_PARAMETER_WINDOW: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
@@ -14377,6 +16338,7 @@ pub mod objects {
         /// Parameter Write Address.
         ///
         /// 0x2000:01, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::parameter_write_address`].
         ///
         /// Which parameter is written; 0 when it is done
         ///
@@ -14391,6 +16353,7 @@ pub mod objects {
         /// Parameter Write Value.
         ///
         /// 0x2000:02, UNSIGNED8, wo.
+        /// Accessor: [`Accessors::parameter_write_value`].
         ///
         /// Manual, line 3851, 4004.
         ///
@@ -14403,6 +16366,7 @@ pub mod objects {
         /// Parameter Read Address.
         ///
         /// 0x2000:03, UNSIGNED8, rw.
+        /// Accessor: [`Accessors::parameter_read_address`].
         ///
         /// Which parameter is read; 0 when its value is there
         ///
@@ -14417,6 +16381,7 @@ pub mod objects {
         /// Parameter Read Value.
         ///
         /// 0x2000:04, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::parameter_read_value`].
         ///
         /// Manual, line 3853.
         pub const PARAMETER_READ_VALUE: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
@@ -14430,30 +16395,41 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of the parameter window: 0x2000:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_PARAMETER_WINDOW`].
             pub fn number_of_entries_of_the_parameter_window(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_PARAMETER_WINDOW.at(self.client)
             }
             /// Parameter Write Address: 0x2000:01.
+            ///
+            /// Which parameter is written; 0 when it is done
+            ///
+            /// Constant: [`PARAMETER_WRITE_ADDRESS`].
             pub fn parameter_write_address(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 PARAMETER_WRITE_ADDRESS.at(self.client)
             }
             /// Parameter Write Value: 0x2000:02.
+            /// Constant: [`PARAMETER_WRITE_VALUE`].
             pub fn parameter_write_value(
                 &mut self,
             ) -> super::WriteOnlyAccess<'_, C, u8> {
                 PARAMETER_WRITE_VALUE.at(self.client)
             }
             /// Parameter Read Address: 0x2000:03.
+            ///
+            /// Which parameter is read; 0 when its value is there
+            ///
+            /// Constant: [`PARAMETER_READ_ADDRESS`].
             pub fn parameter_read_address(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8> {
                 PARAMETER_READ_ADDRESS.at(self.client)
             }
             /// Parameter Read Value: 0x2000:04.
+            /// Constant: [`PARAMETER_READ_VALUE`].
             pub fn parameter_read_value(&mut self) -> super::ReadOnlyAccess<'_, C, u8> {
                 PARAMETER_READ_VALUE.at(self.client)
             }
@@ -14461,7 +16437,8 @@ pub mod objects {
     }
     /// IP Set Point 16.
     ///
-    /// 0x2002:00, INTEGER16, wo, mappable into RPDOs, stands for raw / feed\_constant rev.
+    /// 0x2002:00, INTEGER16, wo, mappable into RPDOs, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
+    /// Accessor: [`ip_set_point_16`](super::Eco::ip_set_point_16).
     ///
     /// Next position of the interpolator, in 16 bits: 0x60C1:1 has 32
     ///
@@ -14476,7 +16453,8 @@ pub mod objects {
     );
     /// Position Actual Value 16.
     ///
-    /// 0x2003:00, INTEGER16, rw, mappable into any PDO, stands for raw / feed\_constant rev.
+    /// 0x2003:00, INTEGER16, rw, mappable into any PDO, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
+    /// Accessor: [`position_actual_value_16`](super::Eco::position_actual_value_16).
     ///
     /// Lower half of the position
     ///
@@ -14493,7 +16471,8 @@ pub mod objects {
     );
     /// Latched User Position 16.
     ///
-    /// 0x2004:00, INTEGER16, rw, mappable into any PDO, stands for raw / feed\_constant rev.
+    /// 0x2004:00, INTEGER16, rw, mappable into any PDO, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
+    /// Accessor: [`latched_user_position_16`](super::Eco::latched_user_position_16).
     ///
     /// Lower half of the latched position
     ///
@@ -14516,6 +16495,7 @@ pub mod objects {
         /// Number of entries of the read window.
         ///
         /// 0x2005:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_the_read_window`].
         ///
         /// Manual, line 3865.
         pub const NUMBER_OF_ENTRIES_OF_THE_READ_WINDOW: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
@@ -14526,6 +16506,7 @@ pub mod objects {
         /// Variable Read Address.
         ///
         /// 0x2005:01, UNSIGNED16, rw, mappable into any PDO, one of 0, 1 to 99, 32768 to 36863.
+        /// Accessor: [`Accessors::variable_read_address`].
         ///
         /// Which variable is read; 0 when its value is there
         ///
@@ -14543,6 +16524,7 @@ pub mod objects {
         /// Variable Read Value.
         ///
         /// 0x2005:02, UNSIGNED32, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::variable_read_value`].
         ///
         /// Manual, line 3867.
         pub const VARIABLE_READ_VALUE: super::ReadOnly<u32> = super::ReadOnlyU32::flagged_shared_object(
@@ -14557,18 +16539,24 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of the read window: 0x2005:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_READ_WINDOW`].
             pub fn number_of_entries_of_the_read_window(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_READ_WINDOW.at(self.client)
             }
             /// Variable Read Address: 0x2005:01.
+            ///
+            /// Which variable is read; 0 when its value is there
+            ///
+            /// Constant: [`VARIABLE_READ_ADDRESS`].
             pub fn variable_read_address(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16> {
                 VARIABLE_READ_ADDRESS.at(self.client)
             }
             /// Variable Read Value: 0x2005:02.
+            /// Constant: [`VARIABLE_READ_VALUE`].
             pub fn variable_read_value(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
                 VARIABLE_READ_VALUE.at(self.client)
             }
@@ -14582,6 +16570,7 @@ pub mod objects {
         /// Number of entries of the write window.
         ///
         /// 0x2006:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_the_write_window`].
         ///
         /// Manual, line 3872.
         pub const NUMBER_OF_ENTRIES_OF_THE_WRITE_WINDOW: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
@@ -14592,6 +16581,7 @@ pub mod objects {
         /// Variable Write Address.
         ///
         /// 0x2006:01, UNSIGNED16, rw, mappable into any PDO, one of 0, 1 to 99, 32768 to 36863.
+        /// Accessor: [`Accessors::variable_write_address`].
         ///
         /// Which variable is written; 0 when it is done
         ///
@@ -14609,6 +16599,7 @@ pub mod objects {
         /// Variable Write Value.
         ///
         /// 0x2006:02, UNSIGNED32, rw, mappable into any PDO.
+        /// Accessor: [`Accessors::variable_write_value`].
         ///
         /// Manual, line 3874.
         ///
@@ -14625,18 +16616,24 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of the write window: 0x2006:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_WRITE_WINDOW`].
             pub fn number_of_entries_of_the_write_window(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_WRITE_WINDOW.at(self.client)
             }
             /// Variable Write Address: 0x2006:01.
+            ///
+            /// Which variable is written; 0 when it is done
+            ///
+            /// Constant: [`VARIABLE_WRITE_ADDRESS`].
             pub fn variable_write_address(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16> {
                 VARIABLE_WRITE_ADDRESS.at(self.client)
             }
             /// Variable Write Value: 0x2006:02.
+            /// Constant: [`VARIABLE_WRITE_VALUE`].
             pub fn variable_write_value(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u32> {
@@ -14647,10 +16644,11 @@ pub mod objects {
     /// Save Parameters.
     ///
     /// 0x2007:00, UNSIGNED8, wo.
+    /// Accessor: [`save_parameters`](super::Eco::save_parameters).
     ///
     /// Saves registers and parameters, with the axis disabled
     ///
-    /// Can be written only while Statusword \& 0x4 is 0. Only 17 can be written.
+    /// Can be written only while [Statusword](STATUSWORD) \& 0x4 is 0. Only 17 can be written.
     ///
     /// Manual, line 5750, 5756.
     ///
@@ -14666,6 +16664,7 @@ pub mod objects {
     /// Error Codes.
     ///
     /// 0x603F:00, UNSIGNED16, ro.
+    /// Accessor: [`error_codes`](super::Eco::error_codes).
     ///
     /// Error by the code of EtherCAT; \`ethercat\_alarms\` has it for each alarm. Several alarms share one, and alarm 30 has none
     ///
@@ -14680,6 +16679,7 @@ pub mod objects {
     /// Controlword.
     ///
     /// 0x6040:00, UNSIGNED16, rw, mappable into any PDO.
+    /// Accessor: [`controlword`](super::Eco::controlword). Values: [`Controlword`](super::types::Controlword). Carried by [`InterpolatedPosition`](super::pdo::InterpolatedPosition), [`Mode`](super::pdo::Mode), [`Position`](super::pdo::Position), [`Velocity`](super::pdo::Velocity).
     ///
     /// Commands of DSP 402; control\_word has the vendor's own
     ///
@@ -14693,6 +16693,7 @@ pub mod objects {
     /// Statusword.
     ///
     /// 0x6041:00, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`statusword`](super::Eco::statusword). Values: [`Statusword`](super::types::Statusword). Carried by [`Status`](super::pdo::Status), [`ModeDisplay`](super::pdo::ModeDisplay), [`ActualPosition`](super::pdo::ActualPosition), [`ActualVelocity`](super::pdo::ActualVelocity).
     ///
     /// State by DSP 402; status\_word has the vendor's own
     ///
@@ -14706,6 +16707,7 @@ pub mod objects {
     /// Modes Of Operation Display.
     ///
     /// 0x6061:00, byte 2 of the image to the master, INTEGER8, ro, mappable into TPDOs.
+    /// Accessor: [`modes_of_operation_display`](super::Eco::modes_of_operation_display). Values: [`Mode`](super::types::Mode). Carried by [`ModeDisplay`](super::pdo::ModeDisplay).
     ///
     /// The mode that is
     ///
@@ -14732,6 +16734,7 @@ pub mod objects {
     /// Velocity Sensor Actual Value.
     ///
     /// 0x6069:00, INTEGER32, ro, mappable into TPDOs.
+    /// Accessor: [`velocity_sensor_actual_value`](super::Eco::velocity_sensor_actual_value).
     ///
     /// Speed of a sensor with 8192 pulses a turn; that of the master axis in increments a millisecond, while bit 12 of the Controlword is set
     ///
@@ -14744,7 +16747,8 @@ pub mod objects {
     );
     /// Velocity Demand Value.
     ///
-    /// 0x606B:00, INTEGER32, ro, mappable into TPDOs, stands for raw × 60 / feed\_constant rpm.
+    /// 0x606B:00, INTEGER32, ro, mappable into TPDOs, stands for raw × 60 / [feed\_constant](feed_constant::FEED_CONSTANT) rpm.
+    /// Accessor: [`velocity_demand_value`](super::Eco::velocity_demand_value).
     ///
     /// Manual, line 3785.
     pub const VELOCITY_DEMAND_VALUE: ReadOnly<rt::PerItem<i32, 60>> = ReadOnlyPerItemI32Times60Per1::new(
@@ -14763,6 +16767,7 @@ pub mod objects {
         /// Number of entries of the feed constant.
         ///
         /// 0x6092:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_the_feed_constant`].
         ///
         /// Manual, line 3798.
         ///
@@ -14775,6 +16780,7 @@ pub mod objects {
         /// feed\_constant.
         ///
         /// 0x6092:01, holding register 32770 of 32 bits, number 0x8002 behind a window on PROFINET, UNSIGNED32, rw, range 0 to 262143.
+        /// Accessor: [`Accessors::feed_constant`].
         ///
         /// User units a turn of the motor: the unit of positions, of speeds (u/s) and of accelerations (u/s/ms)
         ///
@@ -14800,6 +16806,7 @@ pub mod objects {
         /// Shaft Revolutions.
         ///
         /// 0x6092:02, UNSIGNED32, ro, default 1, range 1 to 1.
+        /// Accessor: [`Accessors::shaft_revolutions`].
         ///
         /// Turns that the feed is for
         ///
@@ -14818,12 +16825,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of the feed constant: 0x6092:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_FEED_CONSTANT`].
             pub fn number_of_entries_of_the_feed_constant(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_FEED_CONSTANT.at(self.client)
             }
             /// feed\_constant: 0x6092:01, register 32770.
+            ///
+            /// User units a turn of the motor: the unit of positions, of speeds (u/s) and of accelerations (u/s/ms)
+            ///
+            /// Constant: [`FEED_CONSTANT`].
             pub fn feed_constant(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -14835,6 +16847,10 @@ pub mod objects {
                 FEED_CONSTANT.at(self.client)
             }
             /// Shaft Revolutions: 0x6092:02.
+            ///
+            /// Turns that the feed is for
+            ///
+            /// Constant: [`SHAFT_REVOLUTIONS`].
             pub fn shaft_revolutions(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
                 SHAFT_REVOLUTIONS.at(self.client)
             }
@@ -14848,6 +16864,7 @@ pub mod objects {
         /// Number of entries of the homing speeds.
         ///
         /// 0x6099:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_the_homing_speeds`].
         ///
         /// Manual, line 3806.
         ///
@@ -14859,7 +16876,8 @@ pub mod objects {
         );
         /// homing\_fast\_speed.
         ///
-        /// 0x6099:01, holding register 32788 of 32 bits, number 0x8014 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw × 60 / feed\_constant rpm.
+        /// 0x6099:01, holding register 32788 of 32 bits, number 0x8014 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw × 60 / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rpm.
+        /// Accessor: [`Accessors::homing_fast_speed`].
         ///
         /// Speed towards the switch
         ///
@@ -14886,7 +16904,8 @@ pub mod objects {
         );
         /// homing\_slow\_speed.
         ///
-        /// 0x6099:02, holding register 32789 of 32 bits, number 0x8015 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 60 / feed\_constant rpm.
+        /// 0x6099:02, holding register 32789 of 32 bits, number 0x8015 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 60 / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rpm.
+        /// Accessor: [`Accessors::homing_slow_speed`].
         ///
         /// Speed towards the marker
         ///
@@ -14915,12 +16934,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of the homing speeds: 0x6099:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_HOMING_SPEEDS`].
             pub fn number_of_entries_of_the_homing_speeds(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_HOMING_SPEEDS.at(self.client)
             }
             /// homing\_fast\_speed: 0x6099:01, register 32788.
+            ///
+            /// Speed towards the switch
+            ///
+            /// Constant: [`HOMING_FAST_SPEED`].
             pub fn homing_fast_speed(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -14932,6 +16956,10 @@ pub mod objects {
                 HOMING_FAST_SPEED.at(self.client)
             }
             /// homing\_slow\_speed: 0x6099:02, register 32789.
+            ///
+            /// Speed towards the marker
+            ///
+            /// Constant: [`HOMING_SLOW_SPEED`].
             pub fn homing_slow_speed(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -14952,6 +16980,7 @@ pub mod objects {
         /// Number of entries of the interpolation data.
         ///
         /// 0x60C1:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_the_interpolation_data`].
         ///
         /// Manual, line 3814.
         pub const NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_DATA: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
@@ -14961,7 +16990,8 @@ pub mod objects {
         );
         /// Position Set-Point.
         ///
-        /// 0x60C1:01, INTEGER32, wo, mappable into RPDOs, stands for raw / feed\_constant rev.
+        /// 0x60C1:01, INTEGER32, wo, mappable into RPDOs, stands for raw / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rev.
+        /// Accessor: [`Accessors::position_set_point`]. Carried by [`InterpolatedPosition`](super::super::pdo::InterpolatedPosition).
         ///
         /// Next position of the interpolator
         ///
@@ -14980,12 +17010,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of the interpolation data: 0x60C1:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_DATA`].
             pub fn number_of_entries_of_the_interpolation_data(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_DATA.at(self.client)
             }
             /// Position Set-Point: 0x60C1:01.
+            ///
+            /// Next position of the interpolator
+            ///
+            /// Constant: [`POSITION_SET_POINT`]. Carried by [`InterpolatedPosition`](super::super::pdo::InterpolatedPosition).
             pub fn position_set_point(
                 &mut self,
             ) -> super::WriteOnlyAccess<'_, C, rt::PerItem<i32, 1>> {
@@ -15001,6 +17036,7 @@ pub mod objects {
         /// Number of entries of the interpolation time.
         ///
         /// 0x60C2:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_the_interpolation_time`].
         ///
         /// Manual, line 3825.
         pub const NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_TIME: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
@@ -15011,6 +17047,7 @@ pub mod objects {
         /// ip\_time\_units.
         ///
         /// 0x60C2:01, holding register 32815 of 32 bits, number 0x802F behind a window on PROFINET, UNSIGNED8, rw, range 0 to 255, in ms.
+        /// Accessor: [`Accessors::ip_time_units`].
         ///
         /// Time between two set-points of the interpolator
         ///
@@ -15038,6 +17075,7 @@ pub mod objects {
         /// Time Index.
         ///
         /// 0x60C2:02, INTEGER8, ro.
+        /// Accessor: [`Accessors::time_index`].
         ///
         /// Power of ten of the time; its value isn't printed
         ///
@@ -15053,12 +17091,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of the interpolation time: 0x60C2:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_TIME`].
             pub fn number_of_entries_of_the_interpolation_time(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_INTERPOLATION_TIME.at(self.client)
             }
             /// ip\_time\_units: 0x60C2:01, register 32815.
+            ///
+            /// Time between two set-points of the interpolator
+            ///
+            /// Constant: [`IP_TIME_UNITS`].
             pub fn ip_time_units(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -15070,6 +17113,10 @@ pub mod objects {
                 IP_TIME_UNITS.at(self.client)
             }
             /// Time Index: 0x60C2:02.
+            ///
+            /// Power of ten of the time; its value isn't printed
+            ///
+            /// Constant: [`TIME_INDEX`].
             pub fn time_index(&mut self) -> super::ReadOnlyAccess<'_, C, i8> {
                 TIME_INDEX.at(self.client)
             }
@@ -15078,6 +17125,7 @@ pub mod objects {
     /// Max Slippage.
     ///
     /// 0x60F8:00, INTEGER32, rw, mappable into any PDO.
+    /// Accessor: [`max_slippage`](super::Eco::max_slippage).
     ///
     /// Manual, line 3831.
     pub const MAX_SLIPPAGE: ReadWrite<i32> = ReadWriteI32::flagged_shared_object(
@@ -15094,6 +17142,7 @@ pub mod objects {
         /// Number of entries of the digital outputs.
         ///
         /// 0x60FE:00, UNSIGNED8, ro.
+        /// Accessor: [`Accessors::number_of_entries_of_the_digital_outputs`].
         ///
         /// Manual, line 3834.
         pub const NUMBER_OF_ENTRIES_OF_THE_DIGITAL_OUTPUTS: super::ReadOnly<u8> = super::ReadOnlyU8::shared_object(
@@ -15104,6 +17153,7 @@ pub mod objects {
         /// digital\_outputs.
         ///
         /// 0x60FE:01, holding register 32818 of 32 bits, number 0x8032 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 4294967295.
+        /// Accessor: [`Accessors::digital_outputs`]. Values: [`DigitalOutputs`](super::super::types::DigitalOutputs).
         ///
         /// Levels of the outputs of connector CN2
         ///
@@ -15131,6 +17181,7 @@ pub mod objects {
         /// digital\_out\_mask.
         ///
         /// 0x60FE:02, holding register 32817 of 32 bits, number 0x8031 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 4294967295.
+        /// Accessor: [`Accessors::digital_out_mask`]. Values: [`DigitalOutputs`](super::super::types::DigitalOutputs).
         ///
         /// Pins that are outputs; the others aren't used
         ///
@@ -15159,12 +17210,17 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries of the digital outputs: 0x60FE:00.
+            /// Constant: [`NUMBER_OF_ENTRIES_OF_THE_DIGITAL_OUTPUTS`].
             pub fn number_of_entries_of_the_digital_outputs(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8> {
                 NUMBER_OF_ENTRIES_OF_THE_DIGITAL_OUTPUTS.at(self.client)
             }
             /// digital\_outputs: 0x60FE:01, register 32818.
+            ///
+            /// Levels of the outputs of connector CN2
+            ///
+            /// Constant: [`DIGITAL_OUTPUTS`]. Values: [`DigitalOutputs`](super::super::types::DigitalOutputs).
             pub fn digital_outputs(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -15176,6 +17232,10 @@ pub mod objects {
                 DIGITAL_OUTPUTS.at(self.client)
             }
             /// digital\_out\_mask: 0x60FE:02, register 32817.
+            ///
+            /// Pins that are outputs; the others aren't used
+            ///
+            /// Constant: [`DIGITAL_OUT_MASK`]. Values: [`DigitalOutputs`](super::super::types::DigitalOutputs).
             pub fn digital_out_mask(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -15191,6 +17251,7 @@ pub mod objects {
     /// Supported Drive Modes.
     ///
     /// 0x6502:00, UNSIGNED32, ro.
+    /// Accessor: [`supported_drive_modes`](super::Eco::supported_drive_modes). Values: [`SupportedDriveModes`](super::types::SupportedDriveModes).
     ///
     /// Manual, line 3842.
     pub const SUPPORTED_DRIVE_MODES: ReadOnly<super::types::SupportedDriveModes> = ReadOnlyNamedSupportedDriveModes::shared_object(
@@ -15201,6 +17262,7 @@ pub mod objects {
     /// Drive Manufacturer.
     ///
     /// 0x6504:00, VISIBLE_STRING, ro.
+    /// Accessor: [`drive_manufacturer`](super::Eco::drive_manufacturer).
     ///
     /// Manual, line 3843.
     pub const DRIVE_MANUFACTURER: ReadOnly<rt::VisibleString> = ReadOnlyVisibleString::shared_object(
@@ -15211,6 +17273,7 @@ pub mod objects {
     /// Http Drive Catalog Address.
     ///
     /// 0x6505:00, VISIBLE_STRING, ro.
+    /// Accessor: [`http_drive_catalog_address`](super::Eco::http_drive_catalog_address).
     ///
     /// Manual, line 3844.
     pub const HTTP_DRIVE_CATALOG_ADDRESS: ReadOnly<rt::VisibleString> = ReadOnlyVisibleString::shared_object(
@@ -15221,6 +17284,7 @@ pub mod objects {
     /// Single Device Type.
     ///
     /// 0x67FF:00, UNSIGNED32, rw.
+    /// Accessor: [`single_device_type`](super::Eco::single_device_type).
     ///
     /// Manual, line 3845.
     ///
@@ -15234,7 +17298,7 @@ pub mod objects {
 /// PDOs whose mapping can be changed: `lexibus::pdo!` looks them up here.
 pub mod remappable {
     use ::lexibus as rt;
-    /// RxPDO 0x1600: Interpolated position.
+    /// RxPDO 0x1600: Interpolated position. By default: [`InterpolatedPosition`](super::pdo::InterpolatedPosition).
     pub enum InterpolatedPosition {}
     impl rt::Remappable for InterpolatedPosition {
         type Direction = rt::Rpdo;
@@ -15243,7 +17307,7 @@ pub mod remappable {
         const ENTRIES: usize = 8;
         const MAX_BITS: u32 = 524280;
     }
-    /// RxPDO 0x1601: Mode.
+    /// RxPDO 0x1601: Mode. By default: [`Mode`](super::pdo::Mode).
     pub enum Mode {}
     impl rt::Remappable for Mode {
         type Direction = rt::Rpdo;
@@ -15252,7 +17316,7 @@ pub mod remappable {
         const ENTRIES: usize = 8;
         const MAX_BITS: u32 = 524280;
     }
-    /// RxPDO 0x1602: Position.
+    /// RxPDO 0x1602: Position. By default: [`Position`](super::pdo::Position).
     pub enum Position {}
     impl rt::Remappable for Position {
         type Direction = rt::Rpdo;
@@ -15261,7 +17325,7 @@ pub mod remappable {
         const ENTRIES: usize = 8;
         const MAX_BITS: u32 = 524280;
     }
-    /// RxPDO 0x1603: Velocity.
+    /// RxPDO 0x1603: Velocity. By default: [`Velocity`](super::pdo::Velocity).
     pub enum Velocity {}
     impl rt::Remappable for Velocity {
         type Direction = rt::Rpdo;
@@ -15270,7 +17334,7 @@ pub mod remappable {
         const ENTRIES: usize = 8;
         const MAX_BITS: u32 = 524280;
     }
-    /// TxPDO 0x1A00: Status.
+    /// TxPDO 0x1A00: Status. By default: [`Status`](super::pdo::Status).
     pub enum Status {}
     impl rt::Remappable for Status {
         type Direction = rt::Tpdo;
@@ -15279,7 +17343,7 @@ pub mod remappable {
         const ENTRIES: usize = 8;
         const MAX_BITS: u32 = 524280;
     }
-    /// TxPDO 0x1A01: Mode display.
+    /// TxPDO 0x1A01: Mode display. By default: [`ModeDisplay`](super::pdo::ModeDisplay).
     pub enum ModeDisplay {}
     impl rt::Remappable for ModeDisplay {
         type Direction = rt::Tpdo;
@@ -15288,7 +17352,7 @@ pub mod remappable {
         const ENTRIES: usize = 8;
         const MAX_BITS: u32 = 524280;
     }
-    /// TxPDO 0x1A02: Actual position.
+    /// TxPDO 0x1A02: Actual position. By default: [`ActualPosition`](super::pdo::ActualPosition).
     pub enum ActualPosition {}
     impl rt::Remappable for ActualPosition {
         type Direction = rt::Tpdo;
@@ -15297,7 +17361,7 @@ pub mod remappable {
         const ENTRIES: usize = 8;
         const MAX_BITS: u32 = 524280;
     }
-    /// TxPDO 0x1A03: Actual velocity.
+    /// TxPDO 0x1A03: Actual velocity. By default: [`ActualVelocity`](super::pdo::ActualVelocity).
     pub enum ActualVelocity {}
     impl rt::Remappable for ActualVelocity {
         type Direction = rt::Tpdo;
@@ -15512,11 +17576,16 @@ pub mod pdo {
     /// Note: The control word first (L5541-5543), and last in the mapping of CANopen's example (L4425-4426). Chosen: the control word first (each bus has its own mapping).
     ///
     /// Note: The numbers of the sync managers aren't printed (L5577-5583). Chosen: 2 and 3 (ETG.1000.4 has process data there where there is a mailbox).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`controlword`](Self::controlword) | [0x6040:00](super::objects::CONTROLWORD) | [`Controlword`](super::types::Controlword) |
+    /// | 2–5 | [`position_set_point`](Self::position_set_point) | [0x60C1:01](super::objects::interpolation_data_record::POSITION_SET_POINT) | `i32` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct InterpolatedPosition {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         pub controlword: super::types::Controlword,
-        /// Position Set-Point: 0x60C1:01, 32 bits from bit 16.
+        /// Position Set-Point: [0x60C1:01](super::objects::interpolation_data_record::POSITION_SET_POINT), 32 bits from bit 16.
         pub position_set_point: i32,
     }
     impl InterpolatedPosition {
@@ -15579,11 +17648,17 @@ pub mod pdo {
     /// Manual, line 5544-5547.
     ///
     /// Note: Modes of Operation has two bytes here (L5547), and one as an object (L3779). Chosen: one byte and one of padding (both lengths hold then).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`controlword`](Self::controlword) | [0x6040:00](super::objects::CONTROLWORD) | [`Controlword`](super::types::Controlword) |
+    /// | 2 | [`modes_of_operation`](Self::modes_of_operation) | [0x6060:00](super::objects::MODES_OF_OPERATION) | [`Mode`](super::types::Mode) |
+    /// | 3 | padding |  |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Mode {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         pub controlword: super::types::Controlword,
-        /// modes\_of\_operation: 0x6060:00, 8 bits from bit 16.
+        /// modes\_of\_operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits from bit 16.
         pub modes_of_operation: super::types::Mode,
     }
     impl Mode {
@@ -15645,11 +17720,16 @@ pub mod pdo {
     /// With mode 1.
     ///
     /// Manual, line 5549-5552, 5607-5611.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`controlword`](Self::controlword) | [0x6040:00](super::objects::CONTROLWORD) | [`Controlword`](super::types::Controlword) |
+    /// | 2–5 | [`target_position`](Self::target_position) | [0x607A:00](super::objects::TARGET_POSITION) | `i32` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Position {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         pub controlword: super::types::Controlword,
-        /// target\_position: 0x607A:00, 32 bits from bit 16.
+        /// target\_position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits from bit 16.
         pub target_position: i32,
     }
     impl Position {
@@ -15710,11 +17790,16 @@ pub mod pdo {
     /// With mode 3.
     ///
     /// Manual, line 5553-5556, 5636-5640.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`controlword`](Self::controlword) | [0x6040:00](super::objects::CONTROLWORD) | [`Controlword`](super::types::Controlword) |
+    /// | 2–5 | [`target_velocity`](Self::target_velocity) | [0x60FF:00](super::objects::TARGET_VELOCITY) | `i32` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Velocity {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         pub controlword: super::types::Controlword,
-        /// target\_velocity: 0x60FF:00, 32 bits from bit 16.
+        /// target\_velocity: [0x60FF:00](super::objects::TARGET_VELOCITY), 32 bits from bit 16.
         pub target_velocity: i32,
     }
     impl Velocity {
@@ -15773,9 +17858,13 @@ pub mod pdo {
     /// Mapping 0x1A00, 16 bits.
     ///
     /// Manual, line 5561-5562.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`statusword`](Self::statusword) | [0x6041:00](super::objects::STATUSWORD) | [`Statusword`](super::types::Statusword) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Status {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         pub statusword: super::types::Statusword,
     }
     impl Status {
@@ -15832,11 +17921,17 @@ pub mod pdo {
     /// Manual, line 5564-5566.
     ///
     /// Note: Modes of Operation Display has two bytes here (L5566), and one as an object (L3780). Chosen: one byte and one of padding (both lengths hold then).
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`statusword`](Self::statusword) | [0x6041:00](super::objects::STATUSWORD) | [`Statusword`](super::types::Statusword) |
+    /// | 2 | [`modes_of_operation_display`](Self::modes_of_operation_display) | [0x6061:00](super::objects::MODES_OF_OPERATION_DISPLAY) | [`Mode`](super::types::Mode) |
+    /// | 3 | padding |  |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct ModeDisplay {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         pub statusword: super::types::Statusword,
-        /// Modes Of Operation Display: 0x6061:00, 8 bits from bit 16.
+        /// Modes Of Operation Display: [0x6061:00](super::objects::MODES_OF_OPERATION_DISPLAY), 8 bits from bit 16.
         pub modes_of_operation_display: super::types::Mode,
     }
     impl ModeDisplay {
@@ -15900,11 +17995,16 @@ pub mod pdo {
     /// With modes 1 and 7.
     ///
     /// Manual, line 5568-5570, 5581-5583, 5601-5605.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`statusword`](Self::statusword) | [0x6041:00](super::objects::STATUSWORD) | [`Statusword`](super::types::Statusword) |
+    /// | 2–5 | [`position_actual_value`](Self::position_actual_value) | [0x6064:00](super::objects::POSITION_ACTUAL_VALUE) | `i32` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct ActualPosition {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         pub statusword: super::types::Statusword,
-        /// position\_actual\_value: 0x6064:00, 32 bits from bit 16.
+        /// position\_actual\_value: [0x6064:00](super::objects::POSITION_ACTUAL_VALUE), 32 bits from bit 16.
         pub position_actual_value: i32,
     }
     impl ActualPosition {
@@ -15965,11 +18065,16 @@ pub mod pdo {
     /// With mode 3.
     ///
     /// Manual, line 5572-5574, 5630-5634.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`statusword`](Self::statusword) | [0x6041:00](super::objects::STATUSWORD) | [`Statusword`](super::types::Statusword) |
+    /// | 2–5 | [`velocity_actual_value`](Self::velocity_actual_value) | [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE) | `i32` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct ActualVelocity {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         pub statusword: super::types::Statusword,
-        /// velocity\_actual\_value: 0x606C:00, 32 bits from bit 16.
+        /// velocity\_actual\_value: [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE), 32 bits from bit 16.
         pub velocity_actual_value: i32,
     }
     impl ActualVelocity {
@@ -16029,15 +18134,7 @@ pub mod view {
     use ::lexibus as rt;
     /// RxPDO 0x1600: Interpolated position.
     ///
-    /// Mapping 0x1600, 48 bits.
-    ///
-    /// With mode 7. CANopen's example has the set-point in front of the control word.
-    ///
-    /// Manual, line 5540-5543, 5581-5583, 5621-5625.
-    ///
-    /// Note: The control word first (L5541-5543), and last in the mapping of CANopen's example (L4425-4426). Chosen: the control word first (each bus has its own mapping).
-    ///
-    /// Note: The numbers of the sync managers aren't printed (L5577-5583). Chosen: 2 and 3 (ETG.1000.4 has process data there where there is a mailbox).
+    /// Its layout: [`pdo::InterpolatedPosition`](super::pdo::InterpolatedPosition).
     pub struct InterpolatedPosition<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -16062,26 +18159,26 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(48))?;
             Ok(Self { data, bit })
         }
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         #[inline]
         pub fn controlword(&self) -> super::types::Controlword {
             super::types::Controlword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Position Set-Point: 0x60C1:01, 32 bits from bit 16.
+        /// Position Set-Point: [0x60C1:01](super::objects::interpolation_data_record::POSITION_SET_POINT), 32 bits from bit 16.
         #[inline]
         pub fn position_set_point(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 32) as i32
         }
     }
     impl<B: AsMut<[u8]>> InterpolatedPosition<B> {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         #[inline]
         pub fn set_controlword(&mut self, value: super::types::Controlword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Position Set-Point: 0x60C1:01, 32 bits from bit 16.
+        /// Position Set-Point: [0x60C1:01](super::objects::interpolation_data_record::POSITION_SET_POINT), 32 bits from bit 16.
         #[inline]
         pub fn set_position_set_point(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 32, value as u32 as u64);
@@ -16089,13 +18186,7 @@ pub mod view {
     }
     /// RxPDO 0x1601: Mode.
     ///
-    /// Mapping 0x1601, 32 bits.
-    ///
-    /// Besides another RxPDO, where the mode has to change while the bus runs.
-    ///
-    /// Manual, line 5544-5547.
-    ///
-    /// Note: Modes of Operation has two bytes here (L5547), and one as an object (L3779). Chosen: one byte and one of padding (both lengths hold then).
+    /// Its layout: [`pdo::Mode`](super::pdo::Mode).
     pub struct Mode<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -16120,14 +18211,14 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(32))?;
             Ok(Self { data, bit })
         }
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         #[inline]
         pub fn controlword(&self) -> super::types::Controlword {
             super::types::Controlword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// modes\_of\_operation: 0x6060:00, 8 bits from bit 16.
+        /// modes\_of\_operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits from bit 16.
         #[inline]
         pub fn modes_of_operation(&self) -> super::types::Mode {
             super::types::Mode::from_raw(
@@ -16136,12 +18227,12 @@ pub mod view {
         }
     }
     impl<B: AsMut<[u8]>> Mode<B> {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         #[inline]
         pub fn set_controlword(&mut self, value: super::types::Controlword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// modes\_of\_operation: 0x6060:00, 8 bits from bit 16.
+        /// modes\_of\_operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits from bit 16.
         #[inline]
         pub fn set_modes_of_operation(&mut self, value: super::types::Mode) {
             rt::bits::set(
@@ -16154,11 +18245,7 @@ pub mod view {
     }
     /// RxPDO 0x1602: Position.
     ///
-    /// Mapping 0x1602, 48 bits.
-    ///
-    /// With mode 1.
-    ///
-    /// Manual, line 5549-5552, 5607-5611.
+    /// Its layout: [`pdo::Position`](super::pdo::Position).
     pub struct Position<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -16183,26 +18270,26 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(48))?;
             Ok(Self { data, bit })
         }
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         #[inline]
         pub fn controlword(&self) -> super::types::Controlword {
             super::types::Controlword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// target\_position: 0x607A:00, 32 bits from bit 16.
+        /// target\_position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits from bit 16.
         #[inline]
         pub fn target_position(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 32) as i32
         }
     }
     impl<B: AsMut<[u8]>> Position<B> {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         #[inline]
         pub fn set_controlword(&mut self, value: super::types::Controlword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// target\_position: 0x607A:00, 32 bits from bit 16.
+        /// target\_position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits from bit 16.
         #[inline]
         pub fn set_target_position(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 32, value as u32 as u64);
@@ -16210,11 +18297,7 @@ pub mod view {
     }
     /// RxPDO 0x1603: Velocity.
     ///
-    /// Mapping 0x1603, 48 bits.
-    ///
-    /// With mode 3.
-    ///
-    /// Manual, line 5553-5556, 5636-5640.
+    /// Its layout: [`pdo::Velocity`](super::pdo::Velocity).
     pub struct Velocity<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -16239,26 +18322,26 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(48))?;
             Ok(Self { data, bit })
         }
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         #[inline]
         pub fn controlword(&self) -> super::types::Controlword {
             super::types::Controlword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// target\_velocity: 0x60FF:00, 32 bits from bit 16.
+        /// target\_velocity: [0x60FF:00](super::objects::TARGET_VELOCITY), 32 bits from bit 16.
         #[inline]
         pub fn target_velocity(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 32) as i32
         }
     }
     impl<B: AsMut<[u8]>> Velocity<B> {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         #[inline]
         pub fn set_controlword(&mut self, value: super::types::Controlword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// target\_velocity: 0x60FF:00, 32 bits from bit 16.
+        /// target\_velocity: [0x60FF:00](super::objects::TARGET_VELOCITY), 32 bits from bit 16.
         #[inline]
         pub fn set_target_velocity(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 32, value as u32 as u64);
@@ -16266,9 +18349,7 @@ pub mod view {
     }
     /// TxPDO 0x1A00: Status.
     ///
-    /// Mapping 0x1A00, 16 bits.
-    ///
-    /// Manual, line 5561-5562.
+    /// Its layout: [`pdo::Status`](super::pdo::Status).
     pub struct Status<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -16293,7 +18374,7 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(16))?;
             Ok(Self { data, bit })
         }
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         #[inline]
         pub fn statusword(&self) -> super::types::Statusword {
             super::types::Statusword::from_raw(
@@ -16302,7 +18383,7 @@ pub mod view {
         }
     }
     impl<B: AsMut<[u8]>> Status<B> {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         #[inline]
         pub fn set_statusword(&mut self, value: super::types::Statusword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
@@ -16310,11 +18391,7 @@ pub mod view {
     }
     /// TxPDO 0x1A01: Mode display.
     ///
-    /// Mapping 0x1A01, 32 bits.
-    ///
-    /// Manual, line 5564-5566.
-    ///
-    /// Note: Modes of Operation Display has two bytes here (L5566), and one as an object (L3780). Chosen: one byte and one of padding (both lengths hold then).
+    /// Its layout: [`pdo::ModeDisplay`](super::pdo::ModeDisplay).
     pub struct ModeDisplay<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -16339,14 +18416,14 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(32))?;
             Ok(Self { data, bit })
         }
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         #[inline]
         pub fn statusword(&self) -> super::types::Statusword {
             super::types::Statusword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Modes Of Operation Display: 0x6061:00, 8 bits from bit 16.
+        /// Modes Of Operation Display: [0x6061:00](super::objects::MODES_OF_OPERATION_DISPLAY), 8 bits from bit 16.
         #[inline]
         pub fn modes_of_operation_display(&self) -> super::types::Mode {
             super::types::Mode::from_raw(
@@ -16355,12 +18432,12 @@ pub mod view {
         }
     }
     impl<B: AsMut<[u8]>> ModeDisplay<B> {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         #[inline]
         pub fn set_statusword(&mut self, value: super::types::Statusword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Modes Of Operation Display: 0x6061:00, 8 bits from bit 16.
+        /// Modes Of Operation Display: [0x6061:00](super::objects::MODES_OF_OPERATION_DISPLAY), 8 bits from bit 16.
         #[inline]
         pub fn set_modes_of_operation_display(&mut self, value: super::types::Mode) {
             rt::bits::set(
@@ -16373,11 +18450,7 @@ pub mod view {
     }
     /// TxPDO 0x1A02: Actual position.
     ///
-    /// Mapping 0x1A02, 48 bits.
-    ///
-    /// With modes 1 and 7.
-    ///
-    /// Manual, line 5568-5570, 5581-5583, 5601-5605.
+    /// Its layout: [`pdo::ActualPosition`](super::pdo::ActualPosition).
     pub struct ActualPosition<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -16402,26 +18475,26 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(48))?;
             Ok(Self { data, bit })
         }
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         #[inline]
         pub fn statusword(&self) -> super::types::Statusword {
             super::types::Statusword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// position\_actual\_value: 0x6064:00, 32 bits from bit 16.
+        /// position\_actual\_value: [0x6064:00](super::objects::POSITION_ACTUAL_VALUE), 32 bits from bit 16.
         #[inline]
         pub fn position_actual_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 32) as i32
         }
     }
     impl<B: AsMut<[u8]>> ActualPosition<B> {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         #[inline]
         pub fn set_statusword(&mut self, value: super::types::Statusword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// position\_actual\_value: 0x6064:00, 32 bits from bit 16.
+        /// position\_actual\_value: [0x6064:00](super::objects::POSITION_ACTUAL_VALUE), 32 bits from bit 16.
         #[inline]
         pub fn set_position_actual_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 32, value as u32 as u64);
@@ -16429,11 +18502,7 @@ pub mod view {
     }
     /// TxPDO 0x1A03: Actual velocity.
     ///
-    /// Mapping 0x1A03, 48 bits.
-    ///
-    /// With mode 3.
-    ///
-    /// Manual, line 5572-5574, 5630-5634.
+    /// Its layout: [`pdo::ActualVelocity`](super::pdo::ActualVelocity).
     pub struct ActualVelocity<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -16458,26 +18527,26 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(48))?;
             Ok(Self { data, bit })
         }
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         #[inline]
         pub fn statusword(&self) -> super::types::Statusword {
             super::types::Statusword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// velocity\_actual\_value: 0x606C:00, 32 bits from bit 16.
+        /// velocity\_actual\_value: [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE), 32 bits from bit 16.
         #[inline]
         pub fn velocity_actual_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 32) as i32
         }
     }
     impl<B: AsMut<[u8]>> ActualVelocity<B> {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         #[inline]
         pub fn set_statusword(&mut self, value: super::types::Statusword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// velocity\_actual\_value: 0x606C:00, 32 bits from bit 16.
+        /// velocity\_actual\_value: [0x606C:00](super::objects::VELOCITY_ACTUAL_VALUE), 32 bits from bit 16.
         #[inline]
         pub fn set_velocity_actual_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 32, value as u32 as u64);

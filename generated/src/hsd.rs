@@ -48,6 +48,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Note: The notes to the drawings recommend CmdReset to leave the alarm (L2087, L2099); the table of commands and states doesn't have it (L1990-2023). Chosen: accepted in alarm (it is what leads out of alarm (L226)).
     ///
     /// Note: The last byte is numbered 09x (L238). Chosen: 09 (it follows 08).
+    ///
+    /// Sends [`messages::CmdReset`].
     pub fn cmd_reset(&mut self) -> rt::message::Call<'_, C, messages::CmdReset> {
         rt::message::Call::new(&mut self.client, messages::CmdReset)
     }
@@ -64,6 +66,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Note: BIT\_A is said to be in appendix A (L264). Chosen: chapter 6 (its bits are there (L1616), and appendix A has TESTSLIM).
     ///
     /// Note: Without effect during electrical homing (L260-261); the table of commands and states has an empty cell there (L1992). Chosen: not accepted (the text is the only thing said).
+    ///
+    /// Sends [`messages::CmdNoReg`].
     pub fn cmd_no_reg(&mut self) -> rt::message::Call<'_, C, messages::CmdNoReg> {
         rt::message::Call::new(&mut self.client, messages::CmdNoReg)
     }
@@ -84,6 +88,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Note: It has effect only while the motor isn't in regulation (L287); the table of commands and states has = for AXSTOP, and refuses it in all states but that and AXNOREG (L1994, L2032). Chosen: the table (it tells the states one by one, and no effect and no change are the same).
     ///
     /// Note: CMDREG has no asterisk in the table of commands and states (L1994); the text keeps it to the SM140 and to revision C (L268). Chosen: SM140 and revision C (the row also stands for CmdRegWait, which all motors have).
+    ///
+    /// Sends [`messages::CmdReg`].
     pub fn cmd_reg(&mut self) -> rt::message::Call<'_, C, messages::CmdReg> {
         rt::message::Call::new(&mut self.client, messages::CmdReg)
     }
@@ -102,6 +108,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Note: It has effect only while the motor moves (L317); the table of commands and states has = for AXSTOP, accepted without a change (L1999). Chosen: accepted in AXSTOP (no effect and no change are the same).
     ///
     /// Note: CMDHOLD has no asterisk in the table of commands and states (L1999); the text keeps it to the SM140 and to revision C (L296). Chosen: SM140 and revision C (the row also stands for CmdHoldWait, which all motors have).
+    ///
+    /// Sends [`messages::CmdHold`].
     pub fn cmd_hold(&mut self) -> rt::message::Call<'_, C, messages::CmdHold> {
         rt::message::Call::new(&mut self.client, messages::CmdHold)
     }
@@ -114,6 +122,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Manual, line 324-369, 1996, 2034: Azzeramento Manuale.
     ///
     /// Note: The example gives the position 6766.8176 mm (L361) and 6780.8465 mm in its formula (L365). Chosen: 6780\.8465 mm (it alone gives the printed bytes 0x0102AB34).
+    ///
+    /// Sends [`messages::CmdMazz`].
     pub fn cmd_mazz(
         &mut self,
         position: i32,
@@ -132,6 +142,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Manual, line 371-459, 1995, 2033: Azzeramento Automatico.
     ///
     /// Note: The cells of AXSTOP and AXFREERUN have an error or the homing, one or the other (L1995, L2033). Chosen: accepted in AXSTOP with TIPOAZZ 1 and 2, in AXFREERUN with 0 (the text tells which type starts where (L451)).
+    ///
+    /// Sends [`messages::CmdAzz`].
     pub fn cmd_azz(&mut self) -> rt::message::Call<'_, C, messages::CmdAzz> {
         rt::message::Call::new(&mut self.client, messages::CmdAzz)
     }
@@ -146,6 +158,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Manual, line 461-502, 2016, 2054: Movimento manuale con assegnamento della velocità (JOG).
     ///
     /// Note: The example wants 185 mm/min (L496), and its formula begins with -185 (L498). Chosen: \-185 mm/min (only so it gives the printed 0xFDBE, -578 rpm, and section 5.3 has -185 (L1425)).
+    ///
+    /// Sends [`messages::CmdJogN`].
     pub fn cmd_jog_n(
         &mut self,
         speed: i16,
@@ -164,6 +178,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Manual, line 506-550, 1555, 1557, 1563, 1574, 1998, 2036, 2067, 2188, 2194: Posizionamento alla quota assegnata (LINE).
     ///
     /// Note: The example gives the bytes 0x01 0x1B 0x6F 0x9E (L550) and 0x01B6F9E, a digit short (L546); its formula gives 1798046 counts. Chosen: 00 1B 6F 9E (1798046 is 0x001B6F9E; the printed bytes are 18575262).
+    ///
+    /// Sends [`messages::CmdTraj`].
     pub fn cmd_traj(
         &mut self,
         target: i32,
@@ -194,6 +210,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Note: The limit of the way is that of CmdTraj (L592). Chosen: the same of CmdTrajVel (the paragraph was copied from section 3.9, and stands under the conditions of this command).
     ///
     /// Note: The example gives the bytes 0x01 0x1B 0x6F 0x9E (L615) and 0x01B6F9E, a digit short (L611); its formula gives 1798046 counts. Chosen: 00 1B 6F 9E (1798046 is 0x001B6F9E; the printed bytes are 18575262).
+    ///
+    /// Sends [`messages::CmdTrajVel`].
     pub fn cmd_traj_vel(
         &mut self,
         target: i32,
@@ -216,6 +234,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Note: It has effect in any condition (L706); the table of commands and states refuses it in PREAXALARM, PREAXNOREG, AXINTERP and AXLATCH (L1990, L2028). Chosen: the table (it tells the states one by one).
     ///
     /// Note: CMDGOEMERG (L1635). Chosen: CmdEmerg (there is no other command of that kind).
+    ///
+    /// Sends [`messages::CmdEmerg`].
     pub fn cmd_emerg(&mut self) -> rt::message::Call<'_, C, messages::CmdEmerg> {
         rt::message::Call::new(&mut self.client, messages::CmdEmerg)
     }
@@ -230,6 +250,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Manual, line 708-738, 2014, 2052: Impostazione del valore di OVERRIDE.
     ///
     /// Note: It has effect at any moment (L730); the table of commands and states refuses it in AXINTERP and AXLATCH (L2052). Chosen: the table (it tells the states one by one).
+    ///
+    /// Sends [`messages::CmdSetOverr`].
     pub fn cmd_set_overr(
         &mut self,
         r#override: u16,
@@ -250,6 +272,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Manual, line 740-760, 2015, 2053: Lettura del valore di OVERRIDE.
     ///
     /// Note: It can be sent at any moment (L760); the table of commands and states refuses it in AXINTERP and AXLATCH (L2053). Chosen: the table (it tells the states one by one).
+    ///
+    /// Sends [`messages::CmdGetOverr`].
     pub fn cmd_get_overr(&mut self) -> rt::message::Call<'_, C, messages::CmdGetOverr> {
         rt::message::Call::new(&mut self.client, messages::CmdGetOverr)
     }
@@ -268,6 +292,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Note: Bytes 08 and 09 are both the high byte (Parte alta) of the value, PS1 and PS0 (L789-790, L835-836). Chosen: high byte, low byte (PS0 is bits 7-0 (L774-776)).
     ///
     /// Note: The frame with three parameters is answered with one code (L833-834). Chosen: the first (the replies to other requests copy bytes 05 to 07).
+    ///
+    /// Sends [`messages::CmdChgParN`].
     pub fn cmd_chg_par_n<'a>(
         &'a mut self,
         settings: &'a [rt::message::Setting],
@@ -292,6 +318,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Note: Bytes 08 and 09 of the reply are both the high byte (Parte alta) of the value, PS1 and PS0 (L883-884). Chosen: high byte, low byte (PS0 is bits 7-0 (L866-870)).
     ///
     /// Note: It can be sent at any moment (L917); the table of commands and states refuses it in AXINTERP and AXLATCH (L2050). Chosen: the table (it tells the states one by one).
+    ///
+    /// Sends [`messages::CmdGetParN`].
     pub fn cmd_get_par_n(
         &mut self,
         parameter: rt::Parameter,
@@ -314,6 +342,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Note: Section 4.6 doesn't say when the reply comes; that it comes at the end of the writing stands under CmdAdcOff, which writes nothing (L965). Chosen: a late reply (the note fits here; who is ready for a late reply loses nothing where it comes at once).
     ///
     /// Note: In alarm only (L941); the cells of AXALARM, AXADCOFF and AXNOREG are empty in the table of commands and states (L2017). Chosen: in alarm (the text).
+    ///
+    /// Sends [`messages::CmdSaveParFl`].
     pub fn cmd_save_par_fl(
         &mut self,
     ) -> rt::message::Call<'_, C, messages::CmdSaveParFl> {
@@ -330,6 +360,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Manual, line 943-965, 1991, 2029: Taratura degli offset dei sensori di corrente.
     ///
     /// Note: The reply comes at the end of the writing (L965), and nothing is written. Chosen: at the end of the measurement (the sentence belongs to CmdSaveParFl, and a note on the time of the reply is meant).
+    ///
+    /// Sends [`messages::CmdAdcOff`].
     pub fn cmd_adc_off(&mut self) -> rt::message::Call<'_, C, messages::CmdAdcOff> {
         rt::message::Call::new(&mut self.client, messages::CmdAdcOff)
     }
@@ -346,6 +378,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Manual, line 967-998, 1993, 2031: Azzeramento elettrico.
     ///
     /// Note: CMDAZZEL has no asterisk in the table of commands and states (L1993); the text keeps it to the SM140 and to revision C (L969). Chosen: SM140 and revision C (the row also stands for CmdAzzElWait, which all motors have).
+    ///
+    /// Sends [`messages::CmdAzzEl`].
     pub fn cmd_azz_el(
         &mut self,
         method: u8,
@@ -360,6 +394,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Only of SM137 rev. C, SM140.
     ///
     /// Manual, line 999-1028: Lettura dello stato di azzeramento.
+    ///
+    /// Sends [`messages::CmdGetStatAzz`].
     pub fn cmd_get_stat_azz(
         &mut self,
     ) -> rt::message::Call<'_, C, messages::CmdGetStatAzz> {
@@ -372,6 +408,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Only of SM140.
     ///
     /// Manual, line 1030-1057, 431-433: Lettura della distanza fra microinterruttore di azzeramento e tacca di zero dell'encoder.
+    ///
+    /// Sends [`messages::CmdGetDistMicroZero`].
     pub fn cmd_get_dist_micro_zero(
         &mut self,
     ) -> rt::message::Call<'_, C, messages::CmdGetDistMicroZero> {
@@ -388,6 +426,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Manual, line 1137-1157, 2002, 2040: Lettura dei messaggi di allarme o di Warning.
     ///
     /// Note: In any condition (L1157); the table of commands and states refuses it in AXLATCH (L2040). Chosen: the table (it tells the states one by one).
+    ///
+    /// Sends [`messages::CmdGetAlarm`].
     pub fn cmd_get_alarm(&mut self) -> rt::message::Call<'_, C, messages::CmdGetAlarm> {
         rt::message::Call::new(&mut self.client, messages::CmdGetAlarm)
     }
@@ -400,6 +440,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Manual, line 1161-1185, 2007, 2045: Lettura della versione software del firmware.
     ///
     /// Note: In any condition (L1179); the table of commands and states refuses it in AXLATCH (L2045). Chosen: the table (it tells the states one by one).
+    ///
+    /// Sends [`messages::CmdGetVer`].
     pub fn cmd_get_ver(&mut self) -> rt::message::Call<'_, C, messages::CmdGetVer> {
         rt::message::Call::new(&mut self.client, messages::CmdGetVer)
     }
@@ -410,6 +452,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Only of SM137 rev. C, SM140.
     ///
     /// Manual, line 1187-1221: Lettura del tipo di motore e di bus di campo.
+    ///
+    /// Sends [`messages::CmdGetType`].
     pub fn cmd_get_type(&mut self) -> rt::message::Call<'_, C, messages::CmdGetType> {
         rt::message::Call::new(&mut self.client, messages::CmdGetType)
     }
@@ -422,6 +466,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Manual, line 1223-1243, 2008, 2046: Lettura dello stato interno del motore.
     ///
     /// Note: In any condition (L1243); the table of commands and states refuses it in AXLATCH (L2046). Chosen: the table (it tells the states one by one).
+    ///
+    /// Sends [`messages::CmdGetSmStat`].
     pub fn cmd_get_sm_stat(
         &mut self,
     ) -> rt::message::Call<'_, C, messages::CmdGetSmStat> {
@@ -436,6 +482,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Manual, line 1245-1266: Campionamento di variabili.
     ///
     /// Note: The codes of the variables are said to be in the appendices (L1266), which don't have them. Chosen: numbers of one byte (nothing more is printed).
+    ///
+    /// Sends [`messages::CmdSampleVar`].
     pub fn cmd_sample_var(
         &mut self,
         variable_1: u8,
@@ -458,6 +506,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Note: Title and text speak of a frequency (L1268, L1272), the frame of a time (t. di campionamento, L1284-1285), and there is no unit. Chosen: a time without a unit (the frame is what is sent).
     ///
     /// Note: No addresses of variables are printed anywhere. Chosen: two numbers of 16 bits (nothing more is printed).
+    ///
+    /// Sends [`messages::CmdSampleMem`].
     pub fn cmd_sample_mem(
         &mut self,
         address_1: u16,
@@ -486,6 +536,8 @@ impl<C, S> HsdMotor<C, S> {
     /// Note: The greatest number of samples follows from the length of a packet (L1328), of which isn't said whether the check counts. Chosen: 15 (68 bytes without the check hold 15; with it, 14).
     ///
     /// Note: In any condition (L1326); the table of commands and states refuses it in AXLATCH (L2048). Chosen: the table (it tells the states one by one).
+    ///
+    /// Sends [`messages::CmdGetSamp`].
     pub fn cmd_get_samp(&mut self) -> rt::message::Call<'_, C, messages::CmdGetSamp> {
         rt::message::Call::new(&mut self.client, messages::CmdGetSamp)
     }
@@ -497,13 +549,15 @@ impl<C, S> HsdMotor<C, S> {
     ///
     /// Accepted in the states: released, stopped.
     ///
-    /// Replaced by CmdReg.
+    /// Replaced by [CmdReg](messages::CmdReg).
     ///
     /// Manual, line 1332-1362, 269, 1994, 2032: Regolazione con attesa.
     ///
     /// Note: The table of commands and states has one row CMDREG (L1994), and there are two commands, CmdReg and CmdRegWait. Chosen: the row is about both (they differ in the time of the reply only).
     ///
     /// Note: It has effect only out of regulation (L1356); the table of commands and states has = for AXSTOP (L1994). Chosen: accepted in AXSTOP (no effect and no change are the same).
+    ///
+    /// Sends [`messages::CmdRegWait`].
     #[deprecated(note = "replaced by CmdReg on SM137 rev. C, SM140")]
     pub fn cmd_reg_wait(&mut self) -> rt::message::Call<'_, C, messages::CmdRegWait> {
         rt::message::Call::new(&mut self.client, messages::CmdRegWait)
@@ -516,13 +570,15 @@ impl<C, S> HsdMotor<C, S> {
     ///
     /// Accepted in the states: stopped, homing, jogging, positioning, stopping.
     ///
-    /// Replaced by CmdHold.
+    /// Replaced by [CmdHold](messages::CmdHold).
     ///
     /// Manual, line 1366-1388, 297, 1999, 2037: Stop con attesa.
     ///
     /// Note: The table of commands and states has one row CMDHOLD (L1999), and there are two commands, CmdHold and CmdHoldWait. Chosen: the row is about both (they differ in the time of the reply only).
     ///
     /// Note: It has effect only while the motor moves (L1384); the table of commands and states has = for AXSTOP (L1999). Chosen: accepted in AXSTOP (no effect and no change are the same).
+    ///
+    /// Sends [`messages::CmdHoldWait`].
     #[deprecated(note = "replaced by CmdHold on SM137 rev. C, SM140")]
     pub fn cmd_hold_wait(&mut self) -> rt::message::Call<'_, C, messages::CmdHoldWait> {
         rt::message::Call::new(&mut self.client, messages::CmdHoldWait)
@@ -533,9 +589,11 @@ impl<C, S> HsdMotor<C, S> {
     ///
     /// Accepted in the states: stopped, jogging.
     ///
-    /// Replaced by CmdJogN.
+    /// Replaced by [CmdJogN](messages::CmdJogN).
     ///
     /// Manual, line 1390-1433, 463, 1997, 2035: Movimento manuale con assegnamento della velocità (Jog).
+    ///
+    /// Sends [`messages::CmdJog`].
     #[deprecated(note = "replaced by CmdJogN on SM137 rev. C, SM140")]
     pub fn cmd_jog(&mut self, speed: i16) -> rt::message::Call<'_, C, messages::CmdJog> {
         let message = messages::CmdJog { speed };
@@ -547,13 +605,15 @@ impl<C, S> HsdMotor<C, S> {
     ///
     /// Accepted in the states: alarm, released, stopped.
     ///
-    /// Replaced by CmdChgParN.
+    /// Replaced by [CmdChgParN](messages::CmdChgParN).
     ///
     /// Manual, line 1435-1455, 764, 2000, 2038: Modifica di un parametro dell'azionamento.
     ///
     /// Note: B04 of the reply is CmdJog (0x40) (L1446). Chosen: 0x04 (the table was copied from section 5.3; all other replies have the opcode of their request).
     ///
     /// Note: The codes are said to be those of section 6 (L1439); the low-level parameters of appendix A go with CmdChgPar (L1758), and those of section 6 with CmdChgParN (L1508). Chosen: the low-level parameters (both chapters of parameters say so, and section 5.4 sends whoever wants standard units to CmdChgParN (L1455)).
+    ///
+    /// Sends [`messages::CmdChgPar`].
     #[deprecated(note = "replaced by CmdChgParN on SM137 rev. C, SM140")]
     pub fn cmd_chg_par(
         &mut self,
@@ -570,11 +630,13 @@ impl<C, S> HsdMotor<C, S> {
     ///
     /// Accepted in the states: released.
     ///
-    /// Replaced by CmdAzzEl.
+    /// Replaced by [CmdAzzEl](messages::CmdAzzEl).
     ///
     /// Manual, line 1457-1484, 969, 1993, 2031: Azzeramento elettrico con attesa.
     ///
     /// Note: The table of commands and states has one row CMDAZZEL (L1993), and there are two commands, CmdAzzEl and CmdAzzElWait. Chosen: the row is about both (they differ in the time of the reply only).
+    ///
+    /// Sends [`messages::CmdAzzElWait`].
     #[deprecated(note = "replaced by CmdAzzEl on SM137 rev. C, SM140")]
     pub fn cmd_azz_el_wait(
         &mut self,
@@ -589,13 +651,15 @@ impl<C, S> HsdMotor<C, S> {
     ///
     /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
     ///
-    /// Replaced by CmdSampleVar.
+    /// Replaced by [CmdSampleVar](messages::CmdSampleVar).
     ///
     /// Manual, line 1486-1504, 1247, 2009, 2047: Campionamento di variabili.
     ///
     /// Note: It is obsolete (L1332), and what replaces it isn't said. Chosen: CmdSampleVar (same fields, same words).
     ///
     /// Note: In any condition (L1504); the table of commands and states refuses it in AXLATCH (L2047). Chosen: the table (it tells the states one by one).
+    ///
+    /// Sends [`messages::CmdSample`].
     #[deprecated(note = "replaced by CmdSampleVar on SM137 rev. C, SM140")]
     pub fn cmd_sample(
         &mut self,
@@ -620,6 +684,8 @@ impl<C> HsdMotor<C> {
     /// Manual, line 1059-1077, 2003, 2041: Ricezione della quota reale.
     ///
     /// Note: In any condition (L1077); the table of commands and states refuses it in AXLATCH (L2041). Chosen: the table (it tells the states one by one).
+    ///
+    /// Sends [`messages::CmdGetPos`].
     pub fn cmd_get_pos(&mut self) -> rt::message::Call<'_, C, messages::CmdGetPos> {
         rt::message::Call::new(&mut self.client, messages::CmdGetPos)
     }
@@ -630,6 +696,8 @@ impl<C> HsdMotor<C> {
     /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
     ///
     /// Manual, line 1081-1095, 2004, 2042: Ricezione della quota teorica.
+    ///
+    /// Sends [`messages::CmdGetPosT`].
     pub fn cmd_get_pos_t(&mut self) -> rt::message::Call<'_, C, messages::CmdGetPosT> {
         rt::message::Call::new(&mut self.client, messages::CmdGetPosT)
     }
@@ -644,6 +712,8 @@ impl<C> HsdMotor<C> {
     /// Note: In any condition (L1115); the table of commands and states refuses it in AXLATCH (L2043). Chosen: the table (it tells the states one by one).
     ///
     /// Note: Q15 is said to be told in appendix D (L1099); it is in appendix A (L1870-1882). Chosen: appendix A (appendix D has the messages).
+    ///
+    /// Sends [`messages::CmdGetVel`].
     pub fn cmd_get_vel(&mut self) -> rt::message::Call<'_, C, messages::CmdGetVel> {
         rt::message::Call::new(&mut self.client, messages::CmdGetVel)
     }
@@ -658,6 +728,8 @@ impl<C> HsdMotor<C> {
     /// Note: In any condition (L1135); the table of commands and states refuses it in AXLATCH (L2044). Chosen: the table (it tells the states one by one).
     ///
     /// Note: Q15 is said to be told in appendix D (L1119); it is in appendix A (L1870-1882). Chosen: appendix A (appendix D has the messages).
+    ///
+    /// Sends [`messages::CmdGetTor`].
     pub fn cmd_get_tor(&mut self) -> rt::message::Call<'_, C, messages::CmdGetTor> {
         rt::message::Call::new(&mut self.client, messages::CmdGetTor)
     }
@@ -675,7 +747,7 @@ impl<C> HsdMotor<C, messages::CmdGetPos> {
     ///
     /// The null request: the real position. So does a motor answer after power-on.
     ///
-    /// Means this after CmdGetPos.
+    /// Means this after [CmdGetPos](messages::CmdGetPos).
     ///
     /// So it is after power-on, too.
     ///
@@ -684,6 +756,8 @@ impl<C> HsdMotor<C, messages::CmdGetPos> {
     /// Note: A reply whose low word begins with 0xB0, such as the position 0x0000B000, has the same bytes as CmdNACK (L2211-2221). Chosen: never refused (the command works in any condition (L648), and a reply that may be both can't be read).
     ///
     /// Note: The end of the request is ETX without its code (L641). Chosen: 0x03 (as in all other frames).
+    ///
+    /// Sends [`messages::PollPosition`].
     pub fn poll_position(&mut self) -> rt::message::Call<'_, C, messages::PollPosition> {
         rt::message::Call::new(&mut self.client, messages::PollPosition)
     }
@@ -693,9 +767,11 @@ impl<C> HsdMotor<C, messages::CmdGetPosT> {
     ///
     /// The null request: the theoretical position.
     ///
-    /// Means this after CmdGetPosT.
+    /// Means this after [CmdGetPosT](messages::CmdGetPosT).
     ///
     /// Manual, line 625-670, 658: Richiesta della quota, della velocità e della coppia del motore.
+    ///
+    /// Sends [`messages::PollTheoreticalPosition`].
     pub fn poll_theoretical_position(
         &mut self,
     ) -> rt::message::Call<'_, C, messages::PollTheoreticalPosition> {
@@ -707,9 +783,11 @@ impl<C> HsdMotor<C, messages::CmdGetVel> {
     ///
     /// The null request: real and theoretical speed.
     ///
-    /// Means this after CmdGetVel.
+    /// Means this after [CmdGetVel](messages::CmdGetVel).
     ///
     /// Manual, line 625-682, 659: Richiesta della quota, della velocità e della coppia del motore.
+    ///
+    /// Sends [`messages::PollSpeeds`].
     pub fn poll_speeds(&mut self) -> rt::message::Call<'_, C, messages::PollSpeeds> {
         rt::message::Call::new(&mut self.client, messages::PollSpeeds)
     }
@@ -719,9 +797,11 @@ impl<C> HsdMotor<C, messages::CmdGetTor> {
     ///
     /// The null request: real and theoretical torque, as currents.
     ///
-    /// Means this after CmdGetTor.
+    /// Means this after [CmdGetTor](messages::CmdGetTor).
     ///
     /// Manual, line 625-653, 660, 1938: Richiesta della quota, della velocità e della coppia del motore.
+    ///
+    /// Sends [`messages::PollTorques`].
     pub fn poll_torques(&mut self) -> rt::message::Call<'_, C, messages::PollTorques> {
         rt::message::Call::new(&mut self.client, messages::PollTorques)
     }
@@ -736,446 +816,818 @@ impl<C, S> HsdMotor<C, S> {
         self.client
     }
     /// KP\_I: parameter 0x0100.
+    ///
+    /// Proportional gain of the current controller; to be left at its default
+    ///
+    /// Constant: [`objects::KP_I`].
     pub fn kp_i(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::KP_I.at(&mut self.client)
     }
     /// KI\_I: parameter 0x0101.
+    ///
+    /// Integral gain of the current controller; to be left at its default
+    ///
+    /// Constant: [`objects::KI_I`].
     pub fn ki_i(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::KI_I.at(&mut self.client)
     }
     /// PIMIN\_I: parameter 0x0103.
+    ///
+    /// Least output of the current controller; to be left at its default
+    ///
+    /// Constant: [`objects::PIMIN_I`].
     pub fn pimin_i(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 10>> {
         objects::PIMIN_I.at(&mut self.client)
     }
     /// PIMAX\_I: parameter 0x0104.
+    ///
+    /// Greatest output of the current controller; to be left at its default
+    ///
+    /// Constant: [`objects::PIMAX_I`].
     pub fn pimax_i(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 10>> {
         objects::PIMAX_I.at(&mut self.client)
     }
     /// KP\_VEL: parameter 0x0105.
+    ///
+    /// Proportional gain of the speed controller. Once the feedforward is tuned, the default should do; gains of speed are tried one at a time while jogging
+    ///
+    /// Constant: [`objects::KP_VEL`].
     pub fn kp_vel(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::KP_VEL.at(&mut self.client)
     }
     /// KI\_VEL: parameter 0x0106.
+    ///
+    /// Integral gain of the speed controller; best not 0, and else tried as KP\_VEL
+    ///
+    /// Constant: [`objects::KI_VEL`].
     pub fn ki_vel(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::KI_VEL.at(&mut self.client)
     }
     /// KFF\_VEL: parameter 0x0107.
+    ///
+    /// Feedforward of the speed controller; best left at 100 %
+    ///
+    /// Constant: [`objects::KFF_VEL`].
     pub fn kff_vel(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::KFF_VEL.at(&mut self.client)
     }
     /// PIMIN\_VEL: parameter 0x0108.
+    ///
+    /// Least output of the speed controller: it limits the torque
+    ///
+    /// Constant: [`objects::PIMIN_VEL`].
     pub fn pimin_vel(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::PIMIN_VEL.at(&mut self.client)
     }
     /// PIMAX\_VEL: parameter 0x0109.
+    ///
+    /// Greatest output of the speed controller: it limits the torque
+    ///
+    /// Constant: [`objects::PIMAX_VEL`].
     pub fn pimax_vel(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::PIMAX_VEL.at(&mut self.client)
     }
     /// KP\_POS: parameter 0x010A.
+    ///
+    /// Proportional gain of the position controller
+    ///
+    /// Constant: [`objects::KP_POS`].
     pub fn kp_pos(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::KP_POS.at(&mut self.client)
     }
     /// KI\_POS: parameter 0x010B.
+    ///
+    /// Integral gain of the position controller
+    ///
+    /// Constant: [`objects::KI_POS`].
     pub fn ki_pos(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::KI_POS.at(&mut self.client)
     }
     /// KFF\_POS: parameter 0x010C.
+    ///
+    /// Feedforward of the position controller; 50 % to 100 % are usual, tried by positionings without the feedback
+    ///
+    /// Constant: [`objects::KFF_POS`].
     pub fn kff_pos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::KFF_POS.at(&mut self.client)
     }
     /// PIMIN\_POS: parameter 0x010D.
+    ///
+    /// Least output of the position controller: it limits the speed
+    ///
+    /// Constant: [`objects::PIMIN_POS`].
     pub fn pimin_pos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::PIMIN_POS.at(&mut self.client)
     }
     /// PIMAX\_POS: parameter 0x010E.
+    ///
+    /// Greatest output of the position controller: it limits the speed
+    ///
+    /// Constant: [`objects::PIMAX_POS`].
     pub fn pimax_pos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::PIMAX_POS.at(&mut self.client)
     }
     /// MAXERRORP: parameter 0x010F.
+    ///
+    /// Greatest following error of the position
+    ///
+    /// Constant: [`objects::MAXERRORP`].
     pub fn maxerrorp(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<i32, 1>, 0>> {
         objects::MAXERRORP.at(&mut self.client)
     }
     /// TIM\_MAXERRORP: parameter 0x0110.
+    ///
+    /// How long the following error of the position has to last for an alarm
+    ///
+    /// Constant: [`objects::TIM_MAXERRORP`].
     pub fn tim_maxerrorp(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::TIM_MAXERRORP.at(&mut self.client)
     }
     /// MAXERRORV: parameter 0x0111.
+    ///
+    /// Greatest following error of the speed
+    ///
+    /// Constant: [`objects::MAXERRORV`].
     pub fn maxerrorv(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::MAXERRORV.at(&mut self.client)
     }
     /// TIM\_MAXERRORV: parameter 0x0112.
+    ///
+    /// How long the following error of the speed has to last for an alarm
+    ///
+    /// Constant: [`objects::TIM_MAXERRORV`].
     pub fn tim_maxerrorv(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::TIM_MAXERRORV.at(&mut self.client)
     }
     /// INPOS: parameter 0x0113.
+    ///
+    /// How near the target has to be for a positioning to be complete
+    ///
+    /// Constant: [`objects::INPOS`].
     pub fn inpos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::INPOS.at(&mut self.client)
     }
     /// TIM\_INPOS: parameter 0x0114.
+    ///
+    /// How long the position has to be that near
+    ///
+    /// Constant: [`objects::TIM_INPOS`].
     pub fn tim_inpos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::TIM_INPOS.at(&mut self.client)
     }
     /// MAXTORQ: parameter 0x0115.
+    ///
+    /// The torque above which the motor goes to alarm, where it lasts for TIM\_MAXTORQ
+    ///
+    /// Constant: [`objects::MAXTORQ`].
     pub fn maxtorq(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
         objects::MAXTORQ.at(&mut self.client)
     }
     /// TIM\_MAXTORQ: parameter 0x0116.
+    ///
+    /// How long the torque has to be above MAXTORQ for an alarm
+    ///
+    /// Constant: [`objects::TIM_MAXTORQ`].
     pub fn tim_maxtorq(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::TIM_MAXTORQ.at(&mut self.client)
     }
     /// VMAXPOS: parameter 0x0117.
+    ///
+    /// Greatest speed of positionings
+    ///
+    /// Constant: [`objects::VMAXPOS`].
     pub fn vmaxpos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::VMAXPOS.at(&mut self.client)
     }
     /// VMAXAZZ: parameter 0x0118.
+    ///
+    /// Speed of automatic homing towards the homing switch; its sign is the direction
+    ///
+    /// Constant: [`objects::VMAXAZZ`].
     pub fn vmaxazz(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::VMAXAZZ.at(&mut self.client)
     }
     /// AMAX: parameter 0x0119.
+    ///
+    /// Acceleration of jogging and of commanded stops
+    ///
+    /// Constant: [`objects::AMAX`].
     pub fn amax(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 10000>> {
         objects::AMAX.at(&mut self.client)
     }
     /// AMAXPOS: parameter 0x011A.
+    ///
+    /// Acceleration of positionings
+    ///
+    /// Constant: [`objects::AMAXPOS`].
     pub fn amaxpos(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 10000>> {
         objects::AMAXPOS.at(&mut self.client)
     }
     /// ORIG\_AZZ: parameter 0x011B.
+    ///
+    /// The position that automatic homing gives
+    ///
+    /// Constant: [`objects::ORIG_AZZ`].
     pub fn orig_azz(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::ORIG_AZZ.at(&mut self.client)
     }
     /// LOW\_SLIM: parameter 0x011C.
+    ///
+    /// Lower software limit, checked where bit 0 of BIT\_A is 1
+    ///
+    /// Constant: [`objects::LOW_SLIM`].
     pub fn low_slim(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::LOW_SLIM.at(&mut self.client)
     }
     /// HIGH\_SLIM: parameter 0x011D.
+    ///
+    /// Upper software limit, checked where bit 0 of BIT\_A is 1
+    ///
+    /// Constant: [`objects::HIGH_SLIM`].
     pub fn high_slim(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::HIGH_SLIM.at(&mut self.client)
     }
     /// BIT\_A: parameter 0x011E.
+    ///
+    /// Switches; no range is printed
+    ///
+    /// Constant: [`objects::BIT_A`]. Values: [`BitA`](types::BitA).
     pub fn bit_a(&mut self) -> objects::ReadWriteAccess<'_, C, types::BitA> {
         objects::BIT_A.at(&mut self.client)
     }
     /// ANGELETTRTACCA: parameter 0x011F.
+    ///
+    /// Reserved: don't change it
+    ///
+    /// Constant: [`objects::ANGELETTRTACCA`].
     pub fn angelettrtacca(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::ANGELETTRTACCA.at(&mut self.client)
     }
     /// RESERVED1: parameter 0x0120.
+    ///
+    /// Speed from which the feedforward against friction acts; 200 is usual
+    ///
+    /// Constant: [`objects::RESERVED1`].
     pub fn reserved1(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::RESERVED1.at(&mut self.client)
     }
     /// RESERVED2: parameter 0x0121.
+    ///
+    /// Torque against friction: as much as lets the axis, jogging, be pushed on with little force, and stop when it isn't
+    ///
+    /// Constant: [`objects::RESERVED2`].
     pub fn reserved2(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RESERVED2.at(&mut self.client)
     }
     /// RESERVED3: parameter 0x0122.
+    ///
+    /// Feedforward in proportion to the speed: raised by 100 until the speed while jogging is the wanted one
+    ///
+    /// Constant: [`objects::RESERVED3`].
     pub fn reserved3(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RESERVED3.at(&mut self.client)
     }
     /// RESERVED4: parameter 0x0123.
+    ///
+    /// Feedforward while the speed changes: raised by 2 until real and theoretical speed are the same on the ramps
+    ///
+    /// Constant: [`objects::RESERVED4`].
     pub fn reserved4(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RESERVED4.at(&mut self.client)
     }
     /// RESERVED5: parameter 0x0124.
+    ///
+    /// Reserved; neither size nor default is printed
+    ///
+    /// Constant: [`objects::RESERVED5`].
     pub fn reserved5(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RESERVED5.at(&mut self.client)
     }
     /// RESERVED6: parameter 0x0125.
+    ///
+    /// Reserved; neither size nor default is printed
+    ///
+    /// Constant: [`objects::RESERVED6`].
     pub fn reserved6(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RESERVED6.at(&mut self.client)
     }
     /// RESERVED7: parameter 0x0126.
+    ///
+    /// Reserved; neither size nor default is printed
+    ///
+    /// Constant: [`objects::RESERVED7`].
     pub fn reserved7(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RESERVED7.at(&mut self.client)
     }
     /// RESERVED8: parameter 0x0127.
+    ///
+    /// Reserved; neither size nor default is printed
+    ///
+    /// Constant: [`objects::RESERVED8`].
     pub fn reserved8(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RESERVED8.at(&mut self.client)
     }
     /// RESERVED9: parameter 0x0128.
+    ///
+    /// Reserved; neither size nor default is printed
+    ///
+    /// Constant: [`objects::RESERVED9`].
     pub fn reserved9(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RESERVED9.at(&mut self.client)
     }
     /// RESERVED10: parameter 0x012A.
+    ///
+    /// Reserved; neither size nor default is printed
+    ///
+    /// Constant: [`objects::RESERVED10`].
     pub fn reserved10(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RESERVED10.at(&mut self.client)
     }
     /// RESERVED11: parameter 0x012B.
+    ///
+    /// Reserved; neither size nor default is printed
+    ///
+    /// Constant: [`objects::RESERVED11`].
     pub fn reserved11(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RESERVED11.at(&mut self.client)
     }
     /// TIMFB: parameter 0x012C.
+    ///
+    /// How long the motor waits with its reply at least. On ENET-X, where the default is 8, the actuation time of the bus, a multiple of 4
+    ///
+    /// Constant: [`objects::TIMFB`].
     pub fn timfb(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::TIMFB.at(&mut self.client)
     }
     /// TIMEOUTFB: parameter 0x012D.
+    ///
+    /// How long the master may be silent before the motor goes to alarm. On ENET-X the default is 8
+    ///
+    /// Constant: [`objects::TIMEOUTFB`].
     pub fn timeoutfb(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<i16, 1>, 0>> {
         objects::TIMEOUTFB.at(&mut self.client)
     }
     /// INVDIN: parameter 0x012E.
+    ///
+    /// Which digital inputs are inverted
+    ///
+    /// Constant: [`objects::INVDIN`]. Values: [`InvertedInputs`](types::InvertedInputs).
     pub fn invdin(&mut self) -> objects::ReadWriteAccess<'_, C, types::InvertedInputs> {
         objects::INVDIN.at(&mut self.client)
     }
     /// TIPOAZZ: parameter 0x012F.
+    ///
+    /// How CmdAzz homes
+    ///
+    /// Constant: [`objects::TIPOAZZ`]. Values: [`HomingType`](types::HomingType).
     pub fn tipoazz(&mut self) -> objects::ReadWriteAccess<'_, C, types::HomingType> {
         objects::TIPOAZZ.at(&mut self.client)
     }
     /// VAZZOUTMIC: parameter 0x0130.
+    ///
+    /// Speed at which homing leaves the homing switch
+    ///
+    /// Constant: [`objects::VAZZOUTMIC`].
     pub fn vazzoutmic(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::VAZZOUTMIC.at(&mut self.client)
     }
     /// KIQDPIMANT: parameter 0x1000.
+    ///
+    /// Proportional plus integral gain of the current controller: the mantissa
+    ///
+    /// Constant: [`objects::KIQDPIMANT`].
     pub fn kiqdpimant(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Exponential<i16, 2, 15>> {
         objects::KIQDPIMANT.at(&mut self.client)
     }
     /// KIQDPIEXP: parameter 0x1001.
+    ///
+    /// Its exponent
+    ///
+    /// Constant: [`objects::KIQDPIEXP`].
     pub fn kiqdpiexp(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::KIQDPIEXP.at(&mut self.client)
     }
     /// KIQDKCOR: parameter 0x0002.
+    ///
+    /// Integral gain of the current controller over the sum of both gains
+    ///
+    /// Constant: [`objects::KIQDKCOR`].
     pub fn kiqdkcor(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 1, 32768>> {
         objects::KIQDKCOR.at(&mut self.client)
     }
     /// KIQDKFF: parameter 0x0003.
+    ///
+    /// Not used
+    ///
+    /// Constant: [`objects::KIQDKFF`].
     pub fn kiqdkff(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::KIQDKFF.at(&mut self.client)
     }
     /// KIQDLIMIN: parameter 0x0004.
+    ///
+    /// Least output of the current controller
+    ///
+    /// Constant: [`objects::KIQDLIMIN`].
     pub fn kiqdlimin(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::KIQDLIMIN.at(&mut self.client)
     }
     /// KIQDLIMAX: parameter 0x0005.
+    ///
+    /// Greatest output of the current controller
+    ///
+    /// Constant: [`objects::KIQDLIMAX`].
     pub fn kiqdlimax(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::KIQDLIMAX.at(&mut self.client)
     }
     /// KVELPIMANT: parameter 0x2006.
+    ///
+    /// Proportional plus integral gain of the speed controller: the mantissa
+    ///
+    /// Constant: [`objects::KVELPIMANT`].
     pub fn kvelpimant(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Exponential<i16, 2, 15>> {
         objects::KVELPIMANT.at(&mut self.client)
     }
     /// KVELPIEXP: parameter 0x2007.
+    ///
+    /// Its exponent
+    ///
+    /// Constant: [`objects::KVELPIEXP`].
     pub fn kvelpiexp(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::KVELPIEXP.at(&mut self.client)
     }
     /// KVELKCOR: parameter 0x0008.
+    ///
+    /// Integral gain of the speed controller over the sum of both gains
+    ///
+    /// Constant: [`objects::KVELKCOR`].
     pub fn kvelkcor(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 1, 32768>> {
         objects::KVELKCOR.at(&mut self.client)
     }
     /// KVELKFF: parameter 0x0009.
+    ///
+    /// Feedforward of the speed controller, as a fraction of 100 %
+    ///
+    /// Constant: [`objects::KVELKFF`].
     pub fn kvelkff(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 25, 8192>> {
         objects::KVELKFF.at(&mut self.client)
     }
     /// KVELLIMIN: parameter 0x000A.
+    ///
+    /// Least output of the speed controller: it limits the torque in the negative direction
+    ///
+    /// Constant: [`objects::KVELLIMIN`].
     pub fn kvellimin(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::KVELLIMIN.at(&mut self.client)
     }
     /// KVELLIMAX: parameter 0x000B.
+    ///
+    /// Greatest output of the speed controller: it limits the torque in the positive direction
+    ///
+    /// Constant: [`objects::KVELLIMAX`].
     pub fn kvellimax(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::KVELLIMAX.at(&mut self.client)
     }
     /// KPOSPIMANT: parameter 0x300C.
+    ///
+    /// Proportional plus integral gain of the position controller: the mantissa
+    ///
+    /// Constant: [`objects::KPOSPIMANT`].
     pub fn kpospimant(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Exponential<i16, 2, 15>> {
         objects::KPOSPIMANT.at(&mut self.client)
     }
     /// KPOSPIEXP: parameter 0x300D.
+    ///
+    /// Its exponent
+    ///
+    /// Constant: [`objects::KPOSPIEXP`].
     pub fn kpospiexp(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::KPOSPIEXP.at(&mut self.client)
     }
     /// KPOSKCOR: parameter 0x000E.
+    ///
+    /// Integral gain of the position controller over the sum of both gains
+    ///
+    /// Constant: [`objects::KPOSKCOR`].
     pub fn kposkcor(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 1, 32768>> {
         objects::KPOSKCOR.at(&mut self.client)
     }
     /// KPOSKFF: parameter 0x000F.
+    ///
+    /// Feedforward of the position controller, as a fraction of 100 %
+    ///
+    /// Constant: [`objects::KPOSKFF`].
     pub fn kposkff(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 25, 8192>> {
         objects::KPOSKFF.at(&mut self.client)
     }
     /// KPOSLIMMIN: parameter 0x0010.
+    ///
+    /// Least output of the position controller: it limits the speed in the negative direction
+    ///
+    /// Constant: [`objects::KPOSLIMMIN`].
     pub fn kposlimmin(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::KPOSLIMMIN.at(&mut self.client)
     }
     /// KPOSLIMAX: parameter 0x0011.
+    ///
+    /// Greatest output of the position controller: it limits the speed in the positive direction
+    ///
+    /// Constant: [`objects::KPOSLIMAX`].
     pub fn kposlimax(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::KPOSLIMAX.at(&mut self.client)
     }
     /// MAXERRORPL: parameter 0x4012.
+    ///
+    /// Greatest following error of the position: bits 15 to 0; 0 in both halves turns the check off
+    ///
+    /// Constant: [`objects::MAXERRORPL`].
     pub fn maxerrorpl(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::MAXERRORPL.at(&mut self.client)
     }
     /// MAXERRORPH: parameter 0x4013.
+    ///
+    /// Greatest following error of the position: bits 31 to 16
+    ///
+    /// Constant: [`objects::MAXERRORPH`].
     pub fn maxerrorph(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 65536>> {
         objects::MAXERRORPH.at(&mut self.client)
     }
     /// AMAXHOLD: parameter 0x0014.
+    ///
+    /// Acceleration of jogging and of commanded stops. On the SM137 it has steps of 4.096 turns/s²
+    ///
+    /// Constant: [`objects::AMAXHOLD`].
     pub fn amaxhold(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::AMAXHOLD.at(&mut self.client)
     }
     /// AMAXTRAJ: parameter 0x0015.
+    ///
+    /// Acceleration of positionings. On the SM137 it has steps of 78.125 turns/s² (revision B) or 19.53125 turns/s² (revision C)
+    ///
+    /// Constant: [`objects::AMAXTRAJ`].
     pub fn amaxtraj(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::AMAXTRAJ.at(&mut self.client)
     }
     /// VMAXTRAJ: parameter 0x0016.
+    ///
+    /// Greatest speed of positionings
+    ///
+    /// Constant: [`objects::VMAXTRAJ`].
     pub fn vmaxtraj(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::VMAXTRAJ.at(&mut self.client)
     }
     /// ORIGINEL: parameter 0x5017.
+    ///
+    /// The position that automatic homing gives: bits 15 to 0
+    ///
+    /// Constant: [`objects::ORIGINEL`].
     pub fn originel(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::ORIGINEL.at(&mut self.client)
     }
     /// ORIGINEH: parameter 0x5018.
+    ///
+    /// The position that automatic homing gives: bits 31 to 16
+    ///
+    /// Constant: [`objects::ORIGINEH`].
     pub fn origineh(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 65536>> {
         objects::ORIGINEH.at(&mut self.client)
     }
     /// TESTSLIM: parameter 0x0019.
+    ///
+    /// Switches, as in BIT\_A
+    ///
+    /// Constant: [`objects::TESTSLIM`]. Values: [`TestSlim`](types::TestSlim).
     pub fn testslim(&mut self) -> objects::WriteOnlyAccess<'_, C, types::TestSlim> {
         objects::TESTSLIM.at(&mut self.client)
     }
     /// LOWSLIML: parameter 0x601A.
+    ///
+    /// Lower software limit: bits 15 to 0
+    ///
+    /// Constant: [`objects::LOWSLIML`].
     pub fn lowsliml(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::LOWSLIML.at(&mut self.client)
     }
     /// LOWSLIMH: parameter 0x601B.
+    ///
+    /// Lower software limit: bits 31 to 16
+    ///
+    /// Constant: [`objects::LOWSLIMH`].
     pub fn lowslimh(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 65536>> {
         objects::LOWSLIMH.at(&mut self.client)
     }
     /// HIGHSLIML: parameter 0x601C.
+    ///
+    /// Upper software limit: bits 15 to 0
+    ///
+    /// Constant: [`objects::HIGHSLIML`].
     pub fn highsliml(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::HIGHSLIML.at(&mut self.client)
     }
     /// HIGHSLIMH: parameter 0x601D.
+    ///
+    /// Upper software limit: bits 31 to 16
+    ///
+    /// Constant: [`objects::HIGHSLIMH`].
     pub fn highslimh(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Scaled<i16, 65536>> {
         objects::HIGHSLIMH.at(&mut self.client)
     }
     /// MAXERRORV\_LOW: parameter 0x001E.
+    ///
+    /// Greatest following error of the speed
+    ///
+    /// Constant: [`objects::MAXERRORV_LOW`].
     pub fn maxerrorv_low(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::MAXERRORV_LOW.at(&mut self.client)
     }
     /// MAXTORQUE: parameter 0x001F.
+    ///
+    /// The torque above which the motor goes to alarm, where it lasts for TIMEOUTMAXTORQUE
+    ///
+    /// Constant: [`objects::MAXTORQUE`].
     pub fn maxtorque(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, rt::Fraction<i16, 15>> {
         objects::MAXTORQUE.at(&mut self.client)
     }
     /// ANGELETTRTACCA\_LOW: parameter 0x0020.
+    ///
+    /// Reserved
+    ///
+    /// Constant: [`objects::ANGELETTRTACCA_LOW`].
     pub fn angelettrtacca_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::ANGELETTRTACCA_LOW.at(&mut self.client)
     }
     /// RESERVED1\_LOW: parameter 0x0021.
+    ///
+    /// Reserved: as RESERVED1 of chapter 6
+    ///
+    /// Constant: [`objects::RESERVED1_LOW`].
     pub fn reserved1_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED1_LOW.at(&mut self.client)
     }
     /// RESERVED2\_LOW: parameter 0x0022.
+    ///
+    /// Reserved: as RESERVED2 of chapter 6
+    ///
+    /// Constant: [`objects::RESERVED2_LOW`].
     pub fn reserved2_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED2_LOW.at(&mut self.client)
     }
     /// RESERVED3\_LOW: parameter 0x0023.
+    ///
+    /// Reserved: as RESERVED3 of chapter 6
+    ///
+    /// Constant: [`objects::RESERVED3_LOW`].
     pub fn reserved3_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED3_LOW.at(&mut self.client)
     }
     /// RESERVED4\_LOW: parameter 0x0024.
+    ///
+    /// Reserved: as RESERVED4 of chapter 6
+    ///
+    /// Constant: [`objects::RESERVED4_LOW`].
     pub fn reserved4_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED4_LOW.at(&mut self.client)
     }
     /// RESERVED5\_LOW: parameter 0x0025.
+    ///
+    /// Reserved
+    ///
+    /// Constant: [`objects::RESERVED5_LOW`].
     pub fn reserved5_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED5_LOW.at(&mut self.client)
     }
     /// RESERVED6\_LOW: parameter 0x0026.
+    ///
+    /// Reserved
+    ///
+    /// Constant: [`objects::RESERVED6_LOW`].
     pub fn reserved6_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED6_LOW.at(&mut self.client)
     }
     /// RESERVED7\_LOW: parameter 0x0027.
+    ///
+    /// Reserved
+    ///
+    /// Constant: [`objects::RESERVED7_LOW`].
     pub fn reserved7_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED7_LOW.at(&mut self.client)
     }
     /// RESERVED8\_LOW: parameter 0x0028.
+    ///
+    /// Reserved
+    ///
+    /// Constant: [`objects::RESERVED8_LOW`].
     pub fn reserved8_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED8_LOW.at(&mut self.client)
     }
     /// RESERVED9\_LOW: parameter 0x0029.
+    ///
+    /// Reserved
+    ///
+    /// Constant: [`objects::RESERVED9_LOW`].
     pub fn reserved9_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED9_LOW.at(&mut self.client)
     }
     /// RESERVED10\_LOW: parameter 0x002A.
+    ///
+    /// Reserved
+    ///
+    /// Constant: [`objects::RESERVED10_LOW`].
     pub fn reserved10_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED10_LOW.at(&mut self.client)
     }
     /// RESERVED11\_LOW: parameter 0x002B.
+    ///
+    /// Reserved
+    ///
+    /// Constant: [`objects::RESERVED11_LOW`].
     pub fn reserved11_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED11_LOW.at(&mut self.client)
     }
     /// RESERVED12: parameter 0x002C.
+    ///
+    /// Reserved
+    ///
+    /// Constant: [`objects::RESERVED12`].
     pub fn reserved12(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::RESERVED12.at(&mut self.client)
     }
     /// TIMEOUTMAXTORQUE: parameter 0x002D.
+    ///
+    /// How long the torque has to be above MAXTORQUE for an alarm
+    ///
+    /// Constant: [`objects::TIMEOUTMAXTORQUE`].
     pub fn timeoutmaxtorque(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
         objects::TIMEOUTMAXTORQUE.at(&mut self.client)
     }
@@ -1203,187 +1655,187 @@ pub mod models {
         pub mod objects {
             use ::lexibus as rt;
             use super::super::super::objects;
-            /// KP\_I: range 0 to 32767, default 30.
+            /// KP\_I: range 0 to 32767, default 30. As all models have it: [`objects::KP_I`].
             pub const KP_I: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::KP_I,
                 rt::Range::From(0),
                 rt::Initial::Value(30),
             );
-            /// KI\_I: range 0 to 32767, default 12.
+            /// KI\_I: range 0 to 32767, default 12. As all models have it: [`objects::KI_I`].
             pub const KI_I: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::KI_I,
                 rt::Range::From(0),
                 rt::Initial::Value(12),
             );
-            /// PIMIN\_I: range \-32767 to 0, default \-194.
+            /// PIMIN\_I: range \-32767 to 0, default \-194. As all models have it: [`objects::PIMIN_I`].
             pub const PIMIN_I: objects::ReadWrite<rt::Scaled<i16, 1, 10>> = rt::Item::of_model(
                 objects::PIMIN_I,
                 rt::Range::Between(-32767, 0),
                 rt::Initial::Value(-194),
             );
-            /// PIMAX\_I: range 0 to 32767, default 194.
+            /// PIMAX\_I: range 0 to 32767, default 194. As all models have it: [`objects::PIMAX_I`].
             pub const PIMAX_I: objects::ReadWrite<rt::Scaled<i16, 1, 10>> = rt::Item::of_model(
                 objects::PIMAX_I,
                 rt::Range::From(0),
                 rt::Initial::Value(194),
             );
-            /// KP\_VEL: range 0 to 32767, default 150.
+            /// KP\_VEL: range 0 to 32767, default 150. As all models have it: [`objects::KP_VEL`].
             pub const KP_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::KP_VEL,
                 rt::Range::From(0),
                 rt::Initial::Value(150),
             );
-            /// KI\_VEL: range 0 to 32767, default 10.
+            /// KI\_VEL: range 0 to 32767, default 10. As all models have it: [`objects::KI_VEL`].
             pub const KI_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::KI_VEL,
                 rt::Range::From(0),
                 rt::Initial::Value(10),
             );
-            /// PIMIN\_VEL: range \-900 to 0, default \-500.
+            /// PIMIN\_VEL: range \-900 to 0, default \-500. As all models have it: [`objects::PIMIN_VEL`].
             pub const PIMIN_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::PIMIN_VEL,
                 rt::Range::Between(-900, 0),
                 rt::Initial::Value(-500),
             );
-            /// PIMAX\_VEL: range 0 to 900, default 500.
+            /// PIMAX\_VEL: range 0 to 900, default 500. As all models have it: [`objects::PIMAX_VEL`].
             pub const PIMAX_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::PIMAX_VEL,
                 rt::Range::Between(0, 900),
                 rt::Initial::Value(500),
             );
-            /// MAXTORQ: range 0 to 32767, default 250.
+            /// MAXTORQ: range 0 to 32767, default 250. As all models have it: [`objects::MAXTORQ`].
             pub const MAXTORQ: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::MAXTORQ,
                 rt::Range::From(0),
                 rt::Initial::Value(250),
             );
-            /// VMAXAZZ: range \-32767 to 32767, default 0.
+            /// VMAXAZZ: range \-32767 to 32767, default 0. As all models have it: [`objects::VMAXAZZ`].
             pub const VMAXAZZ: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::VMAXAZZ,
                 rt::Range::From(-32767),
                 rt::Initial::Value(0),
             );
-            /// AMAX: range 0 to 32767, default 48.
+            /// AMAX: range 0 to 32767, default 48. As all models have it: [`objects::AMAX`].
             pub const AMAX: objects::ReadWrite<rt::Scaled<i16, 10000>> = rt::Item::of_model(
                 objects::AMAX,
                 rt::Range::From(0),
                 rt::Initial::Value(48),
             );
-            /// AMAXPOS: range 0 to 32767, default 32.
+            /// AMAXPOS: range 0 to 32767, default 32. As all models have it: [`objects::AMAXPOS`].
             pub const AMAXPOS: objects::ReadWrite<rt::Scaled<i16, 10000>> = rt::Item::of_model(
                 objects::AMAXPOS,
                 rt::Range::From(0),
                 rt::Initial::Value(32),
             );
-            /// ANGELETTRTACCA: range 0 to 799, default 676.
+            /// ANGELETTRTACCA: range 0 to 799, default 676. As all models have it: [`objects::ANGELETTRTACCA`].
             pub const ANGELETTRTACCA: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::ANGELETTRTACCA,
                 rt::Range::Between(0, 799),
                 rt::Initial::Value(676),
             );
-            /// RESERVED1: default 600.
+            /// RESERVED1: default 600. As all models have it: [`objects::RESERVED1`].
             pub const RESERVED1: objects::ReadWrite<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::RESERVED1,
                 rt::Range::Full,
                 rt::Initial::Value(600),
             );
-            /// RESERVED2: default 1400.
+            /// RESERVED2: default 1400. As all models have it: [`objects::RESERVED2`].
             pub const RESERVED2: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::RESERVED2,
                 rt::Range::Full,
                 rt::Initial::Value(1400),
             );
-            /// RESERVED3: default 2600.
+            /// RESERVED3: default 2600. As all models have it: [`objects::RESERVED3`].
             pub const RESERVED3: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::RESERVED3,
                 rt::Range::Full,
                 rt::Initial::Value(2600),
             );
-            /// RESERVED4: default 6.
+            /// RESERVED4: default 6. As all models have it: [`objects::RESERVED4`].
             pub const RESERVED4: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::RESERVED4,
                 rt::Range::Full,
                 rt::Initial::Value(6),
             );
-            /// KIQDPIMANT: range 0 to 32767, default 13762.
+            /// KIQDPIMANT: range 0 to 32767, default 13762. As all models have it: [`objects::KIQDPIMANT`].
             pub const KIQDPIMANT: objects::WriteOnly<rt::Exponential<i16, 2, 15>> = rt::Item::of_model(
                 objects::KIQDPIMANT,
                 rt::Range::From(0),
                 rt::Initial::Value(13762),
             );
-            /// KIQDKCOR: range 0 to 32767, default 9362.
+            /// KIQDKCOR: range 0 to 32767, default 9362. As all models have it: [`objects::KIQDKCOR`].
             pub const KIQDKCOR: objects::WriteOnly<rt::Scaled<i16, 1, 32768>> = rt::Item::of_model(
                 objects::KIQDKCOR,
                 rt::Range::From(0),
                 rt::Initial::Value(9362),
             );
-            /// KVELPIMANT: range 0 to 32767, default 26214.
+            /// KVELPIMANT: range 0 to 32767, default 26214. As all models have it: [`objects::KVELPIMANT`].
             pub const KVELPIMANT: objects::WriteOnly<rt::Exponential<i16, 2, 15>> = rt::Item::of_model(
                 objects::KVELPIMANT,
                 rt::Range::From(0),
                 rt::Initial::Value(26214),
             );
-            /// KVELPIEXP: range 0 to 6, default 1.
+            /// KVELPIEXP: range 0 to 6, default 1. As all models have it: [`objects::KVELPIEXP`].
             pub const KVELPIEXP: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::KVELPIEXP,
                 rt::Range::Between(0, 6),
                 rt::Initial::Value(1),
             );
-            /// KVELKCOR: range 0 to 32767, default 2047.
+            /// KVELKCOR: range 0 to 32767, default 2047. As all models have it: [`objects::KVELKCOR`].
             pub const KVELKCOR: objects::WriteOnly<rt::Scaled<i16, 1, 32768>> = rt::Item::of_model(
                 objects::KVELKCOR,
                 rt::Range::From(0),
                 rt::Initial::Value(2047),
             );
-            /// KVELLIMIN: range \-26067 to 0, default \-14486.
+            /// KVELLIMIN: range \-26067 to 0, default \-14486. As all models have it: [`objects::KVELLIMIN`].
             pub const KVELLIMIN: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::KVELLIMIN,
                 rt::Range::Between(-26067, 0),
                 rt::Initial::Value(-14486),
             );
-            /// KVELLIMAX: range 0 to 26067, default 14486.
+            /// KVELLIMAX: range 0 to 26067, default 14486. As all models have it: [`objects::KVELLIMAX`].
             pub const KVELLIMAX: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::KVELLIMAX,
                 rt::Range::Between(0, 26067),
                 rt::Initial::Value(14486),
             );
-            /// AMAXHOLD: range 1 to 32767, default 2089.
+            /// AMAXHOLD: range 1 to 32767, default 2089. As all models have it: [`objects::AMAXHOLD`].
             pub const AMAXHOLD: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::AMAXHOLD,
                 rt::Range::From(1),
                 rt::Initial::Value(2089),
             );
-            /// AMAXTRAJ: range 1 to 32767, default 1392.
+            /// AMAXTRAJ: range 1 to 32767, default 1392. As all models have it: [`objects::AMAXTRAJ`].
             pub const AMAXTRAJ: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::AMAXTRAJ,
                 rt::Range::From(1),
                 rt::Initial::Value(1392),
             );
-            /// MAXTORQUE: range 0 to 32767, default 7243.
+            /// MAXTORQUE: range 0 to 32767, default 7243. As all models have it: [`objects::MAXTORQUE`].
             pub const MAXTORQUE: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::MAXTORQUE,
                 rt::Range::From(0),
                 rt::Initial::Value(7243),
             );
-            /// RESERVED1\_LOW: range 0 to 32767, default 600.
+            /// RESERVED1\_LOW: range 0 to 32767, default 600. As all models have it: [`objects::RESERVED1_LOW`].
             pub const RESERVED1_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::RESERVED1_LOW,
                 rt::Range::From(0),
                 rt::Initial::Value(600),
             );
-            /// RESERVED2\_LOW: range 0 to 32767, default 1400.
+            /// RESERVED2\_LOW: range 0 to 32767, default 1400. As all models have it: [`objects::RESERVED2_LOW`].
             pub const RESERVED2_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::RESERVED2_LOW,
                 rt::Range::From(0),
                 rt::Initial::Value(1400),
             );
-            /// RESERVED3\_LOW: range 0 to 32767, default 2600.
+            /// RESERVED3\_LOW: range 0 to 32767, default 2600. As all models have it: [`objects::RESERVED3_LOW`].
             pub const RESERVED3_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::RESERVED3_LOW,
                 rt::Range::From(0),
                 rt::Initial::Value(2600),
             );
-            /// RESERVED4\_LOW: range 0 to 32767, default 6.
+            /// RESERVED4\_LOW: range 0 to 32767, default 6. As all models have it: [`objects::RESERVED4_LOW`].
             pub const RESERVED4_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::RESERVED4_LOW,
                 rt::Range::From(0),
@@ -1412,187 +1864,187 @@ pub mod models {
         pub mod objects {
             use ::lexibus as rt;
             use super::super::super::objects;
-            /// KP\_I: range 0 to 32767, default 30.
+            /// KP\_I: range 0 to 32767, default 30. As all models have it: [`objects::KP_I`].
             pub const KP_I: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::KP_I,
                 rt::Range::From(0),
                 rt::Initial::Value(30),
             );
-            /// KI\_I: range 0 to 32767, default 12.
+            /// KI\_I: range 0 to 32767, default 12. As all models have it: [`objects::KI_I`].
             pub const KI_I: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::KI_I,
                 rt::Range::From(0),
                 rt::Initial::Value(12),
             );
-            /// PIMIN\_I: range \-32767 to 0, default \-194.
+            /// PIMIN\_I: range \-32767 to 0, default \-194. As all models have it: [`objects::PIMIN_I`].
             pub const PIMIN_I: objects::ReadWrite<rt::Scaled<i16, 1, 10>> = rt::Item::of_model(
                 objects::PIMIN_I,
                 rt::Range::Between(-32767, 0),
                 rt::Initial::Value(-194),
             );
-            /// PIMAX\_I: range 0 to 32767, default 194.
+            /// PIMAX\_I: range 0 to 32767, default 194. As all models have it: [`objects::PIMAX_I`].
             pub const PIMAX_I: objects::ReadWrite<rt::Scaled<i16, 1, 10>> = rt::Item::of_model(
                 objects::PIMAX_I,
                 rt::Range::From(0),
                 rt::Initial::Value(194),
             );
-            /// KP\_VEL: range 0 to 32767, default 150.
+            /// KP\_VEL: range 0 to 32767, default 150. As all models have it: [`objects::KP_VEL`].
             pub const KP_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::KP_VEL,
                 rt::Range::From(0),
                 rt::Initial::Value(150),
             );
-            /// KI\_VEL: range 0 to 32767, default 10.
+            /// KI\_VEL: range 0 to 32767, default 10. As all models have it: [`objects::KI_VEL`].
             pub const KI_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::KI_VEL,
                 rt::Range::From(0),
                 rt::Initial::Value(10),
             );
-            /// PIMIN\_VEL: range \-900 to 0, default \-500.
+            /// PIMIN\_VEL: range \-900 to 0, default \-500. As all models have it: [`objects::PIMIN_VEL`].
             pub const PIMIN_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::PIMIN_VEL,
                 rt::Range::Between(-900, 0),
                 rt::Initial::Value(-500),
             );
-            /// PIMAX\_VEL: range 0 to 900, default 500.
+            /// PIMAX\_VEL: range 0 to 900, default 500. As all models have it: [`objects::PIMAX_VEL`].
             pub const PIMAX_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::PIMAX_VEL,
                 rt::Range::Between(0, 900),
                 rt::Initial::Value(500),
             );
-            /// MAXTORQ: range 0 to 32767, default 250.
+            /// MAXTORQ: range 0 to 32767, default 250. As all models have it: [`objects::MAXTORQ`].
             pub const MAXTORQ: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::MAXTORQ,
                 rt::Range::From(0),
                 rt::Initial::Value(250),
             );
-            /// VMAXAZZ: range \-32767 to 32767, default 0.
+            /// VMAXAZZ: range \-32767 to 32767, default 0. As all models have it: [`objects::VMAXAZZ`].
             pub const VMAXAZZ: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::VMAXAZZ,
                 rt::Range::From(-32767),
                 rt::Initial::Value(0),
             );
-            /// AMAX: range 0 to 32767, default 48.
+            /// AMAX: range 0 to 32767, default 48. As all models have it: [`objects::AMAX`].
             pub const AMAX: objects::ReadWrite<rt::Scaled<i16, 10000>> = rt::Item::of_model(
                 objects::AMAX,
                 rt::Range::From(0),
                 rt::Initial::Value(48),
             );
-            /// AMAXPOS: range 0 to 32767, default 32.
+            /// AMAXPOS: range 0 to 32767, default 32. As all models have it: [`objects::AMAXPOS`].
             pub const AMAXPOS: objects::ReadWrite<rt::Scaled<i16, 10000>> = rt::Item::of_model(
                 objects::AMAXPOS,
                 rt::Range::From(0),
                 rt::Initial::Value(32),
             );
-            /// ANGELETTRTACCA: range 0 to 799, default 676.
+            /// ANGELETTRTACCA: range 0 to 799, default 676. As all models have it: [`objects::ANGELETTRTACCA`].
             pub const ANGELETTRTACCA: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::ANGELETTRTACCA,
                 rt::Range::Between(0, 799),
                 rt::Initial::Value(676),
             );
-            /// RESERVED1: default 600.
+            /// RESERVED1: default 600. As all models have it: [`objects::RESERVED1`].
             pub const RESERVED1: objects::ReadWrite<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::RESERVED1,
                 rt::Range::Full,
                 rt::Initial::Value(600),
             );
-            /// RESERVED2: default 1400.
+            /// RESERVED2: default 1400. As all models have it: [`objects::RESERVED2`].
             pub const RESERVED2: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::RESERVED2,
                 rt::Range::Full,
                 rt::Initial::Value(1400),
             );
-            /// RESERVED3: default 2600.
+            /// RESERVED3: default 2600. As all models have it: [`objects::RESERVED3`].
             pub const RESERVED3: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::RESERVED3,
                 rt::Range::Full,
                 rt::Initial::Value(2600),
             );
-            /// RESERVED4: default 6.
+            /// RESERVED4: default 6. As all models have it: [`objects::RESERVED4`].
             pub const RESERVED4: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::RESERVED4,
                 rt::Range::Full,
                 rt::Initial::Value(6),
             );
-            /// KIQDPIMANT: range 0 to 32767, default 13762.
+            /// KIQDPIMANT: range 0 to 32767, default 13762. As all models have it: [`objects::KIQDPIMANT`].
             pub const KIQDPIMANT: objects::WriteOnly<rt::Exponential<i16, 2, 15>> = rt::Item::of_model(
                 objects::KIQDPIMANT,
                 rt::Range::From(0),
                 rt::Initial::Value(13762),
             );
-            /// KIQDKCOR: range 0 to 32767, default 9362.
+            /// KIQDKCOR: range 0 to 32767, default 9362. As all models have it: [`objects::KIQDKCOR`].
             pub const KIQDKCOR: objects::WriteOnly<rt::Scaled<i16, 1, 32768>> = rt::Item::of_model(
                 objects::KIQDKCOR,
                 rt::Range::From(0),
                 rt::Initial::Value(9362),
             );
-            /// KVELPIMANT: range 0 to 32767, default 26214.
+            /// KVELPIMANT: range 0 to 32767, default 26214. As all models have it: [`objects::KVELPIMANT`].
             pub const KVELPIMANT: objects::WriteOnly<rt::Exponential<i16, 2, 15>> = rt::Item::of_model(
                 objects::KVELPIMANT,
                 rt::Range::From(0),
                 rt::Initial::Value(26214),
             );
-            /// KVELPIEXP: range 0 to 6, default 1.
+            /// KVELPIEXP: range 0 to 6, default 1. As all models have it: [`objects::KVELPIEXP`].
             pub const KVELPIEXP: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::KVELPIEXP,
                 rt::Range::Between(0, 6),
                 rt::Initial::Value(1),
             );
-            /// KVELKCOR: range 0 to 32767, default 2047.
+            /// KVELKCOR: range 0 to 32767, default 2047. As all models have it: [`objects::KVELKCOR`].
             pub const KVELKCOR: objects::WriteOnly<rt::Scaled<i16, 1, 32768>> = rt::Item::of_model(
                 objects::KVELKCOR,
                 rt::Range::From(0),
                 rt::Initial::Value(2047),
             );
-            /// KVELLIMIN: range \-26067 to 0, default \-14486.
+            /// KVELLIMIN: range \-26067 to 0, default \-14486. As all models have it: [`objects::KVELLIMIN`].
             pub const KVELLIMIN: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::KVELLIMIN,
                 rt::Range::Between(-26067, 0),
                 rt::Initial::Value(-14486),
             );
-            /// KVELLIMAX: range 0 to 26067, default 14486.
+            /// KVELLIMAX: range 0 to 26067, default 14486. As all models have it: [`objects::KVELLIMAX`].
             pub const KVELLIMAX: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::KVELLIMAX,
                 rt::Range::Between(0, 26067),
                 rt::Initial::Value(14486),
             );
-            /// AMAXHOLD: range 1 to 32767, default 2089.
+            /// AMAXHOLD: range 1 to 32767, default 2089. As all models have it: [`objects::AMAXHOLD`].
             pub const AMAXHOLD: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::AMAXHOLD,
                 rt::Range::From(1),
                 rt::Initial::Value(2089),
             );
-            /// AMAXTRAJ: range 1 to 32767, default 1392.
+            /// AMAXTRAJ: range 1 to 32767, default 1392. As all models have it: [`objects::AMAXTRAJ`].
             pub const AMAXTRAJ: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::AMAXTRAJ,
                 rt::Range::From(1),
                 rt::Initial::Value(1392),
             );
-            /// MAXTORQUE: range 0 to 32767, default 7243.
+            /// MAXTORQUE: range 0 to 32767, default 7243. As all models have it: [`objects::MAXTORQUE`].
             pub const MAXTORQUE: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::MAXTORQUE,
                 rt::Range::From(0),
                 rt::Initial::Value(7243),
             );
-            /// RESERVED1\_LOW: range 0 to 32767, default 600.
+            /// RESERVED1\_LOW: range 0 to 32767, default 600. As all models have it: [`objects::RESERVED1_LOW`].
             pub const RESERVED1_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::RESERVED1_LOW,
                 rt::Range::From(0),
                 rt::Initial::Value(600),
             );
-            /// RESERVED2\_LOW: range 0 to 32767, default 1400.
+            /// RESERVED2\_LOW: range 0 to 32767, default 1400. As all models have it: [`objects::RESERVED2_LOW`].
             pub const RESERVED2_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::RESERVED2_LOW,
                 rt::Range::From(0),
                 rt::Initial::Value(1400),
             );
-            /// RESERVED3\_LOW: range 0 to 32767, default 2600.
+            /// RESERVED3\_LOW: range 0 to 32767, default 2600. As all models have it: [`objects::RESERVED3_LOW`].
             pub const RESERVED3_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::RESERVED3_LOW,
                 rt::Range::From(0),
                 rt::Initial::Value(2600),
             );
-            /// RESERVED4\_LOW: range 0 to 32767, default 6.
+            /// RESERVED4\_LOW: range 0 to 32767, default 6. As all models have it: [`objects::RESERVED4_LOW`].
             pub const RESERVED4_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::RESERVED4_LOW,
                 rt::Range::From(0),
@@ -1621,187 +2073,187 @@ pub mod models {
         pub mod objects {
             use ::lexibus as rt;
             use super::super::super::objects;
-            /// KP\_I: range 0 to 32767, default 40.
+            /// KP\_I: range 0 to 32767, default 40. As all models have it: [`objects::KP_I`].
             pub const KP_I: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::KP_I,
                 rt::Range::From(0),
                 rt::Initial::Value(40),
             );
-            /// KI\_I: range 0 to 32767, default 10.
+            /// KI\_I: range 0 to 32767, default 10. As all models have it: [`objects::KI_I`].
             pub const KI_I: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::KI_I,
                 rt::Range::From(0),
                 rt::Initial::Value(10),
             );
-            /// PIMIN\_I: range \-32767 to 0, default \-195.
+            /// PIMIN\_I: range \-32767 to 0, default \-195. As all models have it: [`objects::PIMIN_I`].
             pub const PIMIN_I: objects::ReadWrite<rt::Scaled<i16, 1, 10>> = rt::Item::of_model(
                 objects::PIMIN_I,
                 rt::Range::Between(-32767, 0),
                 rt::Initial::Value(-195),
             );
-            /// PIMAX\_I: range 0 to 32767, default 195.
+            /// PIMAX\_I: range 0 to 32767, default 195. As all models have it: [`objects::PIMAX_I`].
             pub const PIMAX_I: objects::ReadWrite<rt::Scaled<i16, 1, 10>> = rt::Item::of_model(
                 objects::PIMAX_I,
                 rt::Range::From(0),
                 rt::Initial::Value(195),
             );
-            /// KP\_VEL: range 0 to 32767, default 600.
+            /// KP\_VEL: range 0 to 32767, default 600. As all models have it: [`objects::KP_VEL`].
             pub const KP_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::KP_VEL,
                 rt::Range::From(0),
                 rt::Initial::Value(600),
             );
-            /// KI\_VEL: range 0 to 32767, default 50.
+            /// KI\_VEL: range 0 to 32767, default 50. As all models have it: [`objects::KI_VEL`].
             pub const KI_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::KI_VEL,
                 rt::Range::From(0),
                 rt::Initial::Value(50),
             );
-            /// PIMIN\_VEL: range \-3500 to 0, default \-1800.
+            /// PIMIN\_VEL: range \-3500 to 0, default \-1800. As all models have it: [`objects::PIMIN_VEL`].
             pub const PIMIN_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::PIMIN_VEL,
                 rt::Range::Between(-3500, 0),
                 rt::Initial::Value(-1800),
             );
-            /// PIMAX\_VEL: range 0 to 3500, default 1800.
+            /// PIMAX\_VEL: range 0 to 3500, default 1800. As all models have it: [`objects::PIMAX_VEL`].
             pub const PIMAX_VEL: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::PIMAX_VEL,
                 rt::Range::Between(0, 3500),
                 rt::Initial::Value(1800),
             );
-            /// MAXTORQ: range 0 to 32767, default 900.
+            /// MAXTORQ: range 0 to 32767, default 900. As all models have it: [`objects::MAXTORQ`].
             pub const MAXTORQ: objects::ReadWrite<rt::Scaled<i16, 1, 100>> = rt::Item::of_model(
                 objects::MAXTORQ,
                 rt::Range::From(0),
                 rt::Initial::Value(900),
             );
-            /// VMAXAZZ: range \-32767 to 32767, default 500.
+            /// VMAXAZZ: range \-32767 to 32767, default 500. As all models have it: [`objects::VMAXAZZ`].
             pub const VMAXAZZ: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::VMAXAZZ,
                 rt::Range::From(-32767),
                 rt::Initial::Value(500),
             );
-            /// AMAX: range 0 to 32767, default 40.
+            /// AMAX: range 0 to 32767, default 40. As all models have it: [`objects::AMAX`].
             pub const AMAX: objects::ReadWrite<rt::Scaled<i16, 10000>> = rt::Item::of_model(
                 objects::AMAX,
                 rt::Range::From(0),
                 rt::Initial::Value(40),
             );
-            /// AMAXPOS: range 0 to 32767, default 20.
+            /// AMAXPOS: range 0 to 32767, default 20. As all models have it: [`objects::AMAXPOS`].
             pub const AMAXPOS: objects::ReadWrite<rt::Scaled<i16, 10000>> = rt::Item::of_model(
                 objects::AMAXPOS,
                 rt::Range::From(0),
                 rt::Initial::Value(20),
             );
-            /// ANGELETTRTACCA: range 0 to 1999, default 676.
+            /// ANGELETTRTACCA: range 0 to 1999, default 676. As all models have it: [`objects::ANGELETTRTACCA`].
             pub const ANGELETTRTACCA: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::ANGELETTRTACCA,
                 rt::Range::Between(0, 1999),
                 rt::Initial::Value(676),
             );
-            /// RESERVED1: default 300.
+            /// RESERVED1: default 300. As all models have it: [`objects::RESERVED1`].
             pub const RESERVED1: objects::ReadWrite<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::RESERVED1,
                 rt::Range::Full,
                 rt::Initial::Value(300),
             );
-            /// RESERVED2: default 600.
+            /// RESERVED2: default 600. As all models have it: [`objects::RESERVED2`].
             pub const RESERVED2: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::RESERVED2,
                 rt::Range::Full,
                 rt::Initial::Value(600),
             );
-            /// RESERVED3: default 2200.
+            /// RESERVED3: default 2200. As all models have it: [`objects::RESERVED3`].
             pub const RESERVED3: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::RESERVED3,
                 rt::Range::Full,
                 rt::Initial::Value(2200),
             );
-            /// RESERVED4: default 16.
+            /// RESERVED4: default 16. As all models have it: [`objects::RESERVED4`].
             pub const RESERVED4: objects::ReadWrite<i16> = rt::Item::of_model(
                 objects::RESERVED4,
                 rt::Range::Full,
                 rt::Initial::Value(16),
             );
-            /// KIQDPIMANT: range 0 to 32767, default 16383.
+            /// KIQDPIMANT: range 0 to 32767, default 16383. As all models have it: [`objects::KIQDPIMANT`].
             pub const KIQDPIMANT: objects::WriteOnly<rt::Exponential<i16, 2, 15>> = rt::Item::of_model(
                 objects::KIQDPIMANT,
                 rt::Range::From(0),
                 rt::Initial::Value(16383),
             );
-            /// KIQDKCOR: range 0 to 32767, default 6552.
+            /// KIQDKCOR: range 0 to 32767, default 6552. As all models have it: [`objects::KIQDKCOR`].
             pub const KIQDKCOR: objects::WriteOnly<rt::Scaled<i16, 1, 32768>> = rt::Item::of_model(
                 objects::KIQDKCOR,
                 rt::Range::From(0),
                 rt::Initial::Value(6552),
             );
-            /// KVELPIMANT: range 0 to 32767, default 26624.
+            /// KVELPIMANT: range 0 to 32767, default 26624. As all models have it: [`objects::KVELPIMANT`].
             pub const KVELPIMANT: objects::WriteOnly<rt::Exponential<i16, 2, 15>> = rt::Item::of_model(
                 objects::KVELPIMANT,
                 rt::Range::From(0),
                 rt::Initial::Value(26624),
             );
-            /// KVELPIEXP: range 0 to 6, default 3.
+            /// KVELPIEXP: range 0 to 6, default 3. As all models have it: [`objects::KVELPIEXP`].
             pub const KVELPIEXP: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::KVELPIEXP,
                 rt::Range::Between(0, 6),
                 rt::Initial::Value(3),
             );
-            /// KVELKCOR: range 0 to 32767, default 2520.
+            /// KVELKCOR: range 0 to 32767, default 2520. As all models have it: [`objects::KVELKCOR`].
             pub const KVELKCOR: objects::WriteOnly<rt::Scaled<i16, 1, 32768>> = rt::Item::of_model(
                 objects::KVELKCOR,
                 rt::Range::From(0),
                 rt::Initial::Value(2520),
             );
-            /// KVELLIMIN: range \-25342 to 0, default \-13034.
+            /// KVELLIMIN: range \-25342 to 0, default \-13034. As all models have it: [`objects::KVELLIMIN`].
             pub const KVELLIMIN: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::KVELLIMIN,
                 rt::Range::Between(-25342, 0),
                 rt::Initial::Value(-13034),
             );
-            /// KVELLIMAX: range 0 to 25342, default 13034.
+            /// KVELLIMAX: range 0 to 25342, default 13034. As all models have it: [`objects::KVELLIMAX`].
             pub const KVELLIMAX: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::KVELLIMAX,
                 rt::Range::Between(0, 25342),
                 rt::Initial::Value(13034),
             );
-            /// AMAXHOLD: range 1 to 32767, default 696.
+            /// AMAXHOLD: range 1 to 32767, default 696. As all models have it: [`objects::AMAXHOLD`].
             pub const AMAXHOLD: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::AMAXHOLD,
                 rt::Range::From(1),
                 rt::Initial::Value(696),
             );
-            /// AMAXTRAJ: range 1 to 32767, default 348.
+            /// AMAXTRAJ: range 1 to 32767, default 348. As all models have it: [`objects::AMAXTRAJ`].
             pub const AMAXTRAJ: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::AMAXTRAJ,
                 rt::Range::From(1),
                 rt::Initial::Value(348),
             );
-            /// MAXTORQUE: range 0 to 32767, default 6517.
+            /// MAXTORQUE: range 0 to 32767, default 6517. As all models have it: [`objects::MAXTORQUE`].
             pub const MAXTORQUE: objects::WriteOnly<rt::Fraction<i16, 15>> = rt::Item::of_model(
                 objects::MAXTORQUE,
                 rt::Range::From(0),
                 rt::Initial::Value(6517),
             );
-            /// RESERVED1\_LOW: range 0 to 32767, default 300.
+            /// RESERVED1\_LOW: range 0 to 32767, default 300. As all models have it: [`objects::RESERVED1_LOW`].
             pub const RESERVED1_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::RESERVED1_LOW,
                 rt::Range::From(0),
                 rt::Initial::Value(300),
             );
-            /// RESERVED2\_LOW: range 0 to 32767, default 600.
+            /// RESERVED2\_LOW: range 0 to 32767, default 600. As all models have it: [`objects::RESERVED2_LOW`].
             pub const RESERVED2_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::RESERVED2_LOW,
                 rt::Range::From(0),
                 rt::Initial::Value(600),
             );
-            /// RESERVED3\_LOW: range 0 to 32767, default 2200.
+            /// RESERVED3\_LOW: range 0 to 32767, default 2200. As all models have it: [`objects::RESERVED3_LOW`].
             pub const RESERVED3_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::RESERVED3_LOW,
                 rt::Range::From(0),
                 rt::Initial::Value(2200),
             );
-            /// RESERVED4\_LOW: range 0 to 32767, default 16.
+            /// RESERVED4\_LOW: range 0 to 32767, default 16. As all models have it: [`objects::RESERVED4_LOW`].
             pub const RESERVED4_LOW: objects::WriteOnly<i16> = rt::Item::of_model(
                 objects::RESERVED4_LOW,
                 rt::Range::From(0),
@@ -1967,7 +2419,7 @@ pub mod messages {
             Err(rt::Error::NoMessage)
         }
     }
-    /// How parameters of the space parameter stand in messages.
+    /// How parameters of the space parameter stand in messages. Read by [`CmdGetParN`]. Written by [`CmdChgParN`].
     pub const PARAMETER: rt::message::SettingsRule = rt::message::SettingsRule {
         code_bits: 16,
         order: &[2, 3, 0, 1],
@@ -1981,7 +2433,7 @@ pub mod messages {
             (0x12C, 0x130, 2),
         ],
     };
-    /// How parameters of the space low\_level stand in messages.
+    /// How parameters of the space low\_level stand in messages. Written by [`CmdChgPar`].
     pub const LOW_LEVEL: rt::message::SettingsRule = rt::message::SettingsRule {
         code_bits: 16,
         order: &[],
@@ -2004,7 +2456,7 @@ pub mod messages {
     ///
     /// Leaves the state of alarm.
     ///
-    /// Accepted in the states: alarm.
+    /// Accepted in the states: [`Alarm`](super::types::State::Alarm).
     ///
     /// Only of SM137 rev. C, SM140.
     ///
@@ -2013,6 +2465,8 @@ pub mod messages {
     /// Note: The notes to the drawings recommend CmdReset to leave the alarm (L2087, L2099); the table of commands and states doesn't have it (L1990-2023). Chosen: accepted in alarm (it is what leads out of alarm (L226)).
     ///
     /// Note: The last byte is numbered 09x (L238). Chosen: 09 (it follows 08).
+    ///
+    /// Answered by [`CmdResetReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdReset;
     impl rt::message::Message for CmdReset {
@@ -2082,7 +2536,7 @@ pub mod messages {
     ///
     /// Leaves regulation: the motor no longer holds its position. It leads out of alarm too, unless bit 6 of BIT\_A is 1.
     ///
-    /// Accepted in the states: alarm, released, stopped, homing, jogging, positioning, stopping.
+    /// Accepted in the states: [`Alarm`](super::types::State::Alarm), [`Released`](super::types::State::Released), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping).
     ///
     /// Manual, line 242-264, 1992, 2030: Motore fuori regolazione.
     ///
@@ -2091,6 +2545,8 @@ pub mod messages {
     /// Note: BIT\_A is said to be in appendix A (L264). Chosen: chapter 6 (its bits are there (L1616), and appendix A has TESTSLIM).
     ///
     /// Note: Without effect during electrical homing (L260-261); the table of commands and states has an empty cell there (L1992). Chosen: not accepted (the text is the only thing said).
+    ///
+    /// Answered by [`CmdNoRegReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdNoReg;
     impl rt::message::Message for CmdNoReg {
@@ -2122,6 +2578,12 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 1992, 2030.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |
+        /// | [`Alarm`](super::types::State::Alarm), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping) | [`Released`](super::types::State::Released) |
+        /// | [`Released`](super::types::State::Released) | nothing |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -2219,7 +2681,7 @@ pub mod messages {
     ///
     /// The order is carried out when status.command complete says so. The reply tells it already.
     ///
-    /// Accepted in the states: released, stopped.
+    /// Accepted in the states: [`Released`](super::types::State::Released), [`Stopped`](super::types::State::Stopped).
     ///
     /// Only of SM137 rev. C, SM140.
     ///
@@ -2230,6 +2692,8 @@ pub mod messages {
     /// Note: It has effect only while the motor isn't in regulation (L287); the table of commands and states has = for AXSTOP, and refuses it in all states but that and AXNOREG (L1994, L2032). Chosen: the table (it tells the states one by one, and no effect and no change are the same).
     ///
     /// Note: CMDREG has no asterisk in the table of commands and states (L1994); the text keeps it to the SM140 and to revision C (L268). Chosen: SM140 and revision C (the row also stands for CmdRegWait, which all motors have).
+    ///
+    /// Answered by [`CmdRegReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdReg;
     impl rt::message::Message for CmdReg {
@@ -2262,7 +2726,11 @@ pub mod messages {
         ///
         /// Manual, line 1994, 2032.
         ///
-        /// In released: Before the first regulation the electrical position is found, else it is \`stopped\` at once.
+        /// | In | Leads to | Note |
+        /// |---|---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |  |
+        /// | [`Released`](super::types::State::Released) | [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped) | Before the first regulation the electrical position is found, else it is \`stopped\` at once. |
+        /// | [`Stopped`](super::types::State::Stopped) | nothing |  |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -2371,7 +2839,7 @@ pub mod messages {
     ///
     /// The order is carried out when status.command complete says so. The reply tells it already.
     ///
-    /// Accepted in the states: stopped, homing, jogging, positioning, stopping.
+    /// Accepted in the states: [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping).
     ///
     /// Only of SM137 rev. C, SM140.
     ///
@@ -2380,6 +2848,8 @@ pub mod messages {
     /// Note: It has effect only while the motor moves (L317); the table of commands and states has = for AXSTOP, accepted without a change (L1999). Chosen: accepted in AXSTOP (no effect and no change are the same).
     ///
     /// Note: CMDHOLD has no asterisk in the table of commands and states (L1999); the text keeps it to the SM140 and to revision C (L296). Chosen: SM140 and revision C (the row also stands for CmdHoldWait, which all motors have).
+    ///
+    /// Answered by [`CmdHoldReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdHold;
     impl rt::message::Message for CmdHold {
@@ -2411,6 +2881,12 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 1999, 2037.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |
+        /// | [`Stopped`](super::types::State::Stopped), [`Stopping`](super::types::State::Stopping) | nothing |
+        /// | [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning) | [`Stopping`](super::types::State::Stopping), [`Stopped`](super::types::State::Stopped) |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -2531,11 +3007,13 @@ pub mod messages {
     ///
     /// Gives the motor its position: from now on it is where the request says. The homing state becomes \`set by hand\`.
     ///
-    /// Accepted in the states: alarm, released, stopped.
+    /// Accepted in the states: [`Alarm`](super::types::State::Alarm), [`Released`](super::types::State::Released), [`Stopped`](super::types::State::Stopped).
     ///
     /// Manual, line 324-369, 1996, 2034: Azzeramento Manuale.
     ///
     /// Note: The example gives the position 6766.8176 mm (L361) and 6780.8465 mm in its formula (L365). Chosen: 6780\.8465 mm (it alone gives the printed bytes 0x0102AB34).
+    ///
+    /// Answered by [`CmdMazzReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdMazz {
         /// position: INTEGER32, in count.
@@ -2577,11 +3055,10 @@ pub mod messages {
         ///
         /// Manual, line 1996, 2034.
         ///
-        /// In alarm: the position is set.
-        ///
-        /// In released: the position is set.
-        ///
-        /// In stopped: the position is set.
+        /// | In | Leads to | Note |
+        /// |---|---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |  |
+        /// | [`Alarm`](super::types::State::Alarm), [`Released`](super::types::State::Released), [`Stopped`](super::types::State::Stopped) | nothing | the position is set. |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -2685,11 +3162,13 @@ pub mod messages {
     ///
     /// The order is carried out when status.command complete says so. The reply tells it already.
     ///
-    /// Accepted in the states: stopped, homing, jogging.
+    /// Accepted in the states: [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging).
     ///
     /// Manual, line 371-459, 1995, 2033: Azzeramento Automatico.
     ///
     /// Note: The cells of AXSTOP and AXFREERUN have an error or the homing, one or the other (L1995, L2033). Chosen: accepted in AXSTOP with TIPOAZZ 1 and 2, in AXFREERUN with 0 (the text tells which type starts where (L451)).
+    ///
+    /// Answered by [`CmdAzzReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdAzz;
     impl rt::message::Message for CmdAzz {
@@ -2721,6 +3200,13 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 1995, 2033.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |
+        /// | [`Stopped`](super::types::State::Stopped) | refused or [`Homing`](super::types::State::Homing), [`Stopping`](super::types::State::Stopping), [`Stopped`](super::types::State::Stopped) |
+        /// | [`Homing`](super::types::State::Homing) | nothing |
+        /// | [`Jogging`](super::types::State::Jogging) | [`Homing`](super::types::State::Homing), [`Stopping`](super::types::State::Stopping), [`Stopped`](super::types::State::Stopped) or refused |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -2838,13 +3324,15 @@ pub mod messages {
     ///
     /// Turns the motor at a speed; its sign is the direction, + towards greater positions.
     ///
-    /// Accepted in the states: stopped, jogging.
+    /// Accepted in the states: [`Stopped`](super::types::State::Stopped), [`Jogging`](super::types::State::Jogging).
     ///
     /// Only of SM137 rev. C, SM140.
     ///
     /// Manual, line 461-502, 2016, 2054: Movimento manuale con assegnamento della velocità (JOG).
     ///
     /// Note: The example wants 185 mm/min (L496), and its formula begins with -185 (L498). Chosen: \-185 mm/min (only so it gives the printed 0xFDBE, -578 rpm, and section 5.3 has -185 (L1425)).
+    ///
+    /// Answered by [`CmdJogNReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdJogN {
         /// speed: INTEGER16, in rpm.
@@ -2886,7 +3374,11 @@ pub mod messages {
         ///
         /// Manual, line 2016, 2054.
         ///
-        /// In jogging: The speed of jogging is changed with ramps, where it has to be.
+        /// | In | Leads to | Note |
+        /// |---|---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Homing`](super::types::State::Homing), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |  |
+        /// | [`Stopped`](super::types::State::Stopped) | [`Jogging`](super::types::State::Jogging) |  |
+        /// | [`Jogging`](super::types::State::Jogging) | nothing | The speed of jogging is changed with ramps, where it has to be. |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -2990,11 +3482,13 @@ pub mod messages {
     ///
     /// The order is carried out when status.command complete says so. The reply tells it already.
     ///
-    /// Accepted in the states: stopped.
+    /// Accepted in the states: [`Stopped`](super::types::State::Stopped).
     ///
     /// Manual, line 506-550, 1555, 1557, 1563, 1574, 1998, 2036, 2067, 2188, 2194: Posizionamento alla quota assegnata (LINE).
     ///
     /// Note: The example gives the bytes 0x01 0x1B 0x6F 0x9E (L550) and 0x01B6F9E, a digit short (L546); its formula gives 1798046 counts. Chosen: 00 1B 6F 9E (1798046 is 0x001B6F9E; the printed bytes are 18575262).
+    ///
+    /// Answered by [`CmdTrajReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdTraj {
         /// target: INTEGER32, in count.
@@ -3036,7 +3530,10 @@ pub mod messages {
         ///
         /// Manual, line 1998, 2036.
         ///
-        /// In stopped: Only where the motor is homed, by hand or automatically.
+        /// | In | Leads to | Note |
+        /// |---|---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |  |
+        /// | [`Stopped`](super::types::State::Stopped) | [`Positioning`](super::types::State::Positioning), [`Stopped`](super::types::State::Stopped) | Only where the motor is homed, by hand or automatically. |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -3147,7 +3644,7 @@ pub mod messages {
     ///
     /// The order is carried out when status.command complete says so. The reply tells it already.
     ///
-    /// Accepted in the states: stopped, positioning.
+    /// Accepted in the states: [`Stopped`](super::types::State::Stopped), [`Positioning`](super::types::State::Positioning).
     ///
     /// Only of SM137 rev. C, SM140.
     ///
@@ -3164,6 +3661,8 @@ pub mod messages {
     /// Note: The limit of the way is that of CmdTraj (L592). Chosen: the same of CmdTrajVel (the paragraph was copied from section 3.9, and stands under the conditions of this command).
     ///
     /// Note: The example gives the bytes 0x01 0x1B 0x6F 0x9E (L615) and 0x01B6F9E, a digit short (L611); its formula gives 1798046 counts. Chosen: 00 1B 6F 9E (1798046 is 0x001B6F9E; the printed bytes are 18575262).
+    ///
+    /// Answered by [`CmdTrajVelReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdTrajVel {
         /// target: INTEGER32, in count.
@@ -3218,9 +3717,11 @@ pub mod messages {
         ///
         /// Manual, line 2013, 2051.
         ///
-        /// In stopped: Only where the motor is homed, by hand or automatically.
-        ///
-        /// In positioning: Speed and target are changed with ramps, where they have to be; refused where they can't.
+        /// | In | Leads to | Note |
+        /// |---|---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |  |
+        /// | [`Stopped`](super::types::State::Stopped) | [`Positioning`](super::types::State::Positioning), [`Stopped`](super::types::State::Stopped) | Only where the motor is homed, by hand or automatically. |
+        /// | [`Positioning`](super::types::State::Positioning) | nothing | Speed and target are changed with ramps, where they have to be; refused where they can't. |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -3331,7 +3832,7 @@ pub mod messages {
     ///
     /// The null request: the real position. So does a motor answer after power-on.
     ///
-    /// Means this after CmdGetPos.
+    /// Means this after [`CmdGetPos`].
     ///
     /// So it is after power-on, too.
     ///
@@ -3340,6 +3841,8 @@ pub mod messages {
     /// Note: A reply whose low word begins with 0xB0, such as the position 0x0000B000, has the same bytes as CmdNACK (L2211-2221). Chosen: never refused (the command works in any condition (L648), and a reply that may be both can't be read).
     ///
     /// Note: The end of the request is ETX without its code (L641). Chosen: 0x03 (as in all other frames).
+    ///
+    /// Answered by [`PollPositionReply`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct PollPosition;
     impl rt::message::Message for PollPosition {
@@ -3414,9 +3917,11 @@ pub mod messages {
     ///
     /// The null request: the theoretical position.
     ///
-    /// Means this after CmdGetPosT.
+    /// Means this after [`CmdGetPosT`].
     ///
     /// Manual, line 625-670, 658: Richiesta della quota, della velocità e della coppia del motore.
+    ///
+    /// Answered by [`PollTheoreticalPositionReply`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct PollTheoreticalPosition;
     impl rt::message::Message for PollTheoreticalPosition {
@@ -3491,9 +3996,11 @@ pub mod messages {
     ///
     /// The null request: real and theoretical speed.
     ///
-    /// Means this after CmdGetVel.
+    /// Means this after [`CmdGetVel`].
     ///
     /// Manual, line 625-682, 659: Richiesta della quota, della velocità e della coppia del motore.
+    ///
+    /// Answered by [`PollSpeedsReply`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct PollSpeeds;
     impl rt::message::Message for PollSpeeds {
@@ -3581,9 +4088,11 @@ pub mod messages {
     ///
     /// The null request: real and theoretical torque, as currents.
     ///
-    /// Means this after CmdGetTor.
+    /// Means this after [`CmdGetTor`].
     ///
     /// Manual, line 625-653, 660, 1938: Richiesta della quota, della velocità e della coppia del motore.
+    ///
+    /// Answered by [`PollTorquesReply`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct PollTorques;
     impl rt::message::Message for PollTorques {
@@ -3671,13 +4180,15 @@ pub mod messages {
     ///
     /// Alarm by command: as released, but without a direct way back to regulation.
     ///
-    /// Accepted in the states: alarm, calibrating current sensors, released, electrical homing, stopped, homing, jogging, positioning, stopping.
+    /// Accepted in the states: [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping).
     ///
     /// Manual, line 686-706, 1990, 2028: Motore in EMERGENZA.
     ///
     /// Note: It has effect in any condition (L706); the table of commands and states refuses it in PREAXALARM, PREAXNOREG, AXINTERP and AXLATCH (L1990, L2028). Chosen: the table (it tells the states one by one).
     ///
     /// Note: CMDGOEMERG (L1635). Chosen: CmdEmerg (there is no other command of that kind).
+    ///
+    /// Answered by [`CmdEmergReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdEmerg;
     impl rt::message::Message for CmdEmerg {
@@ -3709,6 +4220,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 1990, 2028.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |
+        /// | [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping) | [`Alarm`](super::types::State::Alarm) |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -3808,13 +4324,15 @@ pub mod messages {
     ///
     /// Sets the override: at which percentage of their speed motions are made. A motor that moves gets to the new speed with a ramp.
     ///
-    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping.
+    /// Accepted in the states: [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping).
     ///
     /// Only of SM137 rev. C, SM140.
     ///
     /// Manual, line 708-738, 2014, 2052: Impostazione del valore di OVERRIDE.
     ///
     /// Note: It has effect at any moment (L730); the table of commands and states refuses it in AXINTERP and AXLATCH (L2052). Chosen: the table (it tells the states one by one).
+    ///
+    /// Answered by [`CmdSetOverrReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdSetOverr {
         /// override: UNSIGNED16, range 0 to 200, in %.
@@ -3853,6 +4371,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2014, 2052.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping) | nothing |
+        /// | [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -3954,13 +4477,15 @@ pub mod messages {
     ///
     /// Reads the override.
     ///
-    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping.
+    /// Accepted in the states: [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping).
     ///
     /// Only of SM137 rev. C, SM140.
     ///
     /// Manual, line 740-760, 2015, 2053: Lettura del valore di OVERRIDE.
     ///
     /// Note: It can be sent at any moment (L760); the table of commands and states refuses it in AXINTERP and AXLATCH (L2053). Chosen: the table (it tells the states one by one).
+    ///
+    /// Answered by [`CmdGetOverrReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetOverr;
     impl rt::message::Message for CmdGetOverr {
@@ -3992,6 +4517,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2015, 2053.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping) | nothing |
+        /// | [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -4096,7 +4626,7 @@ pub mod messages {
     ///
     /// Writes parameters of chapter 6, as many as fit: 16 of 16 bits, or 10 of 32 bits. They are lost at power-off unless CmdSaveParFl stores them.
     ///
-    /// Accepted in the states: alarm, released, stopped.
+    /// Accepted in the states: [`Alarm`](super::types::State::Alarm), [`Released`](super::types::State::Released), [`Stopped`](super::types::State::Stopped).
     ///
     /// Only of SM137 rev. C, SM140.
     ///
@@ -4107,6 +4637,8 @@ pub mod messages {
     /// Note: Bytes 08 and 09 are both the high byte (Parte alta) of the value, PS1 and PS0 (L789-790, L835-836). Chosen: high byte, low byte (PS0 is bits 7-0 (L774-776)).
     ///
     /// Note: The frame with three parameters is answered with one code (L833-834). Chosen: the first (the replies to other requests copy bytes 05 to 07).
+    ///
+    /// Answered by [`CmdChgParNReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdChgParN<'a> {
         /// Parameters and their values.
@@ -4147,6 +4679,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2011, 2049.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |
+        /// | [`Alarm`](super::types::State::Alarm), [`Released`](super::types::State::Released), [`Stopped`](super::types::State::Stopped) | nothing |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -4248,7 +4785,7 @@ pub mod messages {
     ///
     /// Reads a parameter of chapter 6. The request has as many zeros behind the code as the value has bytes.
     ///
-    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping.
+    /// Accepted in the states: [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping).
     ///
     /// Only of SM137 rev. C, SM140.
     ///
@@ -4259,6 +4796,8 @@ pub mod messages {
     /// Note: Bytes 08 and 09 of the reply are both the high byte (Parte alta) of the value, PS1 and PS0 (L883-884). Chosen: high byte, low byte (PS0 is bits 7-0 (L866-870)).
     ///
     /// Note: It can be sent at any moment (L917); the table of commands and states refuses it in AXINTERP and AXLATCH (L2050). Chosen: the table (it tells the states one by one).
+    ///
+    /// Answered by [`CmdGetParNReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetParN {
         /// Number of the parameter.
@@ -4295,6 +4834,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2012, 2050.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping) | nothing |
+        /// | [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -4402,7 +4946,7 @@ pub mod messages {
     ///
     /// The reply comes when the order is carried out.
     ///
-    /// Accepted in the states: alarm.
+    /// Accepted in the states: [`Alarm`](super::types::State::Alarm).
     ///
     /// Only of SM137 rev. C, SM140.
     ///
@@ -4411,6 +4955,8 @@ pub mod messages {
     /// Note: Section 4.6 doesn't say when the reply comes; that it comes at the end of the writing stands under CmdAdcOff, which writes nothing (L965). Chosen: a late reply (the note fits here; who is ready for a late reply loses nothing where it comes at once).
     ///
     /// Note: In alarm only (L941); the cells of AXALARM, AXADCOFF and AXNOREG are empty in the table of commands and states (L2017). Chosen: in alarm (the text).
+    ///
+    /// Answered by [`CmdSaveParFlReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdSaveParFl;
     impl rt::message::Message for CmdSaveParFl {
@@ -4442,6 +4988,10 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2017, 2055.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -4531,11 +5081,13 @@ pub mod messages {
     ///
     /// The reply comes when the order is carried out.
     ///
-    /// Accepted in the states: alarm.
+    /// Accepted in the states: [`Alarm`](super::types::State::Alarm).
     ///
     /// Manual, line 943-965, 1991, 2029: Taratura degli offset dei sensori di corrente.
     ///
     /// Note: The reply comes at the end of the writing (L965), and nothing is written. Chosen: at the end of the measurement (the sentence belongs to CmdSaveParFl, and a note on the time of the reply is meant).
+    ///
+    /// Answered by [`CmdAdcOffReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdAdcOff;
     impl rt::message::Message for CmdAdcOff {
@@ -4567,6 +5119,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 1991, 2029.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |
+        /// | [`Alarm`](super::types::State::Alarm) | [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`Alarm`](super::types::State::Alarm) |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -4675,13 +5232,15 @@ pub mod messages {
     ///
     /// The order is carried out when status.command complete says so. Poll it with a further message.
     ///
-    /// Accepted in the states: released.
+    /// Accepted in the states: [`Released`](super::types::State::Released).
     ///
     /// Only of SM137 rev. C, SM140.
     ///
     /// Manual, line 967-998, 1993, 2031: Azzeramento elettrico.
     ///
     /// Note: CMDAZZEL has no asterisk in the table of commands and states (L1993); the text keeps it to the SM140 and to revision C (L969). Chosen: SM140 and revision C (the row also stands for CmdAzzElWait, which all motors have).
+    ///
+    /// Answered by [`CmdAzzElReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdAzzEl {
         /// method: UNSIGNED8.
@@ -4722,6 +5281,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 1993, 2031.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |
+        /// | [`Released`](super::types::State::Released) | [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Released`](super::types::State::Released) |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -4827,6 +5391,8 @@ pub mod messages {
     /// Only of SM137 rev. C, SM140.
     ///
     /// Manual, line 999-1028: Lettura dello stato di azzeramento.
+    ///
+    /// Answered by [`CmdGetStatAzzReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetStatAzz;
     impl rt::message::Message for CmdGetStatAzz {
@@ -4904,6 +5470,8 @@ pub mod messages {
     /// Only of SM140.
     ///
     /// Manual, line 1030-1057, 431-433: Lettura della distanza fra microinterruttore di azzeramento e tacca di zero dell'encoder.
+    ///
+    /// Answered by [`CmdGetDistMicroZeroReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetDistMicroZero;
     impl rt::message::Message for CmdGetDistMicroZero {
@@ -4980,11 +5548,13 @@ pub mod messages {
     ///
     /// Has the null request answered with the real position.
     ///
-    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    /// Accepted in the states: [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating).
     ///
     /// Manual, line 1059-1077, 2003, 2041: Ricezione della quota reale.
     ///
     /// Note: In any condition (L1077); the table of commands and states refuses it in AXLATCH (L2041). Chosen: the table (it tells the states one by one).
+    ///
+    /// Answered by [`CmdGetPosReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetPos;
     impl rt::message::Message for CmdGetPos {
@@ -5016,6 +5586,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2003, 2041.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating) | nothing |
+        /// | [`Latching`](super::types::State::Latching) | refused |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -5124,9 +5699,11 @@ pub mod messages {
     ///
     /// Has the null request answered with the theoretical position.
     ///
-    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    /// Accepted in the states: [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating).
     ///
     /// Manual, line 1081-1095, 2004, 2042: Ricezione della quota teorica.
+    ///
+    /// Answered by [`CmdGetPosTReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetPosT;
     impl rt::message::Message for CmdGetPosT {
@@ -5158,6 +5735,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2004, 2042.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating) | nothing |
+        /// | [`Latching`](super::types::State::Latching) | refused |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -5266,13 +5848,15 @@ pub mod messages {
     ///
     /// Has the null request answered with real and theoretical speed.
     ///
-    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    /// Accepted in the states: [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating).
     ///
     /// Manual, line 1097-1115, 2005, 2043: Ricezione delle velocità teorica e reale.
     ///
     /// Note: In any condition (L1115); the table of commands and states refuses it in AXLATCH (L2043). Chosen: the table (it tells the states one by one).
     ///
     /// Note: Q15 is said to be told in appendix D (L1099); it is in appendix A (L1870-1882). Chosen: appendix A (appendix D has the messages).
+    ///
+    /// Answered by [`CmdGetVelReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetVel;
     impl rt::message::Message for CmdGetVel {
@@ -5304,6 +5888,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2005, 2043.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating) | nothing |
+        /// | [`Latching`](super::types::State::Latching) | refused |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -5412,13 +6001,15 @@ pub mod messages {
     ///
     /// Has the null request answered with real and theoretical torque.
     ///
-    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    /// Accepted in the states: [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating).
     ///
     /// Manual, line 1117-1135, 2006, 2044: Ricezione dei valori di coppia teorica e reale.
     ///
     /// Note: In any condition (L1135); the table of commands and states refuses it in AXLATCH (L2044). Chosen: the table (it tells the states one by one).
     ///
     /// Note: Q15 is said to be told in appendix D (L1119); it is in appendix A (L1870-1882). Chosen: appendix A (appendix D has the messages).
+    ///
+    /// Answered by [`CmdGetTorReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetTor;
     impl rt::message::Message for CmdGetTor {
@@ -5450,6 +6041,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2006, 2044.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating) | nothing |
+        /// | [`Latching`](super::types::State::Latching) | refused |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -5558,13 +6154,15 @@ pub mod messages {
     ///
     /// Reads the message that waits: an alarm below 0x4000, else a warning.
     ///
-    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    /// Accepted in the states: [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating).
     ///
     /// The message is cleared by reading it.
     ///
     /// Manual, line 1137-1157, 2002, 2040: Lettura dei messaggi di allarme o di Warning.
     ///
     /// Note: In any condition (L1157); the table of commands and states refuses it in AXLATCH (L2040). Chosen: the table (it tells the states one by one).
+    ///
+    /// Answered by [`CmdGetAlarmReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetAlarm;
     impl rt::message::Message for CmdGetAlarm {
@@ -5596,6 +6194,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2002, 2040.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating) | nothing |
+        /// | [`Latching`](super::types::State::Latching) | refused |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -5702,11 +6305,13 @@ pub mod messages {
     ///
     /// Reads the version of the firmware, a plain number: 0x0067 is 103.
     ///
-    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    /// Accepted in the states: [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating).
     ///
     /// Manual, line 1161-1185, 2007, 2045: Lettura della versione software del firmware.
     ///
     /// Note: In any condition (L1179); the table of commands and states refuses it in AXLATCH (L2045). Chosen: the table (it tells the states one by one).
+    ///
+    /// Answered by [`CmdGetVerReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetVer;
     impl rt::message::Message for CmdGetVer {
@@ -5738,6 +6343,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2007, 2045.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating) | nothing |
+        /// | [`Latching`](super::types::State::Latching) | refused |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -5845,6 +6455,8 @@ pub mod messages {
     /// Only of SM137 rev. C, SM140.
     ///
     /// Manual, line 1187-1221: Lettura del tipo di motore e di bus di campo.
+    ///
+    /// Answered by [`CmdGetTypeReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetType;
     impl rt::message::Message for CmdGetType {
@@ -5919,11 +6531,13 @@ pub mod messages {
     ///
     /// Reads the internal state.
     ///
-    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    /// Accepted in the states: [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating).
     ///
     /// Manual, line 1223-1243, 2008, 2046: Lettura dello stato interno del motore.
     ///
     /// Note: In any condition (L1243); the table of commands and states refuses it in AXLATCH (L2046). Chosen: the table (it tells the states one by one).
+    ///
+    /// Answered by [`CmdGetSmStatReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetSmStat;
     impl rt::message::Message for CmdGetSmStat {
@@ -5955,6 +6569,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2008, 2046.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating) | nothing |
+        /// | [`Latching`](super::types::State::Latching) | refused |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -6064,6 +6683,8 @@ pub mod messages {
     /// Manual, line 1245-1266: Campionamento di variabili.
     ///
     /// Note: The codes of the variables are said to be in the appendices (L1266), which don't have them. Chosen: numbers of one byte (nothing more is printed).
+    ///
+    /// Answered by [`CmdSampleVarReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdSampleVar {
         /// variable 1: UNSIGNED8.
@@ -6156,6 +6777,8 @@ pub mod messages {
     /// Note: Title and text speak of a frequency (L1268, L1272), the frame of a time (t. di campionamento, L1284-1285), and there is no unit. Chosen: a time without a unit (the frame is what is sent).
     ///
     /// Note: No addresses of variables are printed anywhere. Chosen: two numbers of 16 bits (nothing more is printed).
+    ///
+    /// Answered by [`CmdSampleMemReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdSampleMem {
         /// address 1: UNSIGNED16.
@@ -6246,7 +6869,7 @@ pub mod messages {
     ///
     /// Reads what was sampled, two values a sample.
     ///
-    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    /// Accepted in the states: [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating).
     ///
     /// Manual, line 1293-1328, 2010, 2048: Lettura dei dati campioni.
     ///
@@ -6257,6 +6880,8 @@ pub mod messages {
     /// Note: The greatest number of samples follows from the length of a packet (L1328), of which isn't said whether the check counts. Chosen: 15 (68 bytes without the check hold 15; with it, 14).
     ///
     /// Note: In any condition (L1326); the table of commands and states refuses it in AXLATCH (L2048). Chosen: the table (it tells the states one by one).
+    ///
+    /// Answered by [`CmdGetSampReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdGetSamp;
     impl rt::message::Message for CmdGetSamp {
@@ -6288,6 +6913,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2010, 2048.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating) | nothing |
+        /// | [`Latching`](super::types::State::Latching) | refused |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -6428,15 +7058,17 @@ pub mod messages {
     ///
     /// The reply comes when the order is carried out, after about 100 ms.
     ///
-    /// Accepted in the states: released, stopped.
+    /// Accepted in the states: [`Released`](super::types::State::Released), [`Stopped`](super::types::State::Stopped).
     ///
-    /// Replaced by CmdReg.
+    /// Replaced by [`CmdReg`].
     ///
     /// Manual, line 1332-1362, 269, 1994, 2032: Regolazione con attesa.
     ///
     /// Note: The table of commands and states has one row CMDREG (L1994), and there are two commands, CmdReg and CmdRegWait. Chosen: the row is about both (they differ in the time of the reply only).
     ///
     /// Note: It has effect only out of regulation (L1356); the table of commands and states has = for AXSTOP (L1994). Chosen: accepted in AXSTOP (no effect and no change are the same).
+    ///
+    /// Answered by [`CmdRegWaitReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdRegWait;
     impl rt::message::Message for CmdRegWait {
@@ -6469,7 +7101,11 @@ pub mod messages {
         ///
         /// Manual, line 1994, 2032.
         ///
-        /// In released: Before the first regulation the electrical position is found, else it is \`stopped\` at once.
+        /// | In | Leads to | Note |
+        /// |---|---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |  |
+        /// | [`Released`](super::types::State::Released) | [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped) | Before the first regulation the electrical position is found, else it is \`stopped\` at once. |
+        /// | [`Stopped`](super::types::State::Stopped) | nothing |  |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -6578,15 +7214,17 @@ pub mod messages {
     ///
     /// The reply comes when the order is carried out.
     ///
-    /// Accepted in the states: stopped, homing, jogging, positioning, stopping.
+    /// Accepted in the states: [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping).
     ///
-    /// Replaced by CmdHold.
+    /// Replaced by [`CmdHold`].
     ///
     /// Manual, line 1366-1388, 297, 1999, 2037: Stop con attesa.
     ///
     /// Note: The table of commands and states has one row CMDHOLD (L1999), and there are two commands, CmdHold and CmdHoldWait. Chosen: the row is about both (they differ in the time of the reply only).
     ///
     /// Note: It has effect only while the motor moves (L1384); the table of commands and states has = for AXSTOP (L1999). Chosen: accepted in AXSTOP (no effect and no change are the same).
+    ///
+    /// Answered by [`CmdHoldWaitReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdHoldWait;
     impl rt::message::Message for CmdHoldWait {
@@ -6618,6 +7256,12 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 1999, 2037.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |
+        /// | [`Stopped`](super::types::State::Stopped), [`Stopping`](super::types::State::Stopping) | nothing |
+        /// | [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning) | [`Stopping`](super::types::State::Stopping), [`Stopped`](super::types::State::Stopped) |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -6738,11 +7382,13 @@ pub mod messages {
     ///
     /// As CmdJogN, with the speed as a fraction of 8000 rpm. Motors before revision C don't have CmdJogN.
     ///
-    /// Accepted in the states: stopped, jogging.
+    /// Accepted in the states: [`Stopped`](super::types::State::Stopped), [`Jogging`](super::types::State::Jogging).
     ///
-    /// Replaced by CmdJogN.
+    /// Replaced by [`CmdJogN`].
     ///
     /// Manual, line 1390-1433, 463, 1997, 2035: Movimento manuale con assegnamento della velocità (Jog).
+    ///
+    /// Answered by [`CmdJogReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdJog {
         /// speed: INTEGER16, range \-32767 to 32767, stands for raw / 2^15 × speed\_base rpm.
@@ -6790,7 +7436,11 @@ pub mod messages {
         ///
         /// Manual, line 1997, 2035.
         ///
-        /// In jogging: The speed of jogging is changed with ramps, where it has to be.
+        /// | In | Leads to | Note |
+        /// |---|---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Homing`](super::types::State::Homing), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |  |
+        /// | [`Stopped`](super::types::State::Stopped) | [`Jogging`](super::types::State::Jogging) |  |
+        /// | [`Jogging`](super::types::State::Jogging) | nothing | The speed of jogging is changed with ramps, where it has to be. |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -6892,15 +7542,17 @@ pub mod messages {
     ///
     /// Writes a low-level parameter. Motors before revision C don't have CmdChgParN.
     ///
-    /// Accepted in the states: alarm, released, stopped.
+    /// Accepted in the states: [`Alarm`](super::types::State::Alarm), [`Released`](super::types::State::Released), [`Stopped`](super::types::State::Stopped).
     ///
-    /// Replaced by CmdChgParN.
+    /// Replaced by [`CmdChgParN`].
     ///
     /// Manual, line 1435-1455, 764, 2000, 2038: Modifica di un parametro dell'azionamento.
     ///
     /// Note: B04 of the reply is CmdJog (0x40) (L1446). Chosen: 0x04 (the table was copied from section 5.3; all other replies have the opcode of their request).
     ///
     /// Note: The codes are said to be those of section 6 (L1439); the low-level parameters of appendix A go with CmdChgPar (L1758), and those of section 6 with CmdChgParN (L1508). Chosen: the low-level parameters (both chapters of parameters say so, and section 5.4 sends whoever wants standard units to CmdChgParN (L1455)).
+    ///
+    /// Answered by [`CmdChgParReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdChgPar {
         /// The parameter and its value.
@@ -6937,6 +7589,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2000, 2038.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |
+        /// | [`Alarm`](super::types::State::Alarm), [`Released`](super::types::State::Released), [`Stopped`](super::types::State::Stopped) | nothing |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -7040,13 +7697,15 @@ pub mod messages {
     ///
     /// The reply comes when the order is carried out, after about 100 ms.
     ///
-    /// Accepted in the states: released.
+    /// Accepted in the states: [`Released`](super::types::State::Released).
     ///
-    /// Replaced by CmdAzzEl.
+    /// Replaced by [`CmdAzzEl`].
     ///
     /// Manual, line 1457-1484, 969, 1993, 2031: Azzeramento elettrico con attesa.
     ///
     /// Note: The table of commands and states has one row CMDAZZEL (L1993), and there are two commands, CmdAzzEl and CmdAzzElWait. Chosen: the row is about both (they differ in the time of the reply only).
+    ///
+    /// Answered by [`CmdAzzElWaitReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdAzzElWait {
         /// method: UNSIGNED8.
@@ -7087,6 +7746,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 1993, 2031.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating), [`Latching`](super::types::State::Latching) | refused |
+        /// | [`Released`](super::types::State::Released) | [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Released`](super::types::State::Released) |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -7195,15 +7859,17 @@ pub mod messages {
     ///
     /// As CmdSampleVar. Motors before revision C don't have CmdSampleVar.
     ///
-    /// Accepted in the states: braking to alarm, alarm, calibrating current sensors, braking to release, released, electrical homing, stopped, homing, jogging, positioning, stopping, interpolating.
+    /// Accepted in the states: [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating).
     ///
-    /// Replaced by CmdSampleVar.
+    /// Replaced by [`CmdSampleVar`].
     ///
     /// Manual, line 1486-1504, 1247, 2009, 2047: Campionamento di variabili.
     ///
     /// Note: It is obsolete (L1332), and what replaces it isn't said. Chosen: CmdSampleVar (same fields, same words).
     ///
     /// Note: In any condition (L1504); the table of commands and states refuses it in AXLATCH (L2047). Chosen: the table (it tells the states one by one).
+    ///
+    /// Answered by [`CmdSampleReply`]. Refused with [`CmdNack`].
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct CmdSample {
         /// variable 1: UNSIGNED8.
@@ -7247,6 +7913,11 @@ pub mod messages {
         /// What it does in each state of axis.
         ///
         /// Manual, line 2009, 2047.
+        ///
+        /// | In | Leads to |
+        /// |---|---|
+        /// | [`BrakingToAlarm`](super::types::State::BrakingToAlarm), [`Alarm`](super::types::State::Alarm), [`CalibratingCurrentSensors`](super::types::State::CalibratingCurrentSensors), [`BrakingToRelease`](super::types::State::BrakingToRelease), [`Released`](super::types::State::Released), [`ElectricalHoming`](super::types::State::ElectricalHoming), [`Stopped`](super::types::State::Stopped), [`Homing`](super::types::State::Homing), [`Jogging`](super::types::State::Jogging), [`Positioning`](super::types::State::Positioning), [`Stopping`](super::types::State::Stopping), [`Interpolating`](super::types::State::Interpolating) | nothing |
+        /// | [`Latching`](super::types::State::Latching) | refused |
         pub const OUTCOMES: rt::message::Outcomes<super::types::State> = rt::message::Outcomes::new(
             &[
                 rt::message::StateOutcomes::new(
@@ -7628,6 +8299,14 @@ pub mod types {
     /// HomingType.
     ///
     /// Manual, line 375-457.
+    ///
+    /// Values of [`TIPOAZZ`](super::objects::TIPOAZZ).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`IndexWhileJogging`](Self::IndexWhileJogging) | From the next index of the encoder on, while the motor jogs. |
+    /// | 1 | [`Switch`](Self::Switch) | Where the homing switch is left; index not used. |
+    /// | 2 | [`SwitchAndIndex`](Self::SwitchAndIndex) | At the first index behind the homing switch. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum HomingType {
         /// 0: index while jogging. From the next index of the encoder on, while the motor jogs. Manual, line 379-385.
@@ -7673,19 +8352,28 @@ pub mod types {
     /// How far homing got; which of them occur depends on TIPOAZZ.
     ///
     /// Manual, line 1005-1012, 2101-2114.
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`NotHomed`](Self::NotHomed) | Never homed, or the last homing was broken off. |
+    /// | 1 | [`SetByHand`](Self::SetByHand) | The position was given by CmdMazz. |
+    /// | 2 | [`SearchingSwitch`](Self::SearchingSwitch) | Automatic homing looks for the homing switch. |
+    /// | 3 | [`Homed`](Self::Homed) | Automatic homing was carried out. |
+    /// | 4 | [`LeavingSwitch`](Self::LeavingSwitch) | Automatic homing leaves the homing switch. |
+    /// | 6 | [`SearchingIndex`](Self::SearchingIndex) | Automatic homing looks for the index of the encoder. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum HomingState {
-        /// 0: not homed. Never homed, or the last homing was broken off. Only while TIPOAZZ is 0 or 1 or 2. Manual, line 1007, 2109: NOAZZ.
+        /// 0: not homed. Never homed, or the last homing was broken off. Only while [TIPOAZZ](super::objects::TIPOAZZ) is 0 or 1 or 2. Manual, line 1007, 2109: NOAZZ.
         NotHomed,
-        /// 1: set by hand. The position was given by CmdMazz. Only while TIPOAZZ is 0 or 1 or 2. Manual, line 1008, 2110: AZZMAN.
+        /// 1: set by hand. The position was given by CmdMazz. Only while [TIPOAZZ](super::objects::TIPOAZZ) is 0 or 1 or 2. Manual, line 1008, 2110: AZZMAN.
         SetByHand,
-        /// 2: searching switch. Automatic homing looks for the homing switch. Only while TIPOAZZ is 1 or 2. Manual, line 1010, 2111: SEARCHINGMICRO.
+        /// 2: searching switch. Automatic homing looks for the homing switch. Only while [TIPOAZZ](super::objects::TIPOAZZ) is 1 or 2. Manual, line 1010, 2111: SEARCHINGMICRO.
         SearchingSwitch,
-        /// 3: homed. Automatic homing was carried out. Only while TIPOAZZ is 0 or 1 or 2. Manual, line 1009, 2112: AZZAUTO.
+        /// 3: homed. Automatic homing was carried out. Only while [TIPOAZZ](super::objects::TIPOAZZ) is 0 or 1 or 2. Manual, line 1009, 2112: AZZAUTO.
         Homed,
-        /// 4: leaving switch. Automatic homing leaves the homing switch. Only while TIPOAZZ is 1 or 2. Manual, line 1011, 2113: LEAVINGMICRO.
+        /// 4: leaving switch. Automatic homing leaves the homing switch. Only while [TIPOAZZ](super::objects::TIPOAZZ) is 1 or 2. Manual, line 1011, 2113: LEAVINGMICRO.
         LeavingSwitch,
-        /// 6: searching index. Automatic homing looks for the index of the encoder. Only while TIPOAZZ is 0 or 2. Manual, line 1012, 2114: SEARCHINGTACCA.
+        /// 6: searching index. Automatic homing looks for the index of the encoder. Only while [TIPOAZZ](super::objects::TIPOAZZ) is 0 or 2. Manual, line 1012, 2114: SEARCHINGTACCA.
         SearchingIndex,
         /// Any other number.
         Unknown(u16),
@@ -7730,6 +8418,15 @@ pub mod types {
     /// Motor (bit 4) and fieldbus (bits 1-0).
     ///
     /// Manual, line 1213-1221.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Sm137EnetX`](Self::Sm137EnetX) |
+    /// | 1 | [`Sm137Rs485`](Self::Sm137Rs485) |
+    /// | 2 | [`Sm137Can`](Self::Sm137Can) |
+    /// | 16 | [`Sm140EnetX`](Self::Sm140EnetX) |
+    /// | 17 | [`Sm140Rs485`](Self::Sm140Rs485) |
+    /// | 18 | [`Sm140Can`](Self::Sm140Can) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum MotorType {
         /// 0: SM137 ENET-X. Manual, line 1215.
@@ -7787,6 +8484,23 @@ pub mod types {
     /// Internal states of the motor; after power-on it is in alarm.
     ///
     /// Manual, line 1953-1974, 1985.
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`Released`](Self::Released) | Out of regulation: the shaft can be turned by hand. |
+    /// | 1 | [`Alarm`](Self::Alarm) | As released, but without a direct way back to regulation. |
+    /// | 2 | [`Stopped`](Self::Stopped) | In regulation: the motor holds its position. |
+    /// | 3 | [`CalibratingCurrentSensors`](Self::CalibratingCurrentSensors) | The offsets of the current sensors are being measured. |
+    /// | 4 | [`ElectricalHoming`](Self::ElectricalHoming) | The electrical position of the rotor is being found. |
+    /// | 6 | [`Homing`](Self::Homing) | Automatic homing. |
+    /// | 7 | [`Stopping`](Self::Stopping) | Deceleration by AMAXHOLD. |
+    /// | 8 | [`Jogging`](Self::Jogging) | Motion at constant speed. |
+    /// | 9 | [`Positioning`](Self::Positioning) | Motion to a position, with the acceleration AMAXTRAJ and at most VMAXTRAJ. |
+    /// | 10 | [`Torque`](Self::Torque) | Not implemented. |
+    /// | 11 | [`Interpolating`](Self::Interpolating) | Interpolation, which ENET-X alone has. |
+    /// | 13 | [`Latching`](Self::Latching) | The position at the index of the encoder is being caught. |
+    /// | 14 | [`BrakingToAlarm`](Self::BrakingToAlarm) | Controlled braking with the acceleration of parameter 0x0119, then alarm: after CmdEmerg or an … |
+    /// | 15 | [`BrakingToRelease`](Self::BrakingToRelease) | Controlled braking with the acceleration of parameter 0x0119, then released: after CmdNoReg, while … |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum State {
         /// 0: released. Out of regulation: the shaft can be turned by hand. Manual, line 1961: AXNOREG.
@@ -7875,7 +8589,25 @@ pub mod types {
     ///
     /// Manual, line 1616-1635.
     ///
+    /// Values of [`BIT_A`](super::objects::BIT_A).
+    ///
     /// Bits 0xB6 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`software_limits`](Self::software_limits) | Checks LOW\_SLIM and HIGH\_SLIM. |
+    /// | 1 | reserved | Written as 0. |
+    /// | 2 | reserved | Written as 0. |
+    /// | 3 | [`inverted_direction`](Self::inverted_direction) | Else the shaft turns counter-clockwise for greater positions, seen from the flange. |
+    /// | 4 | reserved | Written as 0. |
+    /// | 5 | reserved | Written as 0. |
+    /// | 6 | [`cmd_reset_only`](Self::cmd_reset_only) | CmdNoReg no longer leads out of alarm. |
+    /// | 7 | reserved | Written as 0. |
+    /// | 8 | [`negative_limit_cam`](Self::negative_limit_cam) | Enables it: the cam that is met while the real position falls, whichever way the shaft turns. |
+    /// | 9 | [`positive_limit_cam`](Self::positive_limit_cam) | Enables it: the cam that is met while the real position grows, whichever way the shaft turns. |
+    /// | 10 | [`alarm_at_limit_cams`](Self::alarm_at_limit_cams) | 1: a limit cam leads to alarm; 0: to \`stopped\`, with a ramp. A message tells which cam it is, and … |
+    /// | 11 | [`no_bus_synchronisation`](Self::no_bus_synchronisation) | ENET-X only: regulation isn't locked to the bus. |
+    /// | 12 | [`no_controlled_braking`](Self::no_controlled_braking) | 0: the motor brakes with AMAX before it leaves regulation, after CmdEmerg, CmdNoReg or an alarm … |
     #[derive(Clone, Copy, PartialEq)]
     pub struct BitA(u16);
     impl BitA {
@@ -8000,6 +8732,14 @@ pub mod types {
     /// A bit that is 1 inverts its input: 0 V is high then, 24 V low. A limit cam is met while its signal is low, the homing switch while its signal is high; inverting the signal of a cam makes it less safe.
     ///
     /// Manual, line 2225-2262.
+    ///
+    /// Values of [`INVDIN`](super::objects::INVDIN).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`input_1`](Self::input_1) | Negative limit cam: met while the signal is low. |
+    /// | 1 | [`input_2`](Self::input_2) | Positive limit cam: met while the signal is low. |
+    /// | 2 | [`input_3`](Self::input_3) | Homing switch: the motor is on it while the signal is high. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct InvertedInputs(u16);
     impl InvertedInputs {
@@ -8070,7 +8810,25 @@ pub mod types {
     ///
     /// Manual, line 1823, 1616-1635.
     ///
+    /// Values of [`TESTSLIM`](super::objects::TESTSLIM).
+    ///
     /// Bits 0xB6 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`software_limits`](Self::software_limits) | Checks the limits LOWSLIM and HIGHSLIM. |
+    /// | 1 | reserved | Written as 0. |
+    /// | 2 | reserved | Written as 0. |
+    /// | 3 | [`inverted_direction`](Self::inverted_direction) | As in BIT\_A. |
+    /// | 4 | reserved | Written as 0. |
+    /// | 5 | reserved | Written as 0. |
+    /// | 6 | [`cmd_reset_only`](Self::cmd_reset_only) | As in BIT\_A. |
+    /// | 7 | reserved | Written as 0. |
+    /// | 8 | [`negative_limit_cam`](Self::negative_limit_cam) | As in BIT\_A. |
+    /// | 9 | [`positive_limit_cam`](Self::positive_limit_cam) | As in BIT\_A. |
+    /// | 10 | [`alarm_at_limit_cams`](Self::alarm_at_limit_cams) | As in BIT\_A. |
+    /// | 11 | [`no_bus_synchronisation`](Self::no_bus_synchronisation) | As in BIT\_A. |
+    /// | 12 | [`no_controlled_braking`](Self::no_controlled_braking) | As in BIT\_A. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct TestSlim(u16);
     impl TestSlim {
@@ -8195,6 +8953,13 @@ pub mod types {
     /// Low half of the third byte of each reply; the high half is 0.
     ///
     /// Manual, line 211, 2198-2205.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`position_not_selected`](Self::position_not_selected) | The null request is answered with something else than the real position. |
+    /// | 1 | [`command_complete`](Self::command_complete) | 0 while the last command is still being carried out, such as homing or a positioning. |
+    /// | 2 | [`message_pending`](Self::message_pending) | A message waits for the master: read it with CmdGetAlarm. |
+    /// | 3 | [`alarm`](Self::alarm) | The motor is in alarm. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct BitStato(u8);
     impl BitStato {
@@ -8272,6 +9037,23 @@ pub mod types {
         }
     }
     /// States of interpolation.
+    ///
+    /// Interpolation, on ENET-X only: bits 7 to 4 of a byte of each packet from the master, bits 7 to 4, 2 and 1 from the motor. The master begins with \`set-point\`, and the motor confirms with \`interpolating\` and what the null request is answered with, normally the real position; on \`latch\`, sent once, it looks for the index of the encoder and answers with \`latched\` and the position there.
+    ///
+    /// Manual, line 2266-2302.
+    ///
+    /// | State | Mask | Value | Meaning |
+    /// |---|---|---|---|
+    /// | [`DefaultPacket`](Self::DefaultPacket) | 0xF0 | 0xC0 |  |
+    /// | [`SinglePacket`](Self::SinglePacket) | 0xE0 | 0xE0 |  |
+    /// | [`FirstOfSeveralPackets`](Self::FirstOfSeveralPackets) | 0xE0 | 0x60 |  |
+    /// | [`NextOfSeveralPackets`](Self::NextOfSeveralPackets) | 0xE0 | 0x20 |  |
+    /// | [`LastOfSeveralPackets`](Self::LastOfSeveralPackets) | 0xE0 | 0xA0 |  |
+    /// | [`InterpolatingSwitchHigh`](Self::InterpolatingSwitchHigh) | 0xF6 | 0x84 | interpolating, switch high. Input of the homing switch, on the SM140. |
+    /// | [`InterpolatingSwitchLow`](Self::InterpolatingSwitchLow) | 0xF6 | 0x82 | interpolating, switch low. Input of the homing switch, on the SM140. |
+    /// | [`Latched`](Self::Latched) | 0xF6 | 0x86 | The position at the index was caught. |
+    /// | [`Unused000`](Self::Unused000) | 0xE0 | 0 |  |
+    /// | [`Unused010`](Self::Unused010) | 0xE0 | 0x40 |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum InterpolationState {
         /// default packet: 0xC0 of the bits 0xF0.
@@ -8332,6 +9114,21 @@ pub mod types {
         }
     }
     /// Commands of interpolation.
+    ///
+    /// Interpolation, on ENET-X only: bits 7 to 4 of a byte of each packet from the master, bits 7 to 4, 2 and 1 from the motor. The master begins with \`set-point\`, and the motor confirms with \`interpolating\` and what the null request is answered with, normally the real position; on \`latch\`, sent once, it looks for the index of the encoder and answers with \`latched\` and the position there.
+    ///
+    /// Manual, line 2266-2302.
+    ///
+    /// | Command | Mask | Value |
+    /// |---|---|---|
+    /// | [`EmptyPacket`](Self::EmptyPacket) | 0xF0 | 0 |
+    /// | [`SinglePacket`](Self::SinglePacket) | 0xE0 | 0xE0 |
+    /// | [`FirstOfSeveralPackets`](Self::FirstOfSeveralPackets) | 0xE0 | 0x60 |
+    /// | [`NextOfSeveralPackets`](Self::NextOfSeveralPackets) | 0xE0 | 0x20 |
+    /// | [`LastOfSeveralPackets`](Self::LastOfSeveralPackets) | 0xE0 | 0xA0 |
+    /// | [`SetPoint`](Self::SetPoint) | 0xF0 | 0x80 |
+    /// | [`Latch`](Self::Latch) | 0xF0 | 0xC0 |
+    /// | [`Unused`](Self::Unused) | 0xE0 | 0x40 |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum InterpolationCommand {
         /// empty packet: 0 of the bits 0xF0.
@@ -8390,6 +9187,8 @@ pub mod codes {
     /// Manual, line 2120, 2125-2169.
     ///
     /// Further columns: remedy.
+    ///
+    /// As a type: [`Alarm`].
     pub static ALARM: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             0,
@@ -8598,6 +9397,32 @@ pub mod codes {
         ),
     ];
     /// A code of [`ALARM`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`NoAlarm`](Self::NoAlarm) | The motor works properly. |
+    /// | 1 | [`Overheated`](Self::Overheated) | The drive was hotter than 70 °C. |
+    /// | 2 | [`OverCurrent`](Self::OverCurrent) | Too great a current in the power stage. |
+    /// | 3 | [`Overload`](Self::Overload) | More than the greatest torque was needed for too long. |
+    /// | 4 | [`TrajectoryGenerator`](Self::TrajectoryGenerator) | An error of the generator of trajectories in the motor. |
+    /// | 5 | [`BeyondSoftwareLimit`](Self::BeyondSoftwareLimit) | The motor is beyond a software limit, with their check enabled and the axis homed. |
+    /// | 6 | [`FollowingErrorOfPosition`](Self::FollowingErrorOfPosition) | The following error of the position was greater than the parameter. |
+    /// | 7 | [`FollowingErrorOfSpeed`](Self::FollowingErrorOfSpeed) | The following error of the speed was greater than the parameter. |
+    /// | 8 | [`CommunicationError`](Self::CommunicationError) | On RS-485: silence of the master, a packet that is too long or has no ETX, a second STX before the … |
+    /// | 9 | [`NoPower`](Self::NoPower) | The power supply fell below 16 V during regulation. |
+    /// | 0xA | [`NoParametersInFlash`](Self::NoParametersInFlash) | The parameters stored in flash memory are wrong. |
+    /// | 0xB | [`NoProgramInFlash`](Self::NoProgramInFlash) | The software stored in flash memory is wrong. |
+    /// | 0xC | [`ErasingFlash`](Self::ErasingFlash) | Flash memory couldn't be erased while software was sent. |
+    /// | 0xD | [`ProgrammingFlash`](Self::ProgrammingFlash) | Flash memory couldn't be written while software was sent. |
+    /// | 0xE | [`WrongInterpolationData`](Self::WrongInterpolationData) | A packet with a wrong coding came during interpolation. |
+    /// | 0xF | [`SetPointTooFast`](Self::SetPointTooFast) | A set-point of the interpolation asks for too great a speed. |
+    /// | 0x10 | [`SetPointMissing`](Self::SetPointMissing) | A set-point of the interpolation didn't come in time. |
+    /// | 0x11 | [`WrongBusFrequency`](Self::WrongBusFrequency) | The bus has another frequency than the parameter says. |
+    /// | 0x12 | [`ParametersOfTheMotorMissing`](Self::ParametersOfTheMotorMissing) | At power-on parameters that the motor needs weren't found. |
+    /// | 0x13 | [`CommunicationTimeOut`](Self::CommunicationTimeOut) | An error in the protocol with the motor. |
+    /// | 0x14 | [`OverPower`](Self::OverPower) | The power supply rose above 38 V. |
+    /// | 0x20 | [`ProcessorOverload`](Self::ProcessorOverload) | An error of the drive's software. |
+    /// | 0x21 | [`WrongInterrupt`](Self::WrongInterrupt) | An error of the drive's software. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Alarm {
         /// 0: no alarm. The motor works properly. Manual, line 2131: NOALARM.
@@ -8718,6 +9543,8 @@ pub mod codes {
     /// Manual, line 2121, 2171-2194.
     ///
     /// Further columns: remedy.
+    ///
+    /// As a type: [`Warning`].
     pub static WARNING: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             0x4000,
@@ -8813,6 +9640,21 @@ pub mod codes {
         ),
     ];
     /// A code of [`WARNING`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0x4000 | [`NotHomed`](Self::NotHomed) | A positioning was commanded to an axis that isn't homed. |
+    /// | 0x4001 | [`NoSuchParameter`](Self::NoSuchParameter) | A parameter was written or read that doesn't exist. |
+    /// | 0x4002 | [`CommandLost`](Self::CommandLost) | An error of the drive's software. |
+    /// | 0x4003 | [`NoSuchCommand`](Self::NoSuchCommand) | A command was sent that doesn't exist. |
+    /// | 0x4004 | [`AlreadyInPosition`](Self::AlreadyInPosition) | A positioning was commanded to where the motor is. |
+    /// | 0x4005 | [`TargetBeyondSoftwareLimit`](Self::TargetBeyondSoftwareLimit) | A positioning was commanded to beyond a software limit. |
+    /// | 0x4006 | [`SoftwareLimitReached`](Self::SoftwareLimitReached) | The motor is at the upper or lower software limit. |
+    /// | 0x4007 | [`FlashNotErased`](Self::FlashNotErased) | Flash memory was to be written where it isn't erased. |
+    /// | 0x4008 | [`ReadingFlash`](Self::ReadingFlash) | An error while flash memory was written. |
+    /// | 0x4009 | [`NegativeLimitCam`](Self::NegativeLimitCam) | The motor met the negative limit cam. |
+    /// | 0x400A | [`PositiveLimitCam`](Self::PositiveLimitCam) | The motor met the positive limit cam. |
+    /// | 0x400B | [`MotionTooLong`](Self::MotionTooLong) | A positioning goes further than 67108863 counts. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Warning {
         /// 0x4000: not homed. A positioning was commanded to an axis that isn't homed. Manual, line 2177: ALNOAZZ.
@@ -8916,10 +9758,11 @@ pub mod objects {
     /// KP\_I.
     ///
     /// Parameter 0x0100, INTEGER16, rw, default 30, range 0 to 32767 (0 to 327.67), in 0.01.
+    /// Accessor: [`kp_i`](super::HsdMotor::kp_i).
     ///
     /// Proportional gain of the current controller; to be left at its default
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default 40.
     ///
@@ -8935,10 +9778,11 @@ pub mod objects {
     /// KI\_I.
     ///
     /// Parameter 0x0101, INTEGER16, rw, default 12, range 0 to 32767 (0 to 327.67), in 0.01.
+    /// Accessor: [`ki_i`](super::HsdMotor::ki_i).
     ///
     /// Integral gain of the current controller; to be left at its default
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default 10.
     ///
@@ -8954,10 +9798,11 @@ pub mod objects {
     /// PIMIN\_I.
     ///
     /// Parameter 0x0103, INTEGER16, rw, default -194, range \-32767 to 0 (-3276.7 to 0 V), in 0.1 V.
+    /// Accessor: [`pimin_i`](super::HsdMotor::pimin_i).
     ///
     /// Least output of the current controller; to be left at its default
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default \-195.
     ///
@@ -8975,10 +9820,11 @@ pub mod objects {
     /// PIMAX\_I.
     ///
     /// Parameter 0x0104, INTEGER16, rw, default 194, range 0 to 32767 (0 to 3276.7 V), in 0.1 V.
+    /// Accessor: [`pimax_i`](super::HsdMotor::pimax_i).
     ///
     /// Greatest output of the current controller; to be left at its default
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default 195.
     ///
@@ -8996,10 +9842,11 @@ pub mod objects {
     /// KP\_VEL.
     ///
     /// Parameter 0x0105, INTEGER16, rw, default 150, range 0 to 32767 (0 to 327.67), in 0.01.
+    /// Accessor: [`kp_vel`](super::HsdMotor::kp_vel).
     ///
     /// Proportional gain of the speed controller. Once the feedforward is tuned, the default should do; gains of speed are tried one at a time while jogging
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default 600.
     ///
@@ -9015,10 +9862,11 @@ pub mod objects {
     /// KI\_VEL.
     ///
     /// Parameter 0x0106, INTEGER16, rw, default 10, range 0 to 32767 (0 to 327.67), in 0.01.
+    /// Accessor: [`ki_vel`](super::HsdMotor::ki_vel).
     ///
     /// Integral gain of the speed controller; best not 0, and else tried as KP\_VEL
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default 50.
     ///
@@ -9034,10 +9882,11 @@ pub mod objects {
     /// KFF\_VEL.
     ///
     /// Parameter 0x0107, INTEGER16, rw, default 100, range 0 to 100, in %.
+    /// Accessor: [`kff_vel`](super::HsdMotor::kff_vel).
     ///
     /// Feedforward of the speed controller; best left at 100 %
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1526-1527, 1738.
     pub const KFF_VEL: ReadWrite<i16> = ReadWriteI16::new(
@@ -9051,10 +9900,11 @@ pub mod objects {
     /// PIMIN\_VEL.
     ///
     /// Parameter 0x0108, INTEGER16, rw, default -500, range \-900 to 0 (-9 to 0 A), in 0.01 A.
+    /// Accessor: [`pimin_vel`](super::HsdMotor::pimin_vel).
     ///
     /// Least output of the speed controller: it limits the torque
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default \-1800, at least \-3500.
     ///
@@ -9070,10 +9920,11 @@ pub mod objects {
     /// PIMAX\_VEL.
     ///
     /// Parameter 0x0109, INTEGER16, rw, default 500, range 0 to 900 (0 to 9 A), in 0.01 A.
+    /// Accessor: [`pimax_vel`](super::HsdMotor::pimax_vel).
     ///
     /// Greatest output of the speed controller: it limits the torque
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default 1800, at most 3500.
     ///
@@ -9091,10 +9942,11 @@ pub mod objects {
     /// KP\_POS.
     ///
     /// Parameter 0x010A, INTEGER16, rw, default 500, range 0 to 32767 (0 to 327.67), in 0.01.
+    /// Accessor: [`kp_pos`](super::HsdMotor::kp_pos).
     ///
     /// Proportional gain of the position controller
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1532-1533.
     pub const KP_POS: ReadWrite<rt::Scaled<i16, 1, 100>> = ReadWriteI16Times1Per100::new(
@@ -9108,10 +9960,11 @@ pub mod objects {
     /// KI\_POS.
     ///
     /// Parameter 0x010B, INTEGER16, rw, default 0, range 0 to 32767 (0 to 327.67), in 0.01.
+    /// Accessor: [`ki_pos`](super::HsdMotor::ki_pos).
     ///
     /// Integral gain of the position controller
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1534-1535.
     pub const KI_POS: ReadWrite<rt::Scaled<i16, 1, 100>> = ReadWriteI16Times1Per100::new(
@@ -9125,10 +9978,11 @@ pub mod objects {
     /// KFF\_POS.
     ///
     /// Parameter 0x010C, INTEGER16, rw, default 70, range 0 to 100, in %.
+    /// Accessor: [`kff_pos`](super::HsdMotor::kff_pos).
     ///
     /// Feedforward of the position controller; 50 % to 100 % are usual, tried by positionings without the feedback
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1541-1542, 1742-1752.
     pub const KFF_POS: ReadWrite<i16> = ReadWriteI16::new(
@@ -9142,10 +9996,11 @@ pub mod objects {
     /// PIMIN\_POS.
     ///
     /// Parameter 0x010D, INTEGER16, rw, default -4500, range \-5000 to 0, in rpm.
+    /// Accessor: [`pimin_pos`](super::HsdMotor::pimin_pos).
     ///
     /// Least output of the position controller: it limits the speed
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1543-1544.
     pub const PIMIN_POS: ReadWrite<i16> = ReadWriteI16::new(
@@ -9159,10 +10014,11 @@ pub mod objects {
     /// PIMAX\_POS.
     ///
     /// Parameter 0x010E, INTEGER16, rw, default 4500, range 0 to 5000, in rpm.
+    /// Accessor: [`pimax_pos`](super::HsdMotor::pimax_pos).
     ///
     /// Greatest output of the position controller: it limits the speed
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1545-1546.
     ///
@@ -9178,12 +10034,13 @@ pub mod objects {
     /// MAXERRORP.
     ///
     /// Parameter 0x010F, INTEGER32, rw, default 0, range 0 to 2147483647, in count.
+    /// Accessor: [`maxerrorp`](super::HsdMotor::maxerrorp).
     ///
     /// Greatest following error of the position
     ///
     /// 0 means: not checked.
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1547-1548, 1804, 1868.
     ///
@@ -9201,10 +10058,11 @@ pub mod objects {
     /// TIM\_MAXERRORP.
     ///
     /// Parameter 0x0110, INTEGER16, rw, default 0, range 0 to 32000, in ms.
+    /// Accessor: [`tim_maxerrorp`](super::HsdMotor::tim_maxerrorp).
     ///
     /// How long the following error of the position has to last for an alarm
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1549-1550.
     pub const TIM_MAXERRORP: ReadWrite<i16> = ReadWriteI16::new(
@@ -9218,10 +10076,11 @@ pub mod objects {
     /// MAXERRORV.
     ///
     /// Parameter 0x0111, INTEGER16, rw, default 0, range 0 to 8000, in rpm.
+    /// Accessor: [`maxerrorv`](super::HsdMotor::maxerrorv).
     ///
     /// Greatest following error of the speed
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1551-1552.
     pub const MAXERRORV: ReadWrite<i16> = ReadWriteI16::new(
@@ -9235,10 +10094,11 @@ pub mod objects {
     /// TIM\_MAXERRORV.
     ///
     /// Parameter 0x0112, INTEGER16, rw, default 0, range 0 to 32000, in ms.
+    /// Accessor: [`tim_maxerrorv`](super::HsdMotor::tim_maxerrorv).
     ///
     /// How long the following error of the speed has to last for an alarm
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1553-1554.
     pub const TIM_MAXERRORV: ReadWrite<i16> = ReadWriteI16::new(
@@ -9252,10 +10112,11 @@ pub mod objects {
     /// INPOS.
     ///
     /// Parameter 0x0113, INTEGER16, rw, default 0, range 0 to 32000, in count.
+    /// Accessor: [`inpos`](super::HsdMotor::inpos).
     ///
     /// How near the target has to be for a positioning to be complete
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1555-1556.
     pub const INPOS: ReadWrite<i16> = ReadWriteI16::new(
@@ -9269,10 +10130,11 @@ pub mod objects {
     /// TIM\_INPOS.
     ///
     /// Parameter 0x0114, INTEGER16, rw, default 0, range 0 to 32000, in ms.
+    /// Accessor: [`tim_inpos`](super::HsdMotor::tim_inpos).
     ///
     /// How long the position has to be that near
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1557-1558.
     pub const TIM_INPOS: ReadWrite<i16> = ReadWriteI16::new(
@@ -9286,10 +10148,11 @@ pub mod objects {
     /// MAXTORQ.
     ///
     /// Parameter 0x0115, INTEGER16, rw, default 250, range 0 to 32767 (0 to 327.67 A), in 0.01 A.
+    /// Accessor: [`maxtorq`](super::HsdMotor::maxtorq).
     ///
     /// The torque above which the motor goes to alarm, where it lasts for TIM\_MAXTORQ
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default 900.
     ///
@@ -9307,10 +10170,11 @@ pub mod objects {
     /// TIM\_MAXTORQ.
     ///
     /// Parameter 0x0116, INTEGER16, rw, default 1000, range 0 to 32000, in ms.
+    /// Accessor: [`tim_maxtorq`](super::HsdMotor::tim_maxtorq).
     ///
     /// How long the torque has to be above MAXTORQ for an alarm
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1561-1562.
     ///
@@ -9326,10 +10190,11 @@ pub mod objects {
     /// VMAXPOS.
     ///
     /// Parameter 0x0117, INTEGER16, rw, default 4000, range 0 to 32767, in rpm.
+    /// Accessor: [`vmaxpos`](super::HsdMotor::vmaxpos).
     ///
     /// Greatest speed of positionings
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1563-1564.
     ///
@@ -9345,10 +10210,11 @@ pub mod objects {
     /// VMAXAZZ.
     ///
     /// Parameter 0x0118, INTEGER16, rw, default 0, range \-32767 to 32767, in rpm.
+    /// Accessor: [`vmaxazz`](super::HsdMotor::vmaxazz).
     ///
     /// Speed of automatic homing towards the homing switch; its sign is the direction
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default 500.
     ///
@@ -9364,10 +10230,11 @@ pub mod objects {
     /// AMAX.
     ///
     /// Parameter 0x0119, INTEGER16, rw, default 48, range 0 to 32767 (0 to 327670000 count/s²), in 10000 count/s².
+    /// Accessor: [`amax`](super::HsdMotor::amax).
     ///
     /// Acceleration of jogging and of commanded stops
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default 40.
     ///
@@ -9385,10 +10252,11 @@ pub mod objects {
     /// AMAXPOS.
     ///
     /// Parameter 0x011A, INTEGER16, rw, default 32, range 0 to 32767 (0 to 327670000 count/s²), in 10000 count/s².
+    /// Accessor: [`amaxpos`](super::HsdMotor::amaxpos).
     ///
     /// Acceleration of positionings
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default 20.
     ///
@@ -9404,10 +10272,11 @@ pub mod objects {
     /// ORIG\_AZZ.
     ///
     /// Parameter 0x011B, INTEGER32, rw, default 0, range \-2147483648 to 2147483647, in count.
+    /// Accessor: [`orig_azz`](super::HsdMotor::orig_azz).
     ///
     /// The position that automatic homing gives
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1576-1577.
     ///
@@ -9423,10 +10292,11 @@ pub mod objects {
     /// LOW\_SLIM.
     ///
     /// Parameter 0x011C, INTEGER32, rw, default -2147418112, range \-2147483648 to 2147483647, in count.
+    /// Accessor: [`low_slim`](super::HsdMotor::low_slim).
     ///
     /// Lower software limit, checked where bit 0 of BIT\_A is 1
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1578-1579.
     ///
@@ -9446,10 +10316,11 @@ pub mod objects {
     /// HIGH\_SLIM.
     ///
     /// Parameter 0x011D, INTEGER32, rw, default 2147418112, range \-2147483648 to 2147483647, in count.
+    /// Accessor: [`high_slim`](super::HsdMotor::high_slim).
     ///
     /// Upper software limit, checked where bit 0 of BIT\_A is 1
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1580-1581.
     ///
@@ -9469,10 +10340,11 @@ pub mod objects {
     /// BIT\_A.
     ///
     /// Parameter 0x011E, UNSIGNED16, rw, default 0.
+    /// Accessor: [`bit_a`](super::HsdMotor::bit_a). Values: [`BitA`](super::types::BitA).
     ///
     /// Switches; no range is printed
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1582, 1616.
     pub const BIT_A: ReadWrite<super::types::BitA> = ReadWriteNamedBitA::new(
@@ -9486,10 +10358,11 @@ pub mod objects {
     /// ANGELETTRTACCA.
     ///
     /// Parameter 0x011F, INTEGER16, rw, default 676, range 0 to 799.
+    /// Accessor: [`angelettrtacca`](super::HsdMotor::angelettrtacca).
     ///
     /// Reserved: don't change it
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: at most 1999.
     ///
@@ -9505,10 +10378,11 @@ pub mod objects {
     /// RESERVED1.
     ///
     /// Parameter 0x0120, INTEGER16, rw, default 600, stands for raw / 2^15 × speed\_base rpm.
+    /// Accessor: [`reserved1`](super::HsdMotor::reserved1).
     ///
     /// Speed from which the feedforward against friction acts; 200 is usual
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default 300.
     ///
@@ -9526,10 +10400,11 @@ pub mod objects {
     /// RESERVED2.
     ///
     /// Parameter 0x0121, INTEGER16, rw, default 1400.
+    /// Accessor: [`reserved2`](super::HsdMotor::reserved2).
     ///
     /// Torque against friction: as much as lets the axis, jogging, be pushed on with little force, and stop when it isn't
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default 600.
     ///
@@ -9547,10 +10422,11 @@ pub mod objects {
     /// RESERVED3.
     ///
     /// Parameter 0x0122, INTEGER16, rw, default 2600.
+    /// Accessor: [`reserved3`](super::HsdMotor::reserved3).
     ///
     /// Feedforward in proportion to the speed: raised by 100 until the speed while jogging is the wanted one
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default 2200.
     ///
@@ -9568,10 +10444,11 @@ pub mod objects {
     /// RESERVED4.
     ///
     /// Parameter 0x0123, INTEGER16, rw, default 6.
+    /// Accessor: [`reserved4`](super::HsdMotor::reserved4).
     ///
     /// Feedforward while the speed changes: raised by 2 until real and theoretical speed are the same on the ramps
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Of SM140: default 16.
     ///
@@ -9591,10 +10468,11 @@ pub mod objects {
     /// RESERVED5.
     ///
     /// Parameter 0x0124, unknown type, rw.
+    /// Accessor: [`reserved5`](super::HsdMotor::reserved5).
     ///
     /// Reserved; neither size nor default is printed
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1593.
     pub const RESERVED5: ReadWrite<rt::Opaque> = ReadWriteOpaque::new(
@@ -9608,10 +10486,11 @@ pub mod objects {
     /// RESERVED6.
     ///
     /// Parameter 0x0125, unknown type, rw.
+    /// Accessor: [`reserved6`](super::HsdMotor::reserved6).
     ///
     /// Reserved; neither size nor default is printed
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1594.
     pub const RESERVED6: ReadWrite<rt::Opaque> = ReadWriteOpaque::new(
@@ -9625,10 +10504,11 @@ pub mod objects {
     /// RESERVED7.
     ///
     /// Parameter 0x0126, unknown type, rw.
+    /// Accessor: [`reserved7`](super::HsdMotor::reserved7).
     ///
     /// Reserved; neither size nor default is printed
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1595.
     pub const RESERVED7: ReadWrite<rt::Opaque> = ReadWriteOpaque::new(
@@ -9642,10 +10522,11 @@ pub mod objects {
     /// RESERVED8.
     ///
     /// Parameter 0x0127, unknown type, rw.
+    /// Accessor: [`reserved8`](super::HsdMotor::reserved8).
     ///
     /// Reserved; neither size nor default is printed
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1596.
     pub const RESERVED8: ReadWrite<rt::Opaque> = ReadWriteOpaque::new(
@@ -9659,10 +10540,11 @@ pub mod objects {
     /// RESERVED9.
     ///
     /// Parameter 0x0128, unknown type, rw.
+    /// Accessor: [`reserved9`](super::HsdMotor::reserved9).
     ///
     /// Reserved; neither size nor default is printed
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1597.
     pub const RESERVED9: ReadWrite<rt::Opaque> = ReadWriteOpaque::new(
@@ -9676,10 +10558,11 @@ pub mod objects {
     /// RESERVED10.
     ///
     /// Parameter 0x012A, unknown type, rw.
+    /// Accessor: [`reserved10`](super::HsdMotor::reserved10).
     ///
     /// Reserved; neither size nor default is printed
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1598: RESERVED11.
     ///
@@ -9695,10 +10578,11 @@ pub mod objects {
     /// RESERVED11.
     ///
     /// Parameter 0x012B, unknown type, rw.
+    /// Accessor: [`reserved11`](super::HsdMotor::reserved11).
     ///
     /// Reserved; neither size nor default is printed
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1599.
     pub const RESERVED11: ReadWrite<rt::Opaque> = ReadWriteOpaque::new(
@@ -9712,10 +10596,11 @@ pub mod objects {
     /// TIMFB.
     ///
     /// Parameter 0x012C, INTEGER16, rw, default 50, range 1 to 100, in ms.
+    /// Accessor: [`timfb`](super::HsdMotor::timfb).
     ///
     /// How long the motor waits with its reply at least. On ENET-X, where the default is 8, the actuation time of the bus, a multiple of 4
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1600-1601, 205.
     pub const TIMFB: ReadWrite<i16> = ReadWriteI16::new(
@@ -9729,12 +10614,13 @@ pub mod objects {
     /// TIMEOUTFB.
     ///
     /// Parameter 0x012D, INTEGER16, rw, default 50, range 0 to 100, in ms.
+    /// Accessor: [`timeoutfb`](super::HsdMotor::timeoutfb).
     ///
     /// How long the master may be silent before the motor goes to alarm. On ENET-X the default is 8
     ///
     /// 0 means: not checked.
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Chapter Parameters. Manual, line 1607-1608, 206, 2142.
     ///
@@ -9754,10 +10640,11 @@ pub mod objects {
     /// INVDIN.
     ///
     /// Parameter 0x012E, UNSIGNED16, rw, default 0, range 0 to 7.
+    /// Accessor: [`invdin`](super::HsdMotor::invdin). Values: [`InvertedInputs`](super::types::InvertedInputs).
     ///
     /// Which digital inputs are inverted
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Only of SM140.
     ///
@@ -9775,10 +10662,11 @@ pub mod objects {
     /// TIPOAZZ.
     ///
     /// Parameter 0x012F, UNSIGNED16, rw, default 0, range 0 to 2.
+    /// Accessor: [`tipoazz`](super::HsdMotor::tipoazz). Values: [`HomingType`](super::types::HomingType).
     ///
     /// How CmdAzz homes
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Only of SM140.
     ///
@@ -9794,10 +10682,11 @@ pub mod objects {
     /// VAZZOUTMIC.
     ///
     /// Parameter 0x0130, INTEGER16, rw, default -125, range \-32767 to 32767, in rpm.
+    /// Accessor: [`vazzoutmic`](super::HsdMotor::vazzoutmic).
     ///
     /// Speed at which homing leaves the homing switch
     ///
-    /// Kept over power-off once CmdSaveParFl was given.
+    /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
     /// Only of SM140.
     ///
@@ -9812,7 +10701,8 @@ pub mod objects {
     );
     /// KIQDPIMANT.
     ///
-    /// Parameter 0x1000, INTEGER16, wo, default 13762, range 0 to 32767, stands for raw / 2^15 × 2^KIQDPIEXP.
+    /// Parameter 0x1000, INTEGER16, wo, default 13762, range 0 to 32767, stands for raw / 2^15 × 2^[`KIQDPIEXP`].
+    /// Accessor: [`kiqdpimant`](super::HsdMotor::kiqdpimant).
     ///
     /// Proportional plus integral gain of the current controller: the mantissa
     ///
@@ -9832,6 +10722,7 @@ pub mod objects {
     /// KIQDPIEXP.
     ///
     /// Parameter 0x1001, INTEGER16, wo, default 0, range 0 to 6.
+    /// Accessor: [`kiqdpiexp`](super::HsdMotor::kiqdpiexp).
     ///
     /// Its exponent
     ///
@@ -9849,6 +10740,7 @@ pub mod objects {
     /// KIQDKCOR.
     ///
     /// Parameter 0x0002, INTEGER16, wo, default 9362, range 0 to 32767 (0 to 0.999969482421875), in 0.000030517578125.
+    /// Accessor: [`kiqdkcor`](super::HsdMotor::kiqdkcor).
     ///
     /// Integral gain of the current controller over the sum of both gains
     ///
@@ -9868,6 +10760,7 @@ pub mod objects {
     /// KIQDKFF.
     ///
     /// Parameter 0x0003, INTEGER16, wo.
+    /// Accessor: [`kiqdkff`](super::HsdMotor::kiqdkff).
     ///
     /// Not used
     ///
@@ -9885,6 +10778,7 @@ pub mod objects {
     /// KIQDLIMIN.
     ///
     /// Parameter 0x0004, INTEGER16, wo, default -32767, range \-32767 to 0, stands for raw / 2^15 × voltage\_base V.
+    /// Accessor: [`kiqdlimin`](super::HsdMotor::kiqdlimin).
     ///
     /// Least output of the current controller
     ///
@@ -9904,6 +10798,7 @@ pub mod objects {
     /// KIQDLIMAX.
     ///
     /// Parameter 0x0005, INTEGER16, wo, default 32767, range 0 to 32767, stands for raw / 2^15 × voltage\_base V.
+    /// Accessor: [`kiqdlimax`](super::HsdMotor::kiqdlimax).
     ///
     /// Greatest output of the current controller
     ///
@@ -9920,7 +10815,8 @@ pub mod objects {
     );
     /// KVELPIMANT.
     ///
-    /// Parameter 0x2006, INTEGER16, wo, default 26214, range 0 to 32767, stands for raw / 2^15 × 2^KVELPIEXP.
+    /// Parameter 0x2006, INTEGER16, wo, default 26214, range 0 to 32767, stands for raw / 2^15 × 2^[`KVELPIEXP`].
+    /// Accessor: [`kvelpimant`](super::HsdMotor::kvelpimant).
     ///
     /// Proportional plus integral gain of the speed controller: the mantissa
     ///
@@ -9940,6 +10836,7 @@ pub mod objects {
     /// KVELPIEXP.
     ///
     /// Parameter 0x2007, INTEGER16, wo, default 1, range 0 to 6.
+    /// Accessor: [`kvelpiexp`](super::HsdMotor::kvelpiexp).
     ///
     /// Its exponent
     ///
@@ -9959,6 +10856,7 @@ pub mod objects {
     /// KVELKCOR.
     ///
     /// Parameter 0x0008, INTEGER16, wo, default 2047, range 0 to 32767 (0 to 0.999969482421875), in 0.000030517578125.
+    /// Accessor: [`kvelkcor`](super::HsdMotor::kvelkcor).
     ///
     /// Integral gain of the speed controller over the sum of both gains
     ///
@@ -9978,6 +10876,7 @@ pub mod objects {
     /// KVELKFF.
     ///
     /// Parameter 0x0009, INTEGER16, wo, default 32767, range 0 to 32767 (0 to 99.9969482421875 %), in 0.0030517578125 %.
+    /// Accessor: [`kvelkff`](super::HsdMotor::kvelkff).
     ///
     /// Feedforward of the speed controller, as a fraction of 100 %
     ///
@@ -9995,6 +10894,7 @@ pub mod objects {
     /// KVELLIMIN.
     ///
     /// Parameter 0x000A, INTEGER16, wo, default -14486, range \-26067 to 0, stands for raw / 2^15 × current\_base A.
+    /// Accessor: [`kvellimin`](super::HsdMotor::kvellimin).
     ///
     /// Least output of the speed controller: it limits the torque in the negative direction
     ///
@@ -10014,6 +10914,7 @@ pub mod objects {
     /// KVELLIMAX.
     ///
     /// Parameter 0x000B, INTEGER16, wo, default 14486, range 0 to 26067, stands for raw / 2^15 × current\_base A.
+    /// Accessor: [`kvellimax`](super::HsdMotor::kvellimax).
     ///
     /// Greatest output of the speed controller: it limits the torque in the positive direction
     ///
@@ -10032,7 +10933,8 @@ pub mod objects {
     );
     /// KPOSPIMANT.
     ///
-    /// Parameter 0x300C, INTEGER16, wo, default 20480, range 0 to 32767, stands for raw / 2^15 × 2^KPOSPIEXP.
+    /// Parameter 0x300C, INTEGER16, wo, default 20480, range 0 to 32767, stands for raw / 2^15 × 2^[`KPOSPIEXP`].
+    /// Accessor: [`kpospimant`](super::HsdMotor::kpospimant).
     ///
     /// Proportional plus integral gain of the position controller: the mantissa
     ///
@@ -10050,6 +10952,7 @@ pub mod objects {
     /// KPOSPIEXP.
     ///
     /// Parameter 0x300D, INTEGER16, wo, default 3, range 0 to 6.
+    /// Accessor: [`kpospiexp`](super::HsdMotor::kpospiexp).
     ///
     /// Its exponent
     ///
@@ -10067,6 +10970,7 @@ pub mod objects {
     /// KPOSKCOR.
     ///
     /// Parameter 0x000E, INTEGER16, wo, default 0, range 0 to 32767 (0 to 0.999969482421875), in 0.000030517578125.
+    /// Accessor: [`kposkcor`](super::HsdMotor::kposkcor).
     ///
     /// Integral gain of the position controller over the sum of both gains
     ///
@@ -10084,6 +10988,7 @@ pub mod objects {
     /// KPOSKFF.
     ///
     /// Parameter 0x000F, INTEGER16, wo, default 22937, range 0 to 32767 (0 to 99.9969482421875 %), in 0.0030517578125 %.
+    /// Accessor: [`kposkff`](super::HsdMotor::kposkff).
     ///
     /// Feedforward of the position controller, as a fraction of 100 %
     ///
@@ -10101,6 +11006,7 @@ pub mod objects {
     /// KPOSLIMMIN.
     ///
     /// Parameter 0x0010, INTEGER16, wo, default -18432, range \-32767 to 0, stands for raw / 2^15 × speed\_base rpm.
+    /// Accessor: [`kposlimmin`](super::HsdMotor::kposlimmin).
     ///
     /// Least output of the position controller: it limits the speed in the negative direction
     ///
@@ -10118,6 +11024,7 @@ pub mod objects {
     /// KPOSLIMAX.
     ///
     /// Parameter 0x0011, INTEGER16, wo, default 18432, range 0 to 32767, stands for raw / 2^15 × speed\_base rpm.
+    /// Accessor: [`kposlimax`](super::HsdMotor::kposlimax).
     ///
     /// Greatest output of the position controller: it limits the speed in the positive direction
     ///
@@ -10135,6 +11042,7 @@ pub mod objects {
     /// MAXERRORPL.
     ///
     /// Parameter 0x4012, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
+    /// Accessor: [`maxerrorpl`](super::HsdMotor::maxerrorpl).
     ///
     /// Greatest following error of the position: bits 15 to 0; 0 in both halves turns the check off
     ///
@@ -10152,6 +11060,7 @@ pub mod objects {
     /// MAXERRORPH.
     ///
     /// Parameter 0x4013, INTEGER16, wo, default 0, range 0 to 32767 (0 to 2147418112 count), in 65536 count.
+    /// Accessor: [`maxerrorph`](super::HsdMotor::maxerrorph).
     ///
     /// Greatest following error of the position: bits 31 to 16
     ///
@@ -10169,6 +11078,7 @@ pub mod objects {
     /// AMAXHOLD.
     ///
     /// Parameter 0x0014, INTEGER16, wo, default 2089, range 1 to 32767, stands for raw / 2^15 × acceleration\_base rev/s².
+    /// Accessor: [`amaxhold`](super::HsdMotor::amaxhold).
     ///
     /// Acceleration of jogging and of commanded stops. On the SM137 it has steps of 4.096 turns/s²
     ///
@@ -10188,6 +11098,7 @@ pub mod objects {
     /// AMAXTRAJ.
     ///
     /// Parameter 0x0015, INTEGER16, wo, default 1392, range 1 to 32767, stands for raw / 2^15 × acceleration\_base rev/s².
+    /// Accessor: [`amaxtraj`](super::HsdMotor::amaxtraj).
     ///
     /// Acceleration of positionings. On the SM137 it has steps of 78.125 turns/s² (revision B) or 19.53125 turns/s² (revision C)
     ///
@@ -10207,6 +11118,7 @@ pub mod objects {
     /// VMAXTRAJ.
     ///
     /// Parameter 0x0016, INTEGER16, wo, default 16384, range 0 to 32767, stands for raw / 2^15 × speed\_base rpm.
+    /// Accessor: [`vmaxtraj`](super::HsdMotor::vmaxtraj).
     ///
     /// Greatest speed of positionings
     ///
@@ -10226,6 +11138,7 @@ pub mod objects {
     /// ORIGINEL.
     ///
     /// Parameter 0x5017, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
+    /// Accessor: [`originel`](super::HsdMotor::originel).
     ///
     /// The position that automatic homing gives: bits 15 to 0
     ///
@@ -10243,6 +11156,7 @@ pub mod objects {
     /// ORIGINEH.
     ///
     /// Parameter 0x5018, INTEGER16, wo, default 0, range \-32768 to 32767 (-2147483648 to 2147418112 count), in 65536 count.
+    /// Accessor: [`origineh`](super::HsdMotor::origineh).
     ///
     /// The position that automatic homing gives: bits 31 to 16
     ///
@@ -10260,6 +11174,7 @@ pub mod objects {
     /// TESTSLIM.
     ///
     /// Parameter 0x0019, UNSIGNED16, wo, default 0.
+    /// Accessor: [`testslim`](super::HsdMotor::testslim). Values: [`TestSlim`](super::types::TestSlim).
     ///
     /// Switches, as in BIT\_A
     ///
@@ -10279,6 +11194,7 @@ pub mod objects {
     /// LOWSLIML.
     ///
     /// Parameter 0x601A, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
+    /// Accessor: [`lowsliml`](super::HsdMotor::lowsliml).
     ///
     /// Lower software limit: bits 15 to 0
     ///
@@ -10296,6 +11212,7 @@ pub mod objects {
     /// LOWSLIMH.
     ///
     /// Parameter 0x601B, INTEGER16, wo, default 0, range \-32768 to 32767 (-2147483648 to 2147418112 count), in 65536 count.
+    /// Accessor: [`lowslimh`](super::HsdMotor::lowslimh).
     ///
     /// Lower software limit: bits 31 to 16
     ///
@@ -10313,6 +11230,7 @@ pub mod objects {
     /// HIGHSLIML.
     ///
     /// Parameter 0x601C, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
+    /// Accessor: [`highsliml`](super::HsdMotor::highsliml).
     ///
     /// Upper software limit: bits 15 to 0
     ///
@@ -10330,6 +11248,7 @@ pub mod objects {
     /// HIGHSLIMH.
     ///
     /// Parameter 0x601D, INTEGER16, wo, default 0, range \-32768 to 32767 (-2147483648 to 2147418112 count), in 65536 count.
+    /// Accessor: [`highslimh`](super::HsdMotor::highslimh).
     ///
     /// Upper software limit: bits 31 to 16
     ///
@@ -10347,6 +11266,7 @@ pub mod objects {
     /// MAXERRORV\_LOW.
     ///
     /// Parameter 0x001E, INTEGER16, wo, default 0, range 0 to 32767, stands for raw / 2^15 × speed\_base rpm.
+    /// Accessor: [`maxerrorv_low`](super::HsdMotor::maxerrorv_low).
     ///
     /// Greatest following error of the speed
     ///
@@ -10364,6 +11284,7 @@ pub mod objects {
     /// MAXTORQUE.
     ///
     /// Parameter 0x001F, INTEGER16, wo, default 7243, range 0 to 32767, stands for raw / 2^15 × current\_base A.
+    /// Accessor: [`maxtorque`](super::HsdMotor::maxtorque).
     ///
     /// The torque above which the motor goes to alarm, where it lasts for TIMEOUTMAXTORQUE
     ///
@@ -10383,6 +11304,7 @@ pub mod objects {
     /// ANGELETTRTACCA\_LOW.
     ///
     /// Parameter 0x0020, INTEGER16, wo, default 676.
+    /// Accessor: [`angelettrtacca_low`](super::HsdMotor::angelettrtacca_low).
     ///
     /// Reserved
     ///
@@ -10400,6 +11322,7 @@ pub mod objects {
     /// RESERVED1\_LOW.
     ///
     /// Parameter 0x0021, INTEGER16, wo, default 600, range 0 to 32767.
+    /// Accessor: [`reserved1_low`](super::HsdMotor::reserved1_low).
     ///
     /// Reserved: as RESERVED1 of chapter 6
     ///
@@ -10419,6 +11342,7 @@ pub mod objects {
     /// RESERVED2\_LOW.
     ///
     /// Parameter 0x0022, INTEGER16, wo, default 1400, range 0 to 32767.
+    /// Accessor: [`reserved2_low`](super::HsdMotor::reserved2_low).
     ///
     /// Reserved: as RESERVED2 of chapter 6
     ///
@@ -10438,6 +11362,7 @@ pub mod objects {
     /// RESERVED3\_LOW.
     ///
     /// Parameter 0x0023, INTEGER16, wo, default 2600, range 0 to 32767.
+    /// Accessor: [`reserved3_low`](super::HsdMotor::reserved3_low).
     ///
     /// Reserved: as RESERVED3 of chapter 6
     ///
@@ -10457,6 +11382,7 @@ pub mod objects {
     /// RESERVED4\_LOW.
     ///
     /// Parameter 0x0024, INTEGER16, wo, default 6, range 0 to 32767.
+    /// Accessor: [`reserved4_low`](super::HsdMotor::reserved4_low).
     ///
     /// Reserved: as RESERVED4 of chapter 6
     ///
@@ -10476,6 +11402,7 @@ pub mod objects {
     /// RESERVED5\_LOW.
     ///
     /// Parameter 0x0025, INTEGER16, wo.
+    /// Accessor: [`reserved5_low`](super::HsdMotor::reserved5_low).
     ///
     /// Reserved
     ///
@@ -10493,6 +11420,7 @@ pub mod objects {
     /// RESERVED6\_LOW.
     ///
     /// Parameter 0x0026, INTEGER16, wo.
+    /// Accessor: [`reserved6_low`](super::HsdMotor::reserved6_low).
     ///
     /// Reserved
     ///
@@ -10510,6 +11438,7 @@ pub mod objects {
     /// RESERVED7\_LOW.
     ///
     /// Parameter 0x0027, INTEGER16, wo.
+    /// Accessor: [`reserved7_low`](super::HsdMotor::reserved7_low).
     ///
     /// Reserved
     ///
@@ -10527,6 +11456,7 @@ pub mod objects {
     /// RESERVED8\_LOW.
     ///
     /// Parameter 0x0028, INTEGER16, wo.
+    /// Accessor: [`reserved8_low`](super::HsdMotor::reserved8_low).
     ///
     /// Reserved
     ///
@@ -10544,6 +11474,7 @@ pub mod objects {
     /// RESERVED9\_LOW.
     ///
     /// Parameter 0x0029, INTEGER16, wo.
+    /// Accessor: [`reserved9_low`](super::HsdMotor::reserved9_low).
     ///
     /// Reserved
     ///
@@ -10561,6 +11492,7 @@ pub mod objects {
     /// RESERVED10\_LOW.
     ///
     /// Parameter 0x002A, INTEGER16, wo.
+    /// Accessor: [`reserved10_low`](super::HsdMotor::reserved10_low).
     ///
     /// Reserved
     ///
@@ -10578,6 +11510,7 @@ pub mod objects {
     /// RESERVED11\_LOW.
     ///
     /// Parameter 0x002B, INTEGER16, wo.
+    /// Accessor: [`reserved11_low`](super::HsdMotor::reserved11_low).
     ///
     /// Reserved
     ///
@@ -10595,6 +11528,7 @@ pub mod objects {
     /// RESERVED12.
     ///
     /// Parameter 0x002C, INTEGER16, wo, default 0.
+    /// Accessor: [`reserved12`](super::HsdMotor::reserved12).
     ///
     /// Reserved
     ///
@@ -10612,6 +11546,7 @@ pub mod objects {
     /// TIMEOUTMAXTORQUE.
     ///
     /// Parameter 0x002D, INTEGER16, wo, default 1000, range 0 to 32767, in ms.
+    /// Accessor: [`timeoutmaxtorque`](super::HsdMotor::timeoutmaxtorque).
     ///
     /// How long the torque has to be above MAXTORQUE for an alarm
     ///

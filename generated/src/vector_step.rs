@@ -332,2614 +332,4963 @@ impl<C> VectorStep<C> {
         VectorStep::new(rt::Axis::new(&mut self.client, &AXES, number))
     }
     /// Rposact: 0x2000:01, register 0.
+    ///
+    /// Where the axis really is; a position kept over power-off may be written back here
+    ///
+    /// Constant: [`objects::RPOSACT`].
     pub fn rposact(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RPOSACT.at(&mut self.client)
     }
     /// Rposactreq: 0x2004:01, register 4.
+    ///
+    /// Where the motion profile wants the axis to be now
+    ///
+    /// Constant: [`objects::RPOSACTREQ`].
     pub fn rposactreq(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RPOSACTREQ.at(&mut self.client)
     }
     /// Rpostarg: 0x2008:01, register 8.
+    ///
+    /// Target of the GO and GOR positioning commands; carries the mark ANA\_T
+    ///
+    /// Constant: [`objects::RPOSTARG`].
     pub fn rpostarg(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RPOSTARG.at(&mut self.client)
     }
     /// Rupplim: 0x200C:01, register 12.
+    ///
+    /// Upper software limit of the travel; Rflag bit 3 enables it, homing methods -8 and -7 rewrite it
+    ///
+    /// Constant: [`objects::RUPPLIM`].
     pub fn rupplim(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RUPPLIM.at(&mut self.client)
     }
     /// Rlowlim: 0x2010:01, register 16.
+    ///
+    /// Lower software limit of the travel; Rflag bit 2 enables it, homing methods -8 and -7 rewrite it
+    ///
+    /// Constant: [`objects::RLOWLIM`].
     pub fn rlowlim(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RLOWLIM.at(&mut self.client)
     }
     /// Rposactsaved: 0x2037:01, register 55.
+    ///
+    /// Position that the drive kept at the last power-off, 0 where it isn't valid
+    ///
+    /// Constant: [`objects::RPOSACTSAVED`].
     pub fn rposactsaved(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPOSACTSAVED.at(&mut self.client)
     }
     /// Rposactsavedflag: 0x2039:01, register 57.
+    ///
+    /// Tells after power-on whether Rposactsaved holds a valid position; 0 otherwise
+    ///
+    /// Constant: [`objects::RPOSACTSAVEDFLAG`]. Values: [`SavedPosition`](types::SavedPosition).
     pub fn rposactsavedflag(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::SavedPosition> {
         objects::RPOSACTSAVEDFLAG.at(&mut self.client)
     }
     /// Rstsflg: 0x20C7:01, register 199.
+    ///
+    /// Main status word of the drive
+    ///
+    /// Constant: [`objects::RSTSFLG`]. Values: [`Status`](types::Status).
     pub fn rstsflg(&mut self) -> objects::ReadWriteAccess<'_, C, types::Status> {
         objects::RSTSFLG.at(&mut self.client)
     }
     /// Rstsflg1: 0x20C8:01, register 200.
+    ///
+    /// Second status word: stored alarms, tasks, limits, regulators, STO
+    ///
+    /// Constant: [`objects::RSTSFLG1`]. Values: [`Status1`](types::Status1).
     pub fn rstsflg1(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Status1> {
         objects::RSTSFLG1.at(&mut self.client)
     }
     /// Rstscllp: 0x20CB:01, register 203.
+    ///
+    /// Status word of closed-loop control; bits 0 to 2 feed bit 7 of Rstsflg
+    ///
+    /// Constant: [`objects::RSTSCLLP`]. Values: [`ClosedLoopStatus`](types::ClosedLoopStatus).
     pub fn rstscllp(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ClosedLoopStatus> {
         objects::RSTSCLLP.at(&mut self.client)
     }
     /// Rflag1: 0x203A:01, register 58.
+    ///
+    /// Flags of the operating mode that can't be kept over power-off
+    ///
+    /// Constant: [`objects::RFLAG1`]. Values: [`ModeFlags1`](types::ModeFlags1).
     pub fn rflag1(&mut self) -> objects::ReadWriteAccess<'_, C, types::ModeFlags1> {
         objects::RFLAG1.at(&mut self.client)
     }
     /// Rflag: 0x2066:01, register 102.
+    ///
+    /// Flags of the operating mode: limits, resets after homing, corrections, gear directions, USB
+    ///
+    /// Constant: [`objects::RFLAG`]. Values: [`ModeFlags`](types::ModeFlags).
     pub fn rflag(&mut self) -> objects::ReadWriteAccess<'_, C, types::ModeFlags> {
         objects::RFLAG.at(&mut self.client)
     }
     /// Rhwconfig: 0x2116:01, register 278.
+    ///
+    /// Hardware configuration: directions, encoder kinds, PWM range, realignment for two CANopen masters
+    ///
+    /// Constant: [`objects::RHWCONFIG`]. Values: [`HardwareConfig`](types::HardwareConfig).
     pub fn rhwconfig(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::HardwareConfig> {
         objects::RHWCONFIG.at(&mut self.client)
     }
     /// Rvel: 0x203F:01, register 63.
+    ///
+    /// Highest speed of a movement; carries the mark ANA
+    ///
+    /// Constant: [`objects::RVEL`].
     pub fn rvel(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i32, 1, 100>> {
         objects::RVEL.at(&mut self.client)
     }
     /// Rvss: 0x2041:01, register 65.
+    ///
+    /// Speed at which movements start and end
+    ///
+    /// Constant: [`objects::RVSS`].
     pub fn rvss(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i32, 1, 100>> {
         objects::RVSS.at(&mut self.client)
     }
     /// Racc: 0x2043:01, register 67.
+    ///
+    /// Acceleration ramp, 0 switches it off; carries the mark ANA
+    ///
+    /// Constant: [`objects::RACC`].
     pub fn racc(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u32, 1, 10>, 0>> {
         objects::RACC.at(&mut self.client)
     }
     /// Raccpro: 0x2045:01, register 69.
+    ///
+    /// Shape of the acceleration ramp
+    ///
+    /// Constant: [`objects::RACCPRO`]. Values: [`RampProfile`](types::RampProfile).
     pub fn raccpro(&mut self) -> objects::ReadWriteAccess<'_, C, types::RampProfile> {
         objects::RACCPRO.at(&mut self.client)
     }
     /// Rdec: 0x2046:01, register 70.
+    ///
+    /// Deceleration ramp, 0 switches it off; carries the mark ANA
+    ///
+    /// Constant: [`objects::RDEC`].
     pub fn rdec(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u32, 1, 10>, 0>> {
         objects::RDEC.at(&mut self.client)
     }
     /// Rdecpro: 0x2048:01, register 72.
+    ///
+    /// Shape of the deceleration ramp
+    ///
+    /// Constant: [`objects::RDECPRO`]. Values: [`RampProfile`](types::RampProfile).
     pub fn rdecpro(&mut self) -> objects::ReadWriteAccess<'_, C, types::RampProfile> {
         objects::RDECPRO.at(&mut self.client)
     }
     /// Rdeceme: 0x2049:01, register 73.
+    ///
+    /// Deceleration ramp of emergency stops
+    ///
+    /// Constant: [`objects::RDECEME`].
     pub fn rdeceme(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>> {
         objects::RDECEME.at(&mut self.client)
     }
     /// Rvelact: 0x204B:01, register 75.
+    ///
+    /// Speed that the motor has now
+    ///
+    /// Constant: [`objects::RVELACT`].
     pub fn rvelact(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, rt::Scaled<i32, 1, 100>> {
         objects::RVELACT.at(&mut self.client)
     }
     /// Rvelactreq: 0x204D:01, register 77.
+    ///
+    /// Speed that is asked of the motor now
+    ///
+    /// Constant: [`objects::RVELACTREQ`].
     pub fn rvelactreq(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, rt::Scaled<i32, 1, 100>> {
         objects::RVELACTREQ.at(&mut self.client)
     }
     /// Rvelmax: 0x204F:01, register 79.
+    ///
+    /// Highest speed while a lost position is regained
+    ///
+    /// Constant: [`objects::RVELMAX`].
     pub fn rvelmax(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i32, 1, 100>> {
         objects::RVELMAX.at(&mut self.client)
     }
     /// Rdefum: 0x2064:01, register 100.
+    ///
+    /// Divisor of speeds and accelerations: the ratio of the set value to the real one
+    ///
+    /// Constant: [`objects::RDEFUM`]. Values: [`SpeedDivisor`](types::SpeedDivisor).
     pub fn rdefum(&mut self) -> objects::ReadWriteAccess<'_, C, types::SpeedDivisor> {
         objects::RDEFUM.at(&mut self.client)
     }
     /// Rpwmacc: 0x2147:01, register 327.
+    ///
+    /// Acceleration ramp in PWM mode
+    ///
+    /// Constant: [`objects::RPWMACC`].
     pub fn rpwmacc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPWMACC.at(&mut self.client)
     }
     /// Rpwm: 0x2148:01, register 328.
+    ///
+    /// How far the PWM opens in PWM mode: 1250 is 100 %
+    ///
+    /// Constant: [`objects::RPWM`].
     pub fn rpwm(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 2, 25>> {
         objects::RPWM.at(&mut self.client)
     }
     /// Rveladjpicur: 0x216E:01, register 366.
+    ///
+    /// Speed up to which the current regulator's PI is reduced, for low speeds
+    ///
+    /// Constant: [`objects::RVELADJPICUR`].
     pub fn rveladjpicur(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RVELADJPICUR.at(&mut self.client)
     }
     /// Rdlyadjpicur: 0x2196:01, register 406.
+    ///
+    /// Delay before the correction of the current regulator's PI sets in
+    ///
+    /// Constant: [`objects::RDLYADJPICUR`].
     pub fn rdlyadjpicur(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
         objects::RDLYADJPICUR.at(&mut self.client)
     }
     /// Rzerovellim: 0x219A:01, register 410.
+    ///
+    /// Motor encoder counts from which the axis is taken for moving; detects standstill when homing on a mechanical stop in SmartMode
+    ///
+    /// Constant: [`objects::RZEROVELLIM`].
     pub fn rzerovellim(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RZEROVELLIM.at(&mut self.client)
     }
     /// Rzeroveltim: 0x219B:01, register 411.
+    ///
+    /// Sampling time of the motor encoder for that standstill detection
+    ///
+    /// Constant: [`objects::RZEROVELTIM`].
     pub fn rzeroveltim(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RZEROVELTIM.at(&mut self.client)
     }
     /// Rcurlimtim: 0x219C:01, register 412.
+    ///
+    /// Filter time before the motor is reported at its current limit in FOC\_CLOSE
+    ///
+    /// Constant: [`objects::RCURLIMTIM`].
     pub fn rcurlimtim(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCURLIMTIM.at(&mut self.client)
     }
     /// Rveltarg: 0x21ED:01.
+    ///
+    /// Target speed of operating mode 9, cyclic synchronous velocity
+    ///
+    /// Constant: [`objects::RVELTARG`].
     pub fn rveltarg(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
         objects::RVELTARG.at(&mut self.client)
     }
     /// Rcmdwr: 0x203B:01, register 59.
+    ///
+    /// Commands to the drive, raised one at a time; each bit falls when its command is done
+    ///
+    /// Constant: [`objects::RCMDWR`]. Values: [`Command`](types::Command).
     pub fn rcmdwr(&mut self) -> objects::WriteOnlyAccess<'_, C, types::Command> {
         objects::RCMDWR.at(&mut self.client)
     }
     /// Rcmd1wr: 0x203C:01, register 60.
+    ///
+    /// Further commands: phase tests, winding and Smit modes, SmartMode positions; Rcmd1rd answers
+    ///
+    /// Constant: [`objects::RCMD1WR`]. Values: [`Command1`](types::Command1).
     pub fn rcmd1wr(&mut self) -> objects::WriteOnlyAccess<'_, C, types::Command1> {
         objects::RCMD1WR.at(&mut self.client)
     }
     /// Rcmdrd: 0x203D:01, register 61.
+    ///
+    /// Which commands the drive is carrying out
+    ///
+    /// Constant: [`objects::RCMDRD`]. Values: [`CommandState`](types::CommandState).
     pub fn rcmdrd(&mut self) -> objects::ReadOnlyAccess<'_, C, types::CommandState> {
         objects::RCMDRD.at(&mut self.client)
     }
     /// Rcmd1rd: 0x203E:01, register 62.
+    ///
+    /// Answers to the commands of Rcmd1wr
+    ///
+    /// Constant: [`objects::RCMD1RD`]. Values: [`CommandState1`](types::CommandState1).
     pub fn rcmd1rd(&mut self) -> objects::ReadOnlyAccess<'_, C, types::CommandState1> {
         objects::RCMD1RD.at(&mut self.client)
     }
     /// Rtasknum: 0x206A:01, register 106.
+    ///
+    /// Number of the task that a command over the serial line runs
+    ///
+    /// Constant: [`objects::RTASKNUM`].
     pub fn rtasknum(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RTASKNUM.at(&mut self.client)
     }
     /// Rptroldcmd: 0x21C2:01, register 450.
+    ///
+    /// Which of the last eight commands Rbufcmdstatus, Rbufcmdcommand and Rbufcmdparameter show: 0 the latest, 7 the oldest
+    ///
+    /// Constant: [`objects::RPTROLDCMD`].
     pub fn rptroldcmd(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPTROLDCMD.at(&mut self.client)
     }
     /// Rbufcmdstatus: 0x21C3:01, register 451.
+    ///
+    /// Where the command came from: user program, serial line or fieldbus
+    ///
+    /// Constant: [`objects::RBUFCMDSTATUS`].
     pub fn rbufcmdstatus(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFCMDSTATUS.at(&mut self.client)
     }
     /// Rbufcmdcommand: 0x21C4:01, register 452.
+    ///
+    /// The command that was carried out
+    ///
+    /// Constant: [`objects::RBUFCMDCOMMAND`].
     pub fn rbufcmdcommand(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RBUFCMDCOMMAND.at(&mut self.client)
     }
     /// Rbufcmdparameter: 0x21C6:01, register 454.
+    ///
+    /// Parameter of the command that was carried out
+    ///
+    /// Constant: [`objects::RBUFCMDPARAMETER`].
     pub fn rbufcmdparameter(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RBUFCMDPARAMETER.at(&mut self.client)
     }
     /// Rhmaxspc: 0x2020:01, register 32.
+    ///
+    /// Greatest distance that homing may travel
+    ///
+    /// Constant: [`objects::RHMAXSPC`].
     pub fn rhmaxspc(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RHMAXSPC.at(&mut self.client)
     }
     /// Rdefinpbls: 0x2022:01, register 34.
+    ///
+    /// Input that works as backward limit switch BLS; a digital one must have no other function
+    ///
+    /// Constant: [`objects::RDEFINPBLS`]. Values: [`LimitSwitchInput`](types::LimitSwitchInput).
     pub fn rdefinpbls(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::LimitSwitchInput> {
         objects::RDEFINPBLS.at(&mut self.client)
     }
     /// Rdefinpfls: 0x2023:01, register 35.
+    ///
+    /// Input that works as forward limit switch FLS; a digital one must have no other function
+    ///
+    /// Constant: [`objects::RDEFINPFLS`]. Values: [`LimitSwitchInput`](types::LimitSwitchInput).
     pub fn rdefinpfls(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::LimitSwitchInput> {
         objects::RDEFINPFLS.at(&mut self.client)
     }
     /// Rhofs: 0x2024:01, register 36.
+    ///
+    /// How far the axis moves once the homing routine is over
+    ///
+    /// Constant: [`objects::RHOFS`].
     pub fn rhofs(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RHOFS.at(&mut self.client)
     }
     /// Rhpos: 0x2026:01, register 38.
+    ///
+    /// Position that the axis is given after homing
+    ///
+    /// Constant: [`objects::RHPOS`].
     pub fn rhpos(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RHPOS.at(&mut self.client)
     }
     /// Rhcurcoll: 0x2028:01, register 40.
+    ///
+    /// Share of the nominal current at which homing takes a mechanical stop for reached (FOC\_CLOSE)
+    ///
+    /// Constant: [`objects::RHCURCOLL`].
     pub fn rhcurcoll(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RHCURCOLL.at(&mut self.client)
     }
     /// Rhtimcoll: 0x2029:01, register 41.
+    ///
+    /// Filter time of that detection of the mechanical stop (FOC\_CLOSE)
+    ///
+    /// Constant: [`objects::RHTIMCOLL`].
     pub fn rhtimcoll(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RHTIMCOLL.at(&mut self.client)
     }
     /// Rhtinv: 0x2051:01, register 81.
+    ///
+    /// How long homing rests the axis before it turns round
+    ///
+    /// Constant: [`objects::RHTINV`].
     pub fn rhtinv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RHTINV.at(&mut self.client)
     }
     /// Rhmode: 0x2052:01, register 82.
+    ///
+    /// Homing method; the table at 0x6098 (L1625) has every method reset the position and set the synchronised flag
+    ///
+    /// Constant: [`objects::RHMODE`]. Values: [`HomingMethodI16`](types::HomingMethodI16).
     pub fn rhmode(&mut self) -> objects::ReadWriteAccess<'_, C, types::HomingMethodI16> {
         objects::RHMODE.at(&mut self.client)
     }
     /// Rhvh: 0x2053:01, register 83.
+    ///
+    /// Speed of homing while it looks for the limit switch
+    ///
+    /// Constant: [`objects::RHVH`].
     pub fn rhvh(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i32, 1, 100>> {
         objects::RHVH.at(&mut self.client)
     }
     /// Rhvl: 0x2055:01, register 85.
+    ///
+    /// Speed of homing while it looks for the zero point; has to lie within the start/stop range
+    ///
+    /// Constant: [`objects::RHVL`].
     pub fn rhvl(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i32, 1, 100>> {
         objects::RHVL.at(&mut self.client)
     }
     /// Rhacc: 0x2057:01, register 87.
+    ///
+    /// Acceleration and deceleration of homing
+    ///
+    /// Constant: [`objects::RHACC`].
     pub fn rhacc(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>> {
         objects::RHACC.at(&mut self.client)
     }
     /// Rhsts: 0x20CA:01, register 202.
+    ///
+    /// State and errors of homing; the emergencies FF02, FF06 and FF07 carry its low byte
+    ///
+    /// Constant: [`objects::RHSTS`]. Values: [`HomingStatus`](types::HomingStatus).
     pub fn rhsts(&mut self) -> objects::ReadOnlyAccess<'_, C, types::HomingStatus> {
         objects::RHSTS.at(&mut self.client)
     }
     /// Rhindexpc: 0x223F:01, register 575.
+    ///
+    /// Not described; by its name a distance or position of the index in homing
+    ///
+    /// Constant: [`objects::RHINDEXPC`].
     pub fn rhindexpc(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RHINDEXPC.at(&mut self.client)
     }
     /// Rshstop: 0x2018:01, register 24.
+    ///
+    /// Shift distance of the STOP instruction
+    ///
+    /// Constant: [`objects::RSHSTOP`].
     pub fn rshstop(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RSHSTOP.at(&mut self.client)
     }
     /// Rspcstop: 0x201C:01, register 28.
+    ///
+    /// Fixed distance in which the axis stops
+    ///
+    /// Constant: [`objects::RSPCSTOP`].
     pub fn rspcstop(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RSPCSTOP.at(&mut self.client)
     }
     /// Rspcstopcalc: 0x201E:01, register 30.
+    ///
+    /// Distance that the last stop took
+    ///
+    /// Constant: [`objects::RSPCSTOPCALC`].
     pub fn rspcstopcalc(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RSPCSTOPCALC.at(&mut self.client)
     }
     /// Rbestpflg: 0x2031:01, register 49.
+    ///
+    /// What BESTOP waits for: the state of a bit, or an edge of an encoder's index
+    ///
+    /// Constant: [`objects::RBESTPFLG`]. Values: [`BestopSetup`](types::BestopSetup).
     pub fn rbestpflg(&mut self) -> objects::ReadWriteAccess<'_, C, types::BestopSetup> {
         objects::RBESTPFLG.at(&mut self.client)
     }
     /// Rbestppar: 0x2032:01, register 50.
+    ///
+    /// Number of the register or variable whose bit stops the axis; bit 6 of Rbestpflg says which
+    ///
+    /// Constant: [`objects::RBESTPPAR`].
     pub fn rbestppar(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RBESTPPAR.at(&mut self.client)
     }
     /// Rshestop: 0x2014:01, register 20.
+    ///
+    /// Shift distance of the ESTOP instruction; carries the mark ANA\_T
+    ///
+    /// Constant: [`objects::RSHESTOP`].
     pub fn rshestop(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RSHESTOP.at(&mut self.client)
     }
     /// Restpflg: 0x202D:01, register 45.
+    ///
+    /// What ESTOP compares and how
+    ///
+    /// Constant: [`objects::RESTPFLG`]. Values: [`EstopSetup`](types::EstopSetup).
     pub fn restpflg(&mut self) -> objects::ReadWriteAccess<'_, C, types::EstopSetup> {
         objects::RESTPFLG.at(&mut self.client)
     }
     /// Restppar1: 0x202E:01, register 46.
+    ///
+    /// First parameter of the comparison: a number, or the number of a register or variable, as Restpflg says
+    ///
+    /// Constant: [`objects::RESTPPAR1`].
     pub fn restppar1(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RESTPPAR1.at(&mut self.client)
     }
     /// Restppar2: 0x2030:01, register 48.
+    ///
+    /// Second parameter of the comparison, as Restpflg says
+    ///
+    /// Constant: [`objects::RESTPPAR2`].
     pub fn restppar2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RESTPPAR2.at(&mut self.client)
     }
     /// Rgearmul: 0x2068:01, register 104.
+    ///
+    /// Multiplier of the gear ratio
+    ///
+    /// Constant: [`objects::RGEARMUL`].
     pub fn rgearmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RGEARMUL.at(&mut self.client)
     }
     /// Rgeardiv: 0x2069:01, register 105.
+    ///
+    /// Divisor of the gear ratio
+    ///
+    /// Constant: [`objects::RGEARDIV`].
     pub fn rgeardiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RGEARDIV.at(&mut self.client)
     }
     /// Rpostimeout: 0x20E0:01, register 224.
+    ///
+    /// Time after which a positioning that isn't done is an alarm
+    ///
+    /// Constant: [`objects::RPOSTIMEOUT`].
     pub fn rpostimeout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPOSTIMEOUT.at(&mut self.client)
     }
     /// Rdeadpos: 0x20E1:01, register 225.
+    ///
+    /// Window around the target, in motor steps, within which the motor is in position
+    ///
+    /// Constant: [`objects::RDEADPOS`].
     pub fn rdeadpos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RDEADPOS.at(&mut self.client)
     }
     /// Rsettim: 0x20E2:01, register 226.
+    ///
+    /// How long the motor has to stay in the window, with no speed asked for, before it is reported in position (closed loop)
+    ///
+    /// Constant: [`objects::RSETTIM`].
     pub fn rsettim(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RSETTIM.at(&mut self.client)
     }
     /// Ralarm: 0x20E3:01, register 227.
+    ///
+    /// Alarms of the drive; Ralarm32 has more of them
+    ///
+    /// Constant: [`objects::RALARM`]. Values: [`Alarm`](types::Alarm).
     pub fn ralarm(&mut self) -> objects::ReadWriteAccess<'_, C, types::Alarm> {
         objects::RALARM.at(&mut self.client)
     }
     /// Rwarning: 0x20E4:01, register 228.
+    ///
+    /// Warnings, which come before alarms and have no effect on the drive
+    ///
+    /// Constant: [`objects::RWARNING`]. Values: [`Warning`](types::Warning).
     pub fn rwarning(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Warning> {
         objects::RWARNING.at(&mut self.client)
     }
     /// Rbufalm0: 0x20E5:01, register 229.
+    ///
+    /// Stored alarm 0
+    ///
+    /// Constant: [`objects::RBUFALM0`].
     pub fn rbufalm0(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM0.at(&mut self.client)
     }
     /// Rbufalm1: 0x20E6:01, register 230.
+    ///
+    /// Stored alarm 1
+    ///
+    /// Constant: [`objects::RBUFALM1`].
     pub fn rbufalm1(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM1.at(&mut self.client)
     }
     /// Rbufalm2: 0x20E7:01, register 231.
+    ///
+    /// Stored alarm 2
+    ///
+    /// Constant: [`objects::RBUFALM2`].
     pub fn rbufalm2(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM2.at(&mut self.client)
     }
     /// Rbufalm3: 0x20E8:01, register 232.
+    ///
+    /// Stored alarm 3
+    ///
+    /// Constant: [`objects::RBUFALM3`].
     pub fn rbufalm3(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM3.at(&mut self.client)
     }
     /// Rbufalm4: 0x20E9:01, register 233.
+    ///
+    /// Stored alarm 4
+    ///
+    /// Constant: [`objects::RBUFALM4`].
     pub fn rbufalm4(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM4.at(&mut self.client)
     }
     /// Rbufalm5: 0x20EA:01, register 234.
+    ///
+    /// Stored alarm 5
+    ///
+    /// Constant: [`objects::RBUFALM5`].
     pub fn rbufalm5(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM5.at(&mut self.client)
     }
     /// Rbufalm6: 0x20EB:01, register 235.
+    ///
+    /// Stored alarm 6
+    ///
+    /// Constant: [`objects::RBUFALM6`].
     pub fn rbufalm6(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM6.at(&mut self.client)
     }
     /// Rbufalm7: 0x20EC:01, register 236.
+    ///
+    /// Stored alarm 7
+    ///
+    /// Constant: [`objects::RBUFALM7`].
     pub fn rbufalm7(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RBUFALM7.at(&mut self.client)
     }
     /// Ralmcnt: 0x20ED:01, register 237.
+    ///
+    /// How many faults there have been; bit 1 of Ralmack resets it
+    ///
+    /// Constant: [`objects::RALMCNT`].
     pub fn ralmcnt(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RALMCNT.at(&mut self.client)
     }
     /// Ralmack: 0x20EE:01, register 238.
+    ///
+    /// Acknowledges the last alarm and resets the count
+    ///
+    /// Constant: [`objects::RALMACK`]. Values: [`AlarmAcknowledge`](types::AlarmAcknowledge).
     pub fn ralmack(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::AlarmAcknowledge> {
         objects::RALMACK.at(&mut self.client)
     }
     /// Rtempalm: 0x20EF:01, register 239.
+    ///
+    /// Temperature above which there is an alarm
+    ///
+    /// Constant: [`objects::RTEMPALM`].
     pub fn rtempalm(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RTEMPALM.at(&mut self.client)
     }
     /// Rtensmax: 0x20F0:01, register 240.
+    ///
+    /// Voltage above which there is an alarm
+    ///
+    /// Constant: [`objects::RTENSMAX`].
     pub fn rtensmax(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RTENSMAX.at(&mut self.client)
     }
     /// Rtensmin: 0x20F1:01, register 241.
+    ///
+    /// Voltage below which there is an alarm
+    ///
+    /// Constant: [`objects::RTENSMIN`].
     pub fn rtensmin(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RTENSMIN.at(&mut self.client)
     }
     /// Rcurmax: 0x20F2:01, register 242.
+    ///
+    /// Limit that the current may not pass
+    ///
+    /// Constant: [`objects::RCURMAX`].
     pub fn rcurmax(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCURMAX.at(&mut self.client)
     }
     /// Rflwmax: 0x20F3:01, register 243.
+    ///
+    /// Following error, whichever its sign, beyond which there is an alarm after a filter time; 0 switches the check off
+    ///
+    /// Constant: [`objects::RFLWMAX`].
     pub fn rflwmax(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u32, 1>, 0>> {
         objects::RFLWMAX.at(&mut self.client)
     }
     /// Ri2tmax: 0x20F5:01, register 245.
+    ///
+    /// I2t from which there is an alarm
+    ///
+    /// Constant: [`objects::RI2TMAX`].
     pub fn ri2tmax(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RI2TMAX.at(&mut self.client)
     }
     /// Rmaskalm: 0x20F7:01, register 247.
+    ///
+    /// Which alarms are masked: 1 masks the alarm of the same bit in Ralarm
+    ///
+    /// Constant: [`objects::RMASKALM`]. Values: [`Alarm`](types::Alarm).
     pub fn rmaskalm(&mut self) -> objects::ReadWriteAccess<'_, C, types::Alarm> {
         objects::RMASKALM.at(&mut self.client)
     }
     /// Rposalmtime: 0x20F8:01, register 248.
+    ///
+    /// How long the standing motor may be out of position before the position alarm (closed loop); 0 switches the check off
+    ///
+    /// Constant: [`objects::RPOSALMTIME`].
     pub fn rposalmtime(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
         objects::RPOSALMTIME.at(&mut self.client)
     }
     /// Rtempwrn: 0x20F9:01, register 249.
+    ///
+    /// Temperature from which there is a warning
+    ///
+    /// Constant: [`objects::RTEMPWRN`].
     pub fn rtempwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RTEMPWRN.at(&mut self.client)
     }
     /// Rovvwrn: 0x20FA:01, register 250.
+    ///
+    /// Overvoltage from which there is a warning
+    ///
+    /// Constant: [`objects::ROVVWRN`].
     pub fn rovvwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::ROVVWRN.at(&mut self.client)
     }
     /// Runvwrn: 0x20FB:01, register 251.
+    ///
+    /// Undervoltage from which there is a warning
+    ///
+    /// Constant: [`objects::RUNVWRN`].
     pub fn runvwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RUNVWRN.at(&mut self.client)
     }
     /// Rovcwrn: 0x20FC:01, register 252.
+    ///
+    /// Current from which there is a warning
+    ///
+    /// Constant: [`objects::ROVCWRN`].
     pub fn rovcwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::ROVCWRN.at(&mut self.client)
     }
     /// Rflwvrn: 0x20FD:01, register 253.
+    ///
+    /// Following error, whichever its sign, from which there is a warning at once; 0 switches the check off
+    ///
+    /// Constant: [`objects::RFLWVRN`].
     pub fn rflwvrn(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u32, 1>, 0>> {
         objects::RFLWVRN.at(&mut self.client)
     }
     /// Ri2twrn: 0x20FF:01, register 255.
+    ///
+    /// I2t from which there is a warning
+    ///
+    /// Constant: [`objects::RI2TWRN`].
     pub fn ri2twrn(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RI2TWRN.at(&mut self.client)
     }
     /// Rmaskwrn: 0x2101:01, register 257.
+    ///
+    /// Which warnings are masked: 1 masks the warning of the same bit in Rwarning
+    ///
+    /// Constant: [`objects::RMASKWRN`]. Values: [`Warning`](types::Warning).
     pub fn rmaskwrn(&mut self) -> objects::ReadWriteAccess<'_, C, types::Warning> {
         objects::RMASKWRN.at(&mut self.client)
     }
     /// Rposwrtime: 0x2102:01, register 258.
+    ///
+    /// How long the standing motor may be out of position before the position warning (closed loop); 0 switches the check off
+    ///
+    /// Constant: [`objects::RPOSWRTIME`].
     pub fn rposwrtime(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
         objects::RPOSWRTIME.at(&mut self.client)
     }
     /// Rflwdisp: 0x2103:01, register 259.
+    ///
+    /// Following error now
+    ///
+    /// Constant: [`objects::RFLWDISP`].
     pub fn rflwdisp(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RFLWDISP.at(&mut self.client)
     }
     /// Rflwmem: 0x2105:01, register 261.
+    ///
+    /// Greatest following error since it was cleared, without its sign
+    ///
+    /// Constant: [`objects::RFLWMEM`].
     pub fn rflwmem(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RFLWMEM.at(&mut self.client)
     }
     /// Rflwtim: 0x2107:01, register 263.
+    ///
+    /// How long the following error has to be out of its range before the alarm; warnings aren't filtered
+    ///
+    /// Constant: [`objects::RFLWTIM`].
     pub fn rflwtim(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RFLWTIM.at(&mut self.client)
     }
     /// Rflwmemp: 0x210A:01, register 266.
+    ///
+    /// Greatest positive following error since it was cleared
+    ///
+    /// Constant: [`objects::RFLWMEMP`].
     pub fn rflwmemp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RFLWMEMP.at(&mut self.client)
     }
     /// Rflwmemn: 0x210B:01, register 267.
+    ///
+    /// Greatest negative following error since it was cleared, shown as a positive number
+    ///
+    /// Constant: [`objects::RFLWMEMN`].
     pub fn rflwmemn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RFLWMEMN.at(&mut self.client)
     }
     /// Rflwencerr: 0x2197:01, register 407.
+    ///
+    /// Difference of encoder and motor steps that is an alarm at once, to notice a missing encoder; where used, one or two revolutions
+    ///
+    /// Constant: [`objects::RFLWENCERR`].
     pub fn rflwencerr(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RFLWENCERR.at(&mut self.client)
     }
     /// Rpostimeoutwrn: 0x2199:01, register 409.
+    ///
+    /// Time after which a positioning that isn't done is a warning
+    ///
+    /// Constant: [`objects::RPOSTIMEOUTWRN`].
     pub fn rpostimeoutwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPOSTIMEOUTWRN.at(&mut self.client)
     }
     /// Ralarm32: 0x222F:01, register 559.
+    ///
+    /// All alarms of the drive; the lower half is Ralarm
+    ///
+    /// Constant: [`objects::RALARM32`]. Values: [`Alarm32`](types::Alarm32).
     pub fn ralarm32(&mut self) -> objects::ReadWriteAccess<'_, C, types::Alarm32> {
         objects::RALARM32.at(&mut self.client)
     }
     /// Rwarning32: 0x2231:01, register 561.
+    ///
+    /// All warnings of the drive; the lower half is Rwarning
+    ///
+    /// Constant: [`objects::RWARNING32`]. Values: [`Warning32`](types::Warning32).
     pub fn rwarning32(&mut self) -> objects::ReadWriteAccess<'_, C, types::Warning32> {
         objects::RWARNING32.at(&mut self.client)
     }
     /// Ralarmreact: 0x471E:01, register 10014.
+    ///
+    /// What the drive does when there is an alarm
+    ///
+    /// Constant: [`objects::RALARMREACT`]. Values: [`AlarmReaction`](types::AlarmReaction).
     pub fn ralarmreact(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::AlarmReaction> {
         objects::RALARMREACT.at(&mut self.client)
     }
     /// Ralmbuffres: 0x47A0:01, register 10144.
+    ///
+    /// Clears the alarm history
+    ///
+    /// Constant: [`objects::RALMBUFFRES`].
     pub fn ralmbuffres(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RALMBUFFRES.at(&mut self.client)
     }
     /// Ralmbuffptr: 0x47A1:01, register 10145.
+    ///
+    /// Which entry of the alarm history Ralmbufftime and Ralmbuffcode show
+    ///
+    /// Constant: [`objects::RALMBUFFPTR`].
     pub fn ralmbuffptr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RALMBUFFPTR.at(&mut self.client)
     }
     /// Ralmbufftime: 0x47A2:01, register 10146.
+    ///
+    /// When the alarm pointed to happened
+    ///
+    /// Constant: [`objects::RALMBUFFTIME`].
     pub fn ralmbufftime(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RALMBUFFTIME.at(&mut self.client)
     }
     /// Ralmbuffcode: 0x47A4:01, register 10148.
+    ///
+    /// Code of the alarm pointed to
+    ///
+    /// Constant: [`objects::RALMBUFFCODE`].
     pub fn ralmbuffcode(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RALMBUFFCODE.at(&mut self.client)
     }
     /// Rhslsi: 0x206B:01, register 107.
+    ///
+    /// Limit switches and encoder lines, sampled every 50 µs
+    ///
+    /// Constant: [`objects::RHSLSI`]. Values: [`LimitSwitches`](types::LimitSwitches).
     pub fn rhslsi(&mut self) -> objects::ReadOnlyAccess<'_, C, types::LimitSwitches> {
         objects::RHSLSI.at(&mut self.client)
     }
     /// Rhsinp: 0x206C:01, register 108.
+    ///
+    /// Digital inputs, sampled every 50 µs
+    ///
+    /// Constant: [`objects::RHSINP`]. Values: [`DigitalInputs`](types::DigitalInputs).
     pub fn rhsinp(&mut self) -> objects::ReadOnlyAccess<'_, C, types::DigitalInputs> {
         objects::RHSINP.at(&mut self.client)
     }
     /// Rlsi: 0x206D:01, register 109.
+    ///
+    /// Limit switches and encoder lines
+    ///
+    /// Constant: [`objects::RLSI`]. Values: [`LimitSwitches`](types::LimitSwitches).
     pub fn rlsi(&mut self) -> objects::ReadOnlyAccess<'_, C, types::LimitSwitches> {
         objects::RLSI.at(&mut self.client)
     }
     /// Rdeflsi: 0x206E:01, register 110.
+    ///
+    /// Which level counts as active, for each limit switch and encoder line
+    ///
+    /// Constant: [`objects::RDEFLSI`]. Values: [`LimitSwitchPolarity`](types::LimitSwitchPolarity).
     pub fn rdeflsi(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::LimitSwitchPolarity> {
         objects::RDEFLSI.at(&mut self.client)
     }
     /// Rfillsi: 0x206F:01, register 111.
+    ///
+    /// Time of the digital filter of the limit switch inputs
+    ///
+    /// Constant: [`objects::RFILLSI`].
     pub fn rfillsi(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RFILLSI.at(&mut self.client)
     }
     /// Renflsi: 0x2070:01, register 112.
+    ///
+    /// Turns the filter of the limit switch inputs on
+    ///
+    /// Constant: [`objects::RENFLSI`].
     pub fn renflsi(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENFLSI.at(&mut self.client)
     }
     /// Rmemlsi: 0x2071:01, register 113.
+    ///
+    /// Memory of the limit switch inputs
+    ///
+    /// Constant: [`objects::RMEMLSI`].
     pub fn rmemlsi(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RMEMLSI.at(&mut self.client)
     }
     /// Rinp: 0x2072:01, register 114.
+    ///
+    /// State of the digital inputs
+    ///
+    /// Constant: [`objects::RINP`]. Values: [`DigitalInputs`](types::DigitalInputs).
     pub fn rinp(&mut self) -> objects::ReadOnlyAccess<'_, C, types::DigitalInputs> {
         objects::RINP.at(&mut self.client)
     }
     /// Rdefinp: 0x2073:01, register 115.
+    ///
+    /// Which level counts as active, for each digital input
+    ///
+    /// Constant: [`objects::RDEFINP`]. Values: [`DigitalInputPolarity`](types::DigitalInputPolarity).
     pub fn rdefinp(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::DigitalInputPolarity> {
         objects::RDEFINP.at(&mut self.client)
     }
     /// Rfillnp: 0x2074:01, register 116.
+    ///
+    /// Time of the digital filter of the digital inputs
+    ///
+    /// Constant: [`objects::RFILLNP`].
     pub fn rfillnp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RFILLNP.at(&mut self.client)
     }
     /// Renfinp: 0x2075:01, register 117.
+    ///
+    /// Turns the filter on for each digital input
+    ///
+    /// Constant: [`objects::RENFINP`]. Values: [`DigitalInputs`](types::DigitalInputs).
     pub fn renfinp(&mut self) -> objects::ReadWriteAccess<'_, C, types::DigitalInputs> {
         objects::RENFINP.at(&mut self.client)
     }
     /// Rmeminp: 0x2076:01, register 118.
+    ///
+    /// Memory of the digital inputs
+    ///
+    /// Constant: [`objects::RMEMINP`]. Values: [`DigitalInputs`](types::DigitalInputs).
     pub fn rmeminp(&mut self) -> objects::ReadWriteAccess<'_, C, types::DigitalInputs> {
         objects::RMEMINP.at(&mut self.client)
     }
     /// Rout: 0x2077:01, register 119.
+    ///
+    /// Switches the digital outputs, a bit each
+    ///
+    /// Constant: [`objects::ROUT`]. Values: [`DigitalOutputs`](types::DigitalOutputs).
     pub fn rout(&mut self) -> objects::ReadWriteAccess<'_, C, types::DigitalOutputs> {
         objects::ROUT.at(&mut self.client)
     }
     /// Rdefout: 0x2078:01, register 120.
+    ///
+    /// Which level counts as active, for each digital output
+    ///
+    /// Constant: [`objects::RDEFOUT`]. Values: [`DigitalOutputPolarity`](types::DigitalOutputPolarity).
     pub fn rdefout(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::DigitalOutputPolarity> {
         objects::RDEFOUT.at(&mut self.client)
     }
     /// Rfuno0: 0x2079:01, register 121.
+    ///
+    /// What digital output 0 shows
+    ///
+    /// Constant: [`objects::RFUNO0`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno0(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
         objects::RFUNO0.at(&mut self.client)
     }
     /// Rfuno1: 0x207A:01, register 122.
+    ///
+    /// What digital output 1 shows
+    ///
+    /// Constant: [`objects::RFUNO1`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno1(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
         objects::RFUNO1.at(&mut self.client)
     }
     /// Rfuno2: 0x207B:01, register 123.
+    ///
+    /// What digital output 2 shows
+    ///
+    /// Constant: [`objects::RFUNO2`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno2(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
         objects::RFUNO2.at(&mut self.client)
     }
     /// Rfuno3: 0x207C:01, register 124.
+    ///
+    /// What digital output 3 shows
+    ///
+    /// Constant: [`objects::RFUNO3`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno3(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
         objects::RFUNO3.at(&mut self.client)
     }
     /// Rfuno4: 0x207D:01, register 125.
+    ///
+    /// What digital output 4 shows
+    ///
+    /// Constant: [`objects::RFUNO4`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno4(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
         objects::RFUNO4.at(&mut self.client)
     }
     /// Rfuno5: 0x207E:01, register 126.
+    ///
+    /// What digital output 5 shows
+    ///
+    /// Constant: [`objects::RFUNO5`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno5(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
         objects::RFUNO5.at(&mut self.client)
     }
     /// Rfuno6: 0x207F:01, register 127.
+    ///
+    /// What digital output 6 shows
+    ///
+    /// Constant: [`objects::RFUNO6`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno6(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
         objects::RFUNO6.at(&mut self.client)
     }
     /// Rfuno7: 0x2080:01, register 128.
+    ///
+    /// What digital output 7 shows
+    ///
+    /// Constant: [`objects::RFUNO7`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno7(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
         objects::RFUNO7.at(&mut self.client)
     }
     /// Rfuni0: 0x2081:01, register 129.
+    ///
+    /// What digital input 0 does
+    ///
+    /// Constant: [`objects::RFUNI0`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni0(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI0.at(&mut self.client)
     }
     /// Rfuni1: 0x2082:01, register 130.
+    ///
+    /// What digital input 1 does
+    ///
+    /// Constant: [`objects::RFUNI1`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni1(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI1.at(&mut self.client)
     }
     /// Rfuni2: 0x2083:01, register 131.
+    ///
+    /// What digital input 2 does
+    ///
+    /// Constant: [`objects::RFUNI2`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni2(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI2.at(&mut self.client)
     }
     /// Rfuni3: 0x2084:01, register 132.
+    ///
+    /// What digital input 3 does
+    ///
+    /// Constant: [`objects::RFUNI3`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni3(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI3.at(&mut self.client)
     }
     /// Rfuni4: 0x2085:01, register 133.
+    ///
+    /// What digital input 4 does
+    ///
+    /// Constant: [`objects::RFUNI4`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni4(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI4.at(&mut self.client)
     }
     /// Rfuni5: 0x2086:01, register 134.
+    ///
+    /// What digital input 5 does
+    ///
+    /// Constant: [`objects::RFUNI5`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni5(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI5.at(&mut self.client)
     }
     /// Rfuni6: 0x2087:01, register 135.
+    ///
+    /// What digital input 6 does
+    ///
+    /// Constant: [`objects::RFUNI6`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni6(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI6.at(&mut self.client)
     }
     /// Rfuni7: 0x2088:01, register 136.
+    ///
+    /// What digital input 7 does
+    ///
+    /// Constant: [`objects::RFUNI7`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni7(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI7.at(&mut self.client)
     }
     /// Rdiginplev: 0x2129:01, register 297.
+    ///
+    /// Which threshold the digital inputs use; the voltages are in Rtrginp24v and Rtrginp5v
+    ///
+    /// Constant: [`objects::RDIGINPLEV`]. Values: [`DigitalInputLevel`](types::DigitalInputLevel).
     pub fn rdiginplev(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::DigitalInputLevel> {
         objects::RDIGINPLEV.at(&mut self.client)
     }
     /// Rstpoutmaxfreq: 0x212A:01, register 298.
+    ///
+    /// Highest frequency of a digital output with the step function; steps above it come out later, once the motor slows down or stands
+    ///
+    /// Constant: [`objects::RSTPOUTMAXFREQ`].
     pub fn rstpoutmaxfreq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RSTPOUTMAXFREQ.at(&mut self.client)
     }
     /// Rtrginp5v: 0x2132:01, register 306.
+    ///
+    /// Threshold of the inputs where they are set to 5 V
+    ///
+    /// Constant: [`objects::RTRGINP5V`].
     pub fn rtrginp5v(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 100>> {
         objects::RTRGINP5V.at(&mut self.client)
     }
     /// Rtrginp24v: 0x2133:01, register 307.
+    ///
+    /// Threshold of the inputs where they are set to 24 V
+    ///
+    /// Constant: [`objects::RTRGINP24V`].
     pub fn rtrginp24v(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 100>> {
         objects::RTRGINP24V.at(&mut self.client)
     }
     /// Routenable: 0x21AC:01, register 428.
+    ///
+    /// Which digital outputs are enabled
+    ///
+    /// Constant: [`objects::ROUTENABLE`]. Values: [`DigitalOutputEnable`](types::DigitalOutputEnable).
     pub fn routenable(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::DigitalOutputEnable> {
         objects::ROUTENABLE.at(&mut self.client)
     }
     /// Rfuni8: 0x21BA:01, register 442.
+    ///
+    /// What digital input 8 does
+    ///
+    /// Constant: [`objects::RFUNI8`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni8(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI8.at(&mut self.client)
     }
     /// Rfuni9: 0x21BB:01, register 443.
+    ///
+    /// What digital input 9 does
+    ///
+    /// Constant: [`objects::RFUNI9`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni9(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI9.at(&mut self.client)
     }
     /// Rfuni10: 0x21BC:01, register 444.
+    ///
+    /// What digital input 10 does
+    ///
+    /// Constant: [`objects::RFUNI10`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni10(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI10.at(&mut self.client)
     }
     /// Rfuni11: 0x21BD:01, register 445.
+    ///
+    /// What digital input 11 does
+    ///
+    /// Constant: [`objects::RFUNI11`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni11(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI11.at(&mut self.client)
     }
     /// Rfuni12: 0x21BE:01, register 446.
+    ///
+    /// What digital input 12 does
+    ///
+    /// Constant: [`objects::RFUNI12`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni12(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI12.at(&mut self.client)
     }
     /// Rfuni13: 0x21BF:01, register 447.
+    ///
+    /// What digital input 13 does
+    ///
+    /// Constant: [`objects::RFUNI13`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni13(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI13.at(&mut self.client)
     }
     /// Rfuni14: 0x21C0:01, register 448.
+    ///
+    /// What digital input 14 does
+    ///
+    /// Constant: [`objects::RFUNI14`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni14(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI14.at(&mut self.client)
     }
     /// Rfuni15: 0x21C1:01, register 449.
+    ///
+    /// What digital input 15 does
+    ///
+    /// Constant: [`objects::RFUNI15`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni15(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
         objects::RFUNI15.at(&mut self.client)
     }
     /// Rstepouttime: 0x47A7:01, register 10151.
+    ///
+    /// How long the step output stays active
+    ///
+    /// Constant: [`objects::RSTEPOUTTIME`].
     pub fn rstepouttime(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 50>> {
         objects::RSTEPOUTTIME.at(&mut self.client)
     }
     /// Rstepoutcount: 0x47A8:01, register 10152.
+    ///
+    /// Number of steps to count before the step output becomes active
+    ///
+    /// Constant: [`objects::RSTEPOUTCOUNT`].
     pub fn rstepoutcount(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RSTEPOUTCOUNT.at(&mut self.client)
     }
     /// Ranainp: 0x2089:01, register 137.
+    ///
+    /// Value of the analogue input, 12 bits
+    ///
+    /// Constant: [`objects::RANAINP`].
     pub fn ranainp(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RANAINP.at(&mut self.client)
     }
     /// Rdefanainp: 0x208A:01, register 138.
+    ///
+    /// What the analogue input is used for, probably the number of the register that it sets
+    ///
+    /// Constant: [`objects::RDEFANAINP`].
     pub fn rdefanainp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RDEFANAINP.at(&mut self.client)
     }
     /// Rmulanainp: 0x208B:01, register 139.
+    ///
+    /// Multiplier of the analogue input
+    ///
+    /// Constant: [`objects::RMULANAINP`].
     pub fn rmulanainp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RMULANAINP.at(&mut self.client)
     }
     /// Rdivanainp: 0x208C:01, register 140.
+    ///
+    /// Divisor of the analogue input
+    ///
+    /// Constant: [`objects::RDIVANAINP`].
     pub fn rdivanainp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RDIVANAINP.at(&mut self.client)
     }
     /// Roffsanainp: 0x208D:01, register 141.
+    ///
+    /// Offset of the analogue input
+    ///
+    /// Constant: [`objects::ROFFSANAINP`].
     pub fn roffsanainp(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::ROFFSANAINP.at(&mut self.client)
     }
     /// Rdeadainp: 0x208E:01, register 142.
+    ///
+    /// Dead band of the analogue input, in counts of the converter
+    ///
+    /// Constant: [`objects::RDEADAINP`].
     pub fn rdeadainp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RDEADAINP.at(&mut self.client)
     }
     /// Ranaout: 0x208F:01, register 143.
+    ///
+    /// Value of the analogue output, 10 bits, in counts of the converter
+    ///
+    /// Constant: [`objects::RANAOUT`].
     pub fn ranaout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RANAOUT.at(&mut self.client)
     }
     /// Rdefanaout: 0x2090:01, register 144.
+    ///
+    /// Which parameter goes to Ranaout, probably the number of its register
+    ///
+    /// Constant: [`objects::RDEFANAOUT`].
     pub fn rdefanaout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RDEFANAOUT.at(&mut self.client)
     }
     /// Rmulanaout: 0x2091:01, register 145.
+    ///
+    /// Multiplier of the value for the analogue output
+    ///
+    /// Constant: [`objects::RMULANAOUT`].
     pub fn rmulanaout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RMULANAOUT.at(&mut self.client)
     }
     /// Rdivanaout: 0x2092:01, register 146.
+    ///
+    /// Divisor of the value for the analogue output
+    ///
+    /// Constant: [`objects::RDIVANAOUT`].
     pub fn rdivanaout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RDIVANAOUT.at(&mut self.client)
     }
     /// Roffsananaout: 0x2093:01, register 147.
+    ///
+    /// Offset added to the value for the analogue output
+    ///
+    /// Constant: [`objects::ROFFSANANAOUT`].
     pub fn roffsananaout(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::ROFFSANANAOUT.at(&mut self.client)
     }
     /// Rfloatingrollerperc: 0x2139:01, register 313.
+    ///
+    /// Percentage of the dancer roller
+    ///
+    /// Constant: [`objects::RFLOATINGROLLERPERC`].
     pub fn rfloatingrollerperc(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RFLOATINGROLLERPERC.at(&mut self.client)
     }
     /// Ranainpdisable: 0x21AD:01, register 429.
+    ///
+    /// Turns analogue inputs off, each with its bit
+    ///
+    /// Constant: [`objects::RANAINPDISABLE`]. Values: [`AnalogueInputDisable`](types::AnalogueInputDisable).
     pub fn ranainpdisable(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::AnalogueInputDisable> {
         objects::RANAINPDISABLE.at(&mut self.client)
     }
     /// Ranainp1: 0x21AE:01, register 430.
+    ///
+    /// Value of analogue input 1, 12 bits
+    ///
+    /// Constant: [`objects::RANAINP1`].
     pub fn ranainp1(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RANAINP1.at(&mut self.client)
     }
     /// Rdefanainp1: 0x21AF:01, register 431.
+    ///
+    /// What analogue input 1 is used for, as Rdefanainp
+    ///
+    /// Constant: [`objects::RDEFANAINP1`].
     pub fn rdefanainp1(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RDEFANAINP1.at(&mut self.client)
     }
     /// Rmulanainp1: 0x21B0:01, register 432.
+    ///
+    /// Multiplier of analogue input 1
+    ///
+    /// Constant: [`objects::RMULANAINP1`].
     pub fn rmulanainp1(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RMULANAINP1.at(&mut self.client)
     }
     /// Rdivanainp1: 0x21B1:01, register 433.
+    ///
+    /// Divisor of analogue input 1
+    ///
+    /// Constant: [`objects::RDIVANAINP1`].
     pub fn rdivanainp1(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RDIVANAINP1.at(&mut self.client)
     }
     /// Roffsanainp1: 0x21B2:01, register 434.
+    ///
+    /// Offset of analogue input 1
+    ///
+    /// Constant: [`objects::ROFFSANAINP1`].
     pub fn roffsanainp1(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::ROFFSANAINP1.at(&mut self.client)
     }
     /// Rdeadainp1: 0x21B3:01, register 435.
+    ///
+    /// Dead band of analogue input 1, in counts of the converter
+    ///
+    /// Constant: [`objects::RDEADAINP1`].
     pub fn rdeadainp1(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RDEADAINP1.at(&mut self.client)
     }
     /// Ranainp2: 0x21B4:01, register 436.
+    ///
+    /// Value of analogue input 2, 12 bits
+    ///
+    /// Constant: [`objects::RANAINP2`].
     pub fn ranainp2(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RANAINP2.at(&mut self.client)
     }
     /// Rdefanainp2: 0x21B5:01, register 437.
+    ///
+    /// What analogue input 2 is used for, as Rdefanainp
+    ///
+    /// Constant: [`objects::RDEFANAINP2`].
     pub fn rdefanainp2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RDEFANAINP2.at(&mut self.client)
     }
     /// Rmulanainp2: 0x21B6:01, register 438.
+    ///
+    /// Multiplier of analogue input 2
+    ///
+    /// Constant: [`objects::RMULANAINP2`].
     pub fn rmulanainp2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RMULANAINP2.at(&mut self.client)
     }
     /// Rdivanainp2: 0x21B7:01, register 439.
+    ///
+    /// Divisor of analogue input 2
+    ///
+    /// Constant: [`objects::RDIVANAINP2`].
     pub fn rdivanainp2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RDIVANAINP2.at(&mut self.client)
     }
     /// Roffsnainp2: 0x21B8:01, register 440.
+    ///
+    /// Offset of analogue input 2
+    ///
+    /// Constant: [`objects::ROFFSNAINP2`].
     pub fn roffsnainp2(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::ROFFSNAINP2.at(&mut self.client)
     }
     /// Rdeadainp2: 0x21B9:01, register 441.
+    ///
+    /// Dead band of analogue input 2, in counts of the converter
+    ///
+    /// Constant: [`objects::RDEADAINP2`].
     pub fn rdeadainp2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RDEADAINP2.at(&mut self.client)
     }
     /// Rencalignsteps: 0x2241:01, register 577.
+    ///
+    /// Number of steps made while the encoder is aligned
+    ///
+    /// Constant: [`objects::RENCALIGNSTEPS`].
     pub fn rencalignsteps(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENCALIGNSTEPS.at(&mut self.client)
     }
     /// Rencmotfbk: 0x471A:01, register 10010.
+    ///
+    /// Which encoder closes the loop of the motor
+    ///
+    /// Constant: [`objects::RENCMOTFBK`]. Values: [`FeedbackEncoder`](types::FeedbackEncoder).
     pub fn rencmotfbk(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::FeedbackEncoder> {
         objects::RENCMOTFBK.at(&mut self.client)
     }
     /// Rencnewperiod: 0x473B:01, register 10043.
+    ///
+    /// Tells for each encoder that a new period of its pulses was read; was register 165 before
+    ///
+    /// Constant: [`objects::RENCNEWPERIOD`]. Values: [`EncoderPeriods`](types::EncoderPeriods).
     pub fn rencnewperiod(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::EncoderPeriods> {
         objects::RENCNEWPERIOD.at(&mut self.client)
     }
     /// Rmotcode: 0x479A:01, register 10138.
+    ///
+    /// Code of the motor that the drive is set to
+    ///
+    /// Constant: [`objects::RMOTCODE`].
     pub fn rmotcode(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RMOTCODE.at(&mut self.client)
     }
     /// Rmotenc: 0x2097:01, register 151.
+    ///
+    /// Position of the motor's encoder
+    ///
+    /// Constant: [`objects::RMOTENC`].
     pub fn rmotenc(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RMOTENC.at(&mut self.client)
     }
     /// Rmotencper: 0x20A3:01, register 163.
+    ///
+    /// Period measured between pulses of the motor's encoder
+    ///
+    /// Constant: [`objects::RMOTENCPER`].
     pub fn rmotencper(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RMOTENCPER.at(&mut self.client)
     }
     /// Rmotencpuls: 0x210D:01, register 269.
+    ///
+    /// Pulses per revolution of the motor's encoder
+    ///
+    /// Constant: [`objects::RMOTENCPULS`].
     pub fn rmotencpuls(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RMOTENCPULS.at(&mut self.client)
     }
     /// Renc1pos: 0x471F:01, register 10015.
+    ///
+    /// Position of encoder 1
+    ///
+    /// Constant: [`objects::RENC1POS`].
     pub fn renc1pos(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RENC1POS.at(&mut self.client)
     }
     /// Renc1pulse: 0x4729:01, register 10025.
+    ///
+    /// Pulses per revolution of encoder 1
+    ///
+    /// Constant: [`objects::RENC1PULSE`].
     pub fn renc1pulse(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENC1PULSE.at(&mut self.client)
     }
     /// Renc1period: 0x4738:01, register 10040.
+    ///
+    /// Period measured between pulses of encoder 1
+    ///
+    /// Constant: [`objects::RENC1PERIOD`].
     pub fn renc1period(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RENC1PERIOD.at(&mut self.client)
     }
     /// Renc1vel: 0x473C:01, register 10044.
+    ///
+    /// Present speed of encoder 1
+    ///
+    /// Constant: [`objects::RENC1VEL`].
     pub fn renc1vel(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RENC1VEL.at(&mut self.client)
     }
     /// Renc1sample: 0x473D:01, register 10045.
+    ///
+    /// Sampling time of encoder 1
+    ///
+    /// Constant: [`objects::RENC1SAMPLE`].
     pub fn renc1sample(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENC1SAMPLE.at(&mut self.client)
     }
     /// Renc1velmul: 0x473E:01, register 10046.
+    ///
+    /// Multiplier of the speed of encoder 1
+    ///
+    /// Constant: [`objects::RENC1VELMUL`].
     pub fn renc1velmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENC1VELMUL.at(&mut self.client)
     }
     /// Renc1veldiv: 0x473F:01, register 10047.
+    ///
+    /// Divisor of the speed of encoder 1
+    ///
+    /// Constant: [`objects::RENC1VELDIV`].
     pub fn renc1veldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENC1VELDIV.at(&mut self.client)
     }
     /// Renc1topcnt: 0x4740:01, register 10048.
+    ///
+    /// Number of pulses that came on the index input of encoder 1
+    ///
+    /// Constant: [`objects::RENC1TOPCNT`].
     pub fn renc1topcnt(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RENC1TOPCNT.at(&mut self.client)
     }
     /// Renc1topvel: 0x4742:01, register 10050.
+    ///
+    /// Speed measured on the index input of encoder 1
+    ///
+    /// Constant: [`objects::RENC1TOPVEL`].
     pub fn renc1topvel(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RENC1TOPVEL.at(&mut self.client)
     }
     /// Renc1topsample: 0x4743:01, register 10051.
+    ///
+    /// Sampling time of the index input of encoder 1
+    ///
+    /// Constant: [`objects::RENC1TOPSAMPLE`].
     pub fn renc1topsample(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENC1TOPSAMPLE.at(&mut self.client)
     }
     /// Renc1topvelmul: 0x4744:01, register 10052.
+    ///
+    /// Multiplier of the speed on the index input of encoder 1
+    ///
+    /// Constant: [`objects::RENC1TOPVELMUL`].
     pub fn renc1topvelmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENC1TOPVELMUL.at(&mut self.client)
     }
     /// Renc1topveldiv: 0x4745:01, register 10053.
+    ///
+    /// Divisor of the speed on the index input of encoder 1
+    ///
+    /// Constant: [`objects::RENC1TOPVELDIV`].
     pub fn renc1topveldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENC1TOPVELDIV.at(&mut self.client)
     }
     /// Renc1code: 0x475A:01, register 10074.
+    ///
+    /// Model of encoder 1
+    ///
+    /// Constant: [`objects::RENC1CODE`]. Values: [`EncoderModel`](types::EncoderModel).
     pub fn renc1code(&mut self) -> objects::ReadWriteAccess<'_, C, types::EncoderModel> {
         objects::RENC1CODE.at(&mut self.client)
     }
     /// Rextencvel: 0x2033:01, register 51.
+    ///
+    /// Present speed of the external encoder; bit 13 of Rstsflg1 tells that it was updated
+    ///
+    /// Constant: [`objects::REXTENCVEL`].
     pub fn rextencvel(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::REXTENCVEL.at(&mut self.client)
     }
     /// Rextencsmp: 0x2034:01, register 52.
+    ///
+    /// Sampling time of the external encoder, and of its index input
+    ///
+    /// Constant: [`objects::REXTENCSMP`].
     pub fn rextencsmp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::REXTENCSMP.at(&mut self.client)
     }
     /// Rextencvelmul: 0x2035:01, register 53.
+    ///
+    /// Multiplier of the speed of the external encoder
+    ///
+    /// Constant: [`objects::REXTENCVELMUL`].
     pub fn rextencvelmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::REXTENCVELMUL.at(&mut self.client)
     }
     /// Rextencveldiv: 0x2036:01, register 54.
+    ///
+    /// Divisor of the speed of the external encoder
+    ///
+    /// Constant: [`objects::REXTENCVELDIV`].
     pub fn rextencveldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::REXTENCVELDIV.at(&mut self.client)
     }
     /// Rextencotovel: 0x2059:01, register 89.
+    ///
+    /// Speed measured on the external encoder's index input, with the sampling time of Rextencsmp
+    ///
+    /// Constant: [`objects::REXTENCOTOVEL`].
     pub fn rextencotovel(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::REXTENCOTOVEL.at(&mut self.client)
     }
     /// Rextencotovelmul: 0x205A:01, register 90.
+    ///
+    /// Multiplier of the speed on the external encoder's index input
+    ///
+    /// Constant: [`objects::REXTENCOTOVELMUL`].
     pub fn rextencotovelmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::REXTENCOTOVELMUL.at(&mut self.client)
     }
     /// Rextencotoveldiv: 0x205B:01, register 91.
+    ///
+    /// Divisor of the speed on the external encoder's index input
+    ///
+    /// Constant: [`objects::REXTENCOTOVELDIV`].
     pub fn rextencotoveldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::REXTENCOTOVELDIV.at(&mut self.client)
     }
     /// Rextencotopcncnt: 0x205C:01, register 92.
+    ///
+    /// Number of pulses that came on the external encoder's index input
+    ///
+    /// Constant: [`objects::REXTENCOTOPCNCNT`].
     pub fn rextencotopcncnt(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::REXTENCOTOPCNCNT.at(&mut self.client)
     }
     /// Rextencmode: 0x2065:01, register 101.
+    ///
+    /// How the external encoder counts
+    ///
+    /// Constant: [`objects::REXTENCMODE`]. Values: [`EncoderMode`](types::EncoderMode).
     pub fn rextencmode(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::EncoderMode> {
         objects::REXTENCMODE.at(&mut self.client)
     }
     /// Rextenc: 0x2099:01, register 153.
+    ///
+    /// Position of the external encoder
+    ///
+    /// Constant: [`objects::REXTENC`].
     pub fn rextenc(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::REXTENC.at(&mut self.client)
     }
     /// Rextencper: 0x20A4:01, register 164.
+    ///
+    /// Period measured between pulses of the external encoder
+    ///
+    /// Constant: [`objects::REXTENCPER`].
     pub fn rextencper(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::REXTENCPER.at(&mut self.client)
     }
     /// Rnewencper: 0x20A5:01, register 165.
+    ///
+    /// Tells for each encoder that a new period of its pulses was read
+    ///
+    /// Constant: [`objects::RNEWENCPER`]. Values: [`OldEncoderPeriods`](types::OldEncoderPeriods).
     pub fn rnewencper(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::OldEncoderPeriods> {
         objects::RNEWENCPER.at(&mut self.client)
     }
     /// Rextencpuls: 0x210C:01, register 268.
+    ///
+    /// Pulses per revolution of the external encoder
+    ///
+    /// Constant: [`objects::REXTENCPULS`].
     pub fn rextencpuls(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::REXTENCPULS.at(&mut self.client)
     }
     /// Renc2pos: 0x4721:01, register 10017.
+    ///
+    /// Position of encoder 2
+    ///
+    /// Constant: [`objects::RENC2POS`].
     pub fn renc2pos(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RENC2POS.at(&mut self.client)
     }
     /// Renc2pulse: 0x472A:01, register 10026.
+    ///
+    /// Pulses per revolution of encoder 2
+    ///
+    /// Constant: [`objects::RENC2PULSE`].
     pub fn renc2pulse(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENC2PULSE.at(&mut self.client)
     }
     /// Renc2period: 0x4739:01, register 10041.
+    ///
+    /// Period measured between pulses of encoder 2
+    ///
+    /// Constant: [`objects::RENC2PERIOD`].
     pub fn renc2period(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RENC2PERIOD.at(&mut self.client)
     }
     /// Renc2vel: 0x4746:01, register 10054.
+    ///
+    /// Present speed of encoder 2
+    ///
+    /// Constant: [`objects::RENC2VEL`].
     pub fn renc2vel(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RENC2VEL.at(&mut self.client)
     }
     /// Renc2sample: 0x4747:01, register 10055.
+    ///
+    /// Sampling time of encoder 2
+    ///
+    /// Constant: [`objects::RENC2SAMPLE`].
     pub fn renc2sample(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENC2SAMPLE.at(&mut self.client)
     }
     /// Renc2velmul: 0x4748:01, register 10056.
+    ///
+    /// Multiplier of the speed of encoder 2
+    ///
+    /// Constant: [`objects::RENC2VELMUL`].
     pub fn renc2velmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENC2VELMUL.at(&mut self.client)
     }
     /// Renc2veldiv: 0x4749:01, register 10057.
+    ///
+    /// Divisor of the speed of encoder 2
+    ///
+    /// Constant: [`objects::RENC2VELDIV`].
     pub fn renc2veldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENC2VELDIV.at(&mut self.client)
     }
     /// Renc2topcnt: 0x474A:01, register 10058.
+    ///
+    /// Number of pulses that came on the index input of encoder 2
+    ///
+    /// Constant: [`objects::RENC2TOPCNT`].
     pub fn renc2topcnt(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RENC2TOPCNT.at(&mut self.client)
     }
     /// Renc2topvel: 0x474C:01, register 10060.
+    ///
+    /// Speed measured on the index input of encoder 2
+    ///
+    /// Constant: [`objects::RENC2TOPVEL`].
     pub fn renc2topvel(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RENC2TOPVEL.at(&mut self.client)
     }
     /// Renc2topsample: 0x474D:01, register 10061.
+    ///
+    /// Sampling time of the index input of encoder 2
+    ///
+    /// Constant: [`objects::RENC2TOPSAMPLE`].
     pub fn renc2topsample(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENC2TOPSAMPLE.at(&mut self.client)
     }
     /// Renc2topvelmul: 0x474E:01, register 10062.
+    ///
+    /// Multiplier of the speed on the index input of encoder 2
+    ///
+    /// Constant: [`objects::RENC2TOPVELMUL`].
     pub fn renc2topvelmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENC2TOPVELMUL.at(&mut self.client)
     }
     /// Renc2topveldiv: 0x474F:01, register 10063.
+    ///
+    /// Divisor of the speed on the index input of encoder 2
+    ///
+    /// Constant: [`objects::RENC2TOPVELDIV`].
     pub fn renc2topveldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENC2TOPVELDIV.at(&mut self.client)
     }
     /// Renc2code: 0x475B:01, register 10075.
+    ///
+    /// Model of encoder 2
+    ///
+    /// Constant: [`objects::RENC2CODE`]. Values: [`EncoderModel`](types::EncoderModel).
     pub fn renc2code(&mut self) -> objects::ReadWriteAccess<'_, C, types::EncoderModel> {
         objects::RENC2CODE.at(&mut self.client)
     }
     /// Renc3code: 0x475C:01, register 10076.
+    ///
+    /// Model of encoder 3
+    ///
+    /// Constant: [`objects::RENC3CODE`]. Values: [`EncoderModel`](types::EncoderModel).
     pub fn renc3code(&mut self) -> objects::ReadWriteAccess<'_, C, types::EncoderModel> {
         objects::RENC3CODE.at(&mut self.client)
     }
     /// Rssiencframelen: 0x202C:01, register 44.
+    ///
+    /// Length of the frame of the SSI encoder
+    ///
+    /// Constant: [`objects::RSSIENCFRAMELEN`].
     pub fn rssiencframelen(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RSSIENCFRAMELEN.at(&mut self.client)
     }
     /// Rssiencturnbit: 0x205E:01, register 94.
+    ///
+    /// How many bits of the frame count turns
+    ///
+    /// Constant: [`objects::RSSIENCTURNBIT`].
     pub fn rssiencturnbit(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RSSIENCTURNBIT.at(&mut self.client)
     }
     /// Rssienccountsbit: 0x205F:01, register 95.
+    ///
+    /// How many bits of the frame are the position within the turn
+    ///
+    /// Constant: [`objects::RSSIENCCOUNTSBIT`].
     pub fn rssienccountsbit(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RSSIENCCOUNTSBIT.at(&mut self.client)
     }
     /// Rssienccounts: 0x2060:01, register 96.
+    ///
+    /// Position of the SSI encoder within the turn; bits 6 and 7 of Rhwconfig preset and complement it
+    ///
+    /// Constant: [`objects::RSSIENCCOUNTS`].
     pub fn rssienccounts(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RSSIENCCOUNTS.at(&mut self.client)
     }
     /// Rssiencturns: 0x2061:01, register 97.
+    ///
+    /// Turns of the SSI encoder; bits 6 and 7 of Rhwconfig preset and complement them
+    ///
+    /// Constant: [`objects::RSSIENCTURNS`].
     pub fn rssiencturns(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RSSIENCTURNS.at(&mut self.client)
     }
     /// Rencabsquote: 0x4725:01, register 10021.
+    ///
+    /// Position of the absolute encoder
+    ///
+    /// Constant: [`objects::RENCABSQUOTE`].
     pub fn rencabsquote(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RENCABSQUOTE.at(&mut self.client)
     }
     /// Rencabspos: 0x4727:01, register 10023.
+    ///
+    /// Position of the absolute encoder within the turn
+    ///
+    /// Constant: [`objects::RENCABSPOS`].
     pub fn rencabspos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENCABSPOS.at(&mut self.client)
     }
     /// Rencabsturns: 0x4728:01, register 10024.
+    ///
+    /// Turns of the absolute encoder
+    ///
+    /// Constant: [`objects::RENCABSTURNS`].
     pub fn rencabsturns(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RENCABSTURNS.at(&mut self.client)
     }
     /// Rencabsframembit: 0x472C:01, register 10028.
+    ///
+    /// Length of the absolute encoder's frame
+    ///
+    /// Constant: [`objects::RENCABSFRAMEMBIT`].
     pub fn rencabsframembit(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENCABSFRAMEMBIT.at(&mut self.client)
     }
     /// Rencabsposbit: 0x472D:01, register 10029.
+    ///
+    /// How many bits of the frame are the position within the turn
+    ///
+    /// Constant: [`objects::RENCABSPOSBIT`].
     pub fn rencabsposbit(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENCABSPOSBIT.at(&mut self.client)
     }
     /// Rencabsturnsbit: 0x472E:01, register 10030.
+    ///
+    /// How many bits of the frame count turns
+    ///
+    /// Constant: [`objects::RENCABSTURNSBIT`].
     pub fn rencabsturnsbit(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENCABSTURNSBIT.at(&mut self.client)
     }
     /// Renc1mode: 0x472F:01, register 10031.
+    ///
+    /// How encoder 1 counts; bits 1 and 5 of Rhwconfig moved here
+    ///
+    /// Constant: [`objects::RENC1MODE`]. Values: [`EncoderMode`](types::EncoderMode).
     pub fn renc1mode(&mut self) -> objects::ReadWriteAccess<'_, C, types::EncoderMode> {
         objects::RENC1MODE.at(&mut self.client)
     }
     /// Renc2mode: 0x4730:01, register 10032.
+    ///
+    /// How encoder 2 counts
+    ///
+    /// Constant: [`objects::RENC2MODE`]. Values: [`EncoderMode`](types::EncoderMode).
     pub fn renc2mode(&mut self) -> objects::ReadWriteAccess<'_, C, types::EncoderMode> {
         objects::RENC2MODE.at(&mut self.client)
     }
     /// Rencabsmode: 0x4732:01, register 10034.
+    ///
+    /// How the absolute encoder is read; bits 7 to 10 of Rhwconfig moved here
+    ///
+    /// Constant: [`objects::RENCABSMODE`]. Values: [`AbsoluteEncoderMode`](types::AbsoluteEncoderMode).
     pub fn rencabsmode(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::AbsoluteEncoderMode> {
         objects::RENCABSMODE.at(&mut self.client)
     }
     /// Rencabsctrl: 0x4733:01, register 10035.
+    ///
+    /// Commands to the absolute encoder
+    ///
+    /// Constant: [`objects::RENCABSCTRL`]. Values: [`AbsoluteEncoderControl`](types::AbsoluteEncoderControl).
     pub fn rencabsctrl(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::AbsoluteEncoderControl> {
         objects::RENCABSCTRL.at(&mut self.client)
     }
     /// Rencabsbrate: 0x4735:01, register 10037.
+    ///
+    /// Clock with which the absolute encoder is read: 25 MHz divided by the value
+    ///
+    /// Constant: [`objects::RENCABSBRATE`].
     pub fn rencabsbrate(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Reciprocal<u16, 25000000>> {
         objects::RENCABSBRATE.at(&mut self.client)
     }
     /// Rencabsframepause: 0x4736:01, register 10038.
+    ///
+    /// Pause between two frames of the absolute encoder
+    ///
+    /// Constant: [`objects::RENCABSFRAMEPAUSE`].
     pub fn rencabsframepause(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENCABSFRAMEPAUSE.at(&mut self.client)
     }
     /// Rencabsprebit: 0x4737:01, register 10039.
+    ///
+    /// Number of bits at the head of the absolute encoder's frame, which are ignored
+    ///
+    /// Constant: [`objects::RENCABSPREBIT`].
     pub fn rencabsprebit(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENCABSPREBIT.at(&mut self.client)
     }
     /// Rencabscode: 0x475D:01, register 10077.
+    ///
+    /// Model of the absolute encoder
+    ///
+    /// Constant: [`objects::RENCABSCODE`]. Values: [`AbsoluteEncoderModel`](types::AbsoluteEncoderModel).
     pub fn rencabscode(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::AbsoluteEncoderModel> {
         objects::RENCABSCODE.at(&mut self.client)
     }
     /// Rencabspulse: 0x475E:01, register 10078.
+    ///
+    /// Pulses per revolution of the absolute encoder
+    ///
+    /// Constant: [`objects::RENCABSPULSE`].
     pub fn rencabspulse(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RENCABSPULSE.at(&mut self.client)
     }
     /// Rthetainit: 0x4792:01, register 10130.
+    ///
+    /// Angle that was taken from the resolver while aligning
+    ///
+    /// Constant: [`objects::RTHETAINIT`].
     pub fn rthetainit(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RTHETAINIT.at(&mut self.client)
     }
     /// Rthetaack: 0x4794:01, register 10132.
+    ///
+    /// Tells that the angle was taken from the resolver
+    ///
+    /// Constant: [`objects::RTHETAACK`].
     pub fn rthetaack(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RTHETAACK.at(&mut self.client)
     }
     /// Rrslvact: 0x4795:01, register 10133.
+    ///
+    /// Present value of the resolver
+    ///
+    /// Constant: [`objects::RRSLVACT`].
     pub fn rrslvact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RRSLVACT.at(&mut self.client)
     }
     /// Rrslvoffsetsin: 0x4796:01, register 10134.
+    ///
+    /// Correction of the offset of the resolver's sine
+    ///
+    /// Constant: [`objects::RRSLVOFFSETSIN`].
     pub fn rrslvoffsetsin(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RRSLVOFFSETSIN.at(&mut self.client)
     }
     /// Rrslvoffsetcos: 0x4798:01, register 10136.
+    ///
+    /// Correction of the offset of the resolver's cosine
+    ///
+    /// Constant: [`objects::RRSLVOFFSETCOS`].
     pub fn rrslvoffsetcos(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RRSLVOFFSETCOS.at(&mut self.client)
     }
     /// Rrslvcorr: 0x47D1:01, register 10193.
+    ///
+    /// Correction of the resolver
+    ///
+    /// Constant: [`objects::RRSLVCORR`].
     pub fn rrslvcorr(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RRSLVCORR.at(&mut self.client)
     }
     /// Rrslvrawangleout: 0x47D2:01, register 10194.
+    ///
+    /// Angle of the resolver before correction
+    ///
+    /// Constant: [`objects::RRSLVRAWANGLEOUT`].
     pub fn rrslvrawangleout(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RRSLVRAWANGLEOUT.at(&mut self.client)
     }
     /// Rrslvsinfirot: 0x47D4:01, register 10196.
+    ///
+    /// Sine of the resolver after the FIR filter
+    ///
+    /// Constant: [`objects::RRSLVSINFIROT`].
     pub fn rrslvsinfirot(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RRSLVSINFIROT.at(&mut self.client)
     }
     /// Rrslvcosfirot: 0x47D6:01, register 10198.
+    ///
+    /// Cosine of the resolver after the FIR filter
+    ///
+    /// Constant: [`objects::RRSLVCOSFIROT`].
     pub fn rrslvcosfirot(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RRSLVCOSFIROT.at(&mut self.client)
     }
     /// Rloadsav: 0x20C2:01, register 194.
+    ///
+    /// Command to the EEPROM, and to the communication chip; goes back to 0 once it was carried out
+    ///
+    /// Constant: [`objects::RLOADSAV`]. Values: [`EepromCommand`](types::EepromCommand).
     pub fn rloadsav(&mut self) -> objects::ReadWriteAccess<'_, C, types::EepromCommand> {
         objects::RLOADSAV.at(&mut self.client)
     }
     /// Rmemvar: 0x20C3:01, register 195.
+    ///
+    /// Loads one variable from the EEPROM, or saves it there
+    ///
+    /// Constant: [`objects::RMEMVAR`]. Values: [`VariableCommand`](types::VariableCommand).
     pub fn rmemvar(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::VariableCommand> {
         objects::RMEMVAR.at(&mut self.client)
     }
     /// Reepsts: 0x20C4:01, register 196.
+    ///
+    /// State of the EEPROM; 0 means that all is well
+    ///
+    /// Constant: [`objects::REEPSTS`]. Values: [`EepromStatus`](types::EepromStatus).
     pub fn reepsts(&mut self) -> objects::ReadOnlyAccess<'_, C, types::EepromStatus> {
         objects::REEPSTS.at(&mut self.client)
     }
     /// Rindex: 0x20C9:01, register 201.
+    ///
+    /// Index with which a MIL program reaches the variables
+    ///
+    /// Constant: [`objects::RINDEX`].
     pub fn rindex(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RINDEX.at(&mut self.client)
     }
     /// Reepsts32: 0x2149:01, register 329.
+    ///
+    /// State of the EEPROM in 32 bits, on drives from the SMD5106 on; its lower word is Reepsts
+    ///
+    /// Constant: [`objects::REEPSTS32`]. Values: [`EepromStatus32`](types::EepromStatus32).
     pub fn reepsts32(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::EepromStatus32> {
         objects::REEPSTS32.at(&mut self.client)
     }
     /// Rstrtmode: 0x20D8:01, register 216.
+    ///
+    /// What the drive does at power-on
+    ///
+    /// Constant: [`objects::RSTRTMODE`]. Values: [`StartMode`](types::StartMode).
     pub fn rstrtmode(&mut self) -> objects::ReadWriteAccess<'_, C, types::StartMode> {
         objects::RSTRTMODE.at(&mut self.client)
     }
     /// Rstrtconf: 0x20D9:01, register 217.
+    ///
+    /// Rconfig at power-on; saving the registers copies Rconfig here where its bit 15 is 0
+    ///
+    /// Constant: [`objects::RSTRTCONF`]. Values: [`Configuration`](types::Configuration).
     pub fn rstrtconf(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::Configuration> {
         objects::RSTRTCONF.at(&mut self.client)
     }
     /// Rstrtvel: 0x2185:01, register 389.
+    ///
+    /// Rvel at power-on
+    ///
+    /// Constant: [`objects::RSTRTVEL`].
     pub fn rstrtvel(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i32, 1, 100>> {
         objects::RSTRTVEL.at(&mut self.client)
     }
     /// Rstrtvss: 0x2187:01, register 391.
+    ///
+    /// Rvss at power-on
+    ///
+    /// Constant: [`objects::RSTRTVSS`].
     pub fn rstrtvss(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 100>> {
         objects::RSTRTVSS.at(&mut self.client)
     }
     /// Rstrtacc: 0x2189:01, register 393.
+    ///
+    /// Racc at power-on
+    ///
+    /// Constant: [`objects::RSTRTACC`].
     pub fn rstrtacc(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>> {
         objects::RSTRTACC.at(&mut self.client)
     }
     /// Rstrtdec: 0x218B:01, register 395.
+    ///
+    /// Rdec at power-on
+    ///
+    /// Constant: [`objects::RSTRTDEC`].
     pub fn rstrtdec(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>> {
         objects::RSTRTDEC.at(&mut self.client)
     }
     /// Rstrtpostarg: 0x218D:01, register 397.
+    ///
+    /// Rpostarg at power-on
+    ///
+    /// Constant: [`objects::RSTRTPOSTARG`].
     pub fn rstrtpostarg(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RSTRTPOSTARG.at(&mut self.client)
     }
     /// Rstrthvh: 0x218F:01, register 399.
+    ///
+    /// Rhvh at power-on
+    ///
+    /// Constant: [`objects::RSTRTHVH`].
     pub fn rstrthvh(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i32, 1, 100>> {
         objects::RSTRTHVH.at(&mut self.client)
     }
     /// Rstrthvl: 0x2191:01, register 401.
+    ///
+    /// Rhvl at power-on
+    ///
+    /// Constant: [`objects::RSTRTHVL`].
     pub fn rstrthvl(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i32, 1, 100>> {
         objects::RSTRTHVL.at(&mut self.client)
     }
     /// Rstrthacc: 0x2193:01, register 403.
+    ///
+    /// Rhacc at power-on
+    ///
+    /// Constant: [`objects::RSTRTHACC`].
     pub fn rstrthacc(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>> {
         objects::RSTRTHACC.at(&mut self.client)
     }
     /// Rstrthmode: 0x2195:01, register 405.
+    ///
+    /// Rhmode at power-on
+    ///
+    /// Constant: [`objects::RSTRTHMODE`]. Values: [`HomingMethodI16`](types::HomingMethodI16).
     pub fn rstrthmode(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::HomingMethodI16> {
         objects::RSTRTHMODE.at(&mut self.client)
     }
     /// Rcuronramptime: 0x2063:01, register 99.
+    ///
+    /// Duration of the ramp by which the current rises when it is switched on
+    ///
+    /// Constant: [`objects::RCURONRAMPTIME`].
     pub fn rcuronramptime(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCURONRAMPTIME.at(&mut self.client)
     }
     /// Rcuract: 0x20D1:01, register 209.
+    ///
+    /// Motor current at present
+    ///
+    /// Constant: [`objects::RCURACT`].
     pub fn rcuract(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RCURACT.at(&mut self.client)
     }
     /// Rcurnom: 0x20D2:01, register 210.
+    ///
+    /// Nominal current that the motor gets
+    ///
+    /// Constant: [`objects::RCURNOM`].
     pub fn rcurnom(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCURNOM.at(&mut self.client)
     }
     /// Rcurred: 0x20D3:01, register 211.
+    ///
+    /// Reduced current that the motor gets
+    ///
+    /// Constant: [`objects::RCURRED`].
     pub fn rcurred(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCURRED.at(&mut self.client)
     }
     /// Rcurboost: 0x20D4:01, register 212.
+    ///
+    /// Boost current applied during the ramps
+    ///
+    /// Constant: [`objects::RCURBOOST`].
     pub fn rcurboost(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCURBOOST.at(&mut self.client)
     }
     /// Rcurtorque: 0x20D5:01, register 213.
+    ///
+    /// Current wanted in torque mode; the note ANA offers it as a target of an analogue input
+    ///
+    /// Constant: [`objects::RCURTORQUE`].
     pub fn rcurtorque(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RCURTORQUE.at(&mut self.client)
     }
     /// Rtboost: 0x20D6:01, register 214.
+    ///
+    /// Longest time that the boost current may last
+    ///
+    /// Constant: [`objects::RTBOOST`].
     pub fn rtboost(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RTBOOST.at(&mut self.client)
     }
     /// Rtcred: 0x20D7:01, register 215.
+    ///
+    /// Delay before the drive goes to the reduced current
+    ///
+    /// Constant: [`objects::RTCRED`].
     pub fn rtcred(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RTCRED.at(&mut self.client)
     }
     /// Rfocmode: 0x20DB:01, register 219.
+    ///
+    /// How the motor is being controlled at present
+    ///
+    /// Constant: [`objects::RFOCMODE`]. Values: [`ControlState`](types::ControlState).
     pub fn rfocmode(&mut self) -> objects::ReadOnlyAccess<'_, C, types::ControlState> {
         objects::RFOCMODE.at(&mut self.client)
     }
     /// Rcurmodeact: 0x20DC:01, register 220.
+    ///
+    /// Which current level is in use at present
+    ///
+    /// Constant: [`objects::RCURMODEACT`]. Values: [`CurrentLevelState`](types::CurrentLevelState).
     pub fn rcurmodeact(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::CurrentLevelState> {
         objects::RCURMODEACT.at(&mut self.client)
     }
     /// Rcurmode: 0x20DD:01, register 221.
+    ///
+    /// Which current level the drive is to use
+    ///
+    /// Constant: [`objects::RCURMODE`]. Values: [`CurrentLevel`](types::CurrentLevel).
     pub fn rcurmode(&mut self) -> objects::ReadWriteAccess<'_, C, types::CurrentLevel> {
         objects::RCURMODE.at(&mut self.client)
     }
     /// Rconfig: 0x20DE:01, register 222.
+    ///
+    /// Kind of control loop (open, closed, smart) and what it follows; saving the registers copies it to Rstrtconf while its bit 15 is 0
+    ///
+    /// Constant: [`objects::RCONFIG`]. Values: [`Configuration`](types::Configuration).
     pub fn rconfig(&mut self) -> objects::ReadWriteAccess<'_, C, types::Configuration> {
         objects::RCONFIG.at(&mut self.client)
     }
     /// Renmask: 0x20DF:01, register 223.
+    ///
+    /// Mask of the checks for enabling the drive
+    ///
+    /// Constant: [`objects::RENMASK`]. Values: [`EnableMask`](types::EnableMask).
     pub fn renmask(&mut self) -> objects::ReadOnlyAccess<'_, C, types::EnableMask> {
         objects::RENMASK.at(&mut self.client)
     }
     /// Rtrqdisp: 0x2108:01, register 264.
+    ///
+    /// Torque, for display; the manual gives no unit
+    ///
+    /// Constant: [`objects::RTRQDISP`].
     pub fn rtrqdisp(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RTRQDISP.at(&mut self.client)
     }
     /// Rstpres: 0x210E:01, register 270.
+    ///
+    /// Microstep resolution of the motor; from firmware 3.44 in step/direction mode as well
+    ///
+    /// Constant: [`objects::RSTPRES`].
     pub fn rstpres(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RSTPRES.at(&mut self.client)
     }
     /// Rkpiq: 0x2117:01, register 279.
+    ///
+    /// Proportional gain of the PI controller of the quadrature current
+    ///
+    /// Constant: [`objects::RKPIQ`].
     pub fn rkpiq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RKPIQ.at(&mut self.client)
     }
     /// Rkiiq: 0x2118:01, register 280.
+    ///
+    /// Integral gain of the PI controller of the quadrature current
+    ///
+    /// Constant: [`objects::RKIIQ`].
     pub fn rkiiq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RKIIQ.at(&mut self.client)
     }
     /// Rkpid: 0x2119:01, register 281.
+    ///
+    /// Proportional gain of the PI controller of the direct current
+    ///
+    /// Constant: [`objects::RKPID`].
     pub fn rkpid(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RKPID.at(&mut self.client)
     }
     /// Rkiid: 0x211A:01, register 282.
+    ///
+    /// Integral gain of the PI controller of the direct current
+    ///
+    /// Constant: [`objects::RKIID`].
     pub fn rkiid(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RKIID.at(&mut self.client)
     }
     /// Rkpvel: 0x211B:01, register 283.
+    ///
+    /// Proportional gain of the speed controller in closed loop
+    ///
+    /// Constant: [`objects::RKPVEL`].
     pub fn rkpvel(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RKPVEL.at(&mut self.client)
     }
     /// Rkivel: 0x211C:01, register 284.
+    ///
+    /// Integral gain of the speed controller in closed loop
+    ///
+    /// Constant: [`objects::RKIVEL`].
     pub fn rkivel(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RKIVEL.at(&mut self.client)
     }
     /// Rkcvel: 0x211D:01, register 285.
+    ///
+    /// Gain Kc of the speed controller in closed loop
+    ///
+    /// Constant: [`objects::RKCVEL`].
     pub fn rkcvel(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RKCVEL.at(&mut self.client)
     }
     /// Rkppos: 0x211E:01, register 286.
+    ///
+    /// Proportional gain of the position controller in closed loop
+    ///
+    /// Constant: [`objects::RKPPOS`].
     pub fn rkppos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RKPPOS.at(&mut self.client)
     }
     /// Rkipos: 0x211F:01, register 287.
+    ///
+    /// Integral gain of the position controller in closed loop
+    ///
+    /// Constant: [`objects::RKIPOS`].
     pub fn rkipos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RKIPOS.at(&mut self.client)
     }
     /// Rkcipos: 0x2120:01, register 288.
+    ///
+    /// Gain Kci of the position controller in closed loop
+    ///
+    /// Constant: [`objects::RKCIPOS`].
     pub fn rkcipos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RKCIPOS.at(&mut self.client)
     }
     /// Rkffpos: 0x2121:01, register 289.
+    ///
+    /// Gain Kff of the position controller in closed loop
+    ///
+    /// Constant: [`objects::RKFFPOS`].
     pub fn rkffpos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RKFFPOS.at(&mut self.client)
     }
     /// Rkafpos: 0x2122:01, register 290.
+    ///
+    /// Gain Kaf of the position controller in closed loop
+    ///
+    /// Constant: [`objects::RKAFPOS`].
     pub fn rkafpos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RKAFPOS.at(&mut self.client)
     }
     /// Rswacfw: 0x2123:01, register 291.
+    ///
+    /// Chooses current or speed for the acceleration feed-forward
+    ///
+    /// Constant: [`objects::RSWACFW`]. Values: [`AccelerationForward`](types::AccelerationForward).
     pub fn rswacfw(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::AccelerationForward> {
         objects::RSWACFW.at(&mut self.client)
     }
     /// Radpicur: 0x2124:01, register 292.
+    ///
+    /// Correction of the current controller's gains from greatest to least current, to stay responsive without oscillation
+    ///
+    /// Constant: [`objects::RADPICUR`].
     pub fn radpicur(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RADPICUR.at(&mut self.client)
     }
     /// Rstpressd: 0x212B:01, register 299.
+    ///
+    /// Microstep resolution in step/direction mode; without function where Rstpres has taken its place
+    ///
+    /// Constant: [`objects::RSTPRESSD`].
     pub fn rstpressd(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RSTPRESSD.at(&mut self.client)
     }
     /// Rkpstpdir: 0x212C:01, register 300.
+    ///
+    /// Proportional gain that ramps between incoming steps, in step/direction or gear mode
+    ///
+    /// Constant: [`objects::RKPSTPDIR`].
     pub fn rkpstpdir(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RKPSTPDIR.at(&mut self.client)
     }
     /// Rampfrq: 0x212D:01, register 301.
+    ///
+    /// Factor by which incoming steps are multiplied in closed loop, from 1 (1:1) to 10
+    ///
+    /// Constant: [`objects::RAMPFRQ`].
     pub fn rampfrq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RAMPFRQ.at(&mut self.client)
     }
     /// Rdefluxen: 0x2135:01, register 309.
+    ///
+    /// Enables flux weakening in open loop
+    ///
+    /// Constant: [`objects::RDEFLUXEN`].
     pub fn rdefluxen(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RDEFLUXEN.at(&mut self.client)
     }
     /// Rdefluxmin: 0x2136:01, register 310.
+    ///
+    /// Least current of flux weakening in open loop
+    ///
+    /// Constant: [`objects::RDEFLUXMIN`].
     pub fn rdefluxmin(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RDEFLUXMIN.at(&mut self.client)
     }
     /// Rphamode: 0x2137:01, register 311.
+    ///
+    /// Mode of the phase advance in open loop; the manual names no values
+    ///
+    /// Constant: [`objects::RPHAMODE`].
     pub fn rphamode(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPHAMODE.at(&mut self.client)
     }
     /// Rphagain: 0x2138:01, register 312.
+    ///
+    /// Gain of the phase advance in open loop
+    ///
+    /// Constant: [`objects::RPHAGAIN`].
     pub fn rphagain(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPHAGAIN.at(&mut self.client)
     }
     /// Rveladjopenmode: 0x213A:01, register 314.
+    ///
+    /// Correction of the speed in open loop, that is with feedback from the armature
+    ///
+    /// Constant: [`objects::RVELADJOPENMODE`].
     pub fn rveladjopenmode(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RVELADJOPENMODE.at(&mut self.client)
     }
     /// Radjcura: 0x215F:01, register 351.
+    ///
+    /// Adjusts the amplification of the current sensor's signal of phase A
+    ///
+    /// Constant: [`objects::RADJCURA`].
     pub fn radjcura(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RADJCURA.at(&mut self.client)
     }
     /// Radjcurb: 0x2160:01, register 352.
+    ///
+    /// Adjusts the amplification of the current sensor's signal of phase B
+    ///
+    /// Constant: [`objects::RADJCURB`].
     pub fn radjcurb(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RADJCURB.at(&mut self.client)
     }
     /// Rvbusoffs: 0x2170:01, register 368.
+    ///
+    /// Offset of the bus voltage's measurement
+    ///
+    /// Constant: [`objects::RVBUSOFFS`].
     pub fn rvbusoffs(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RVBUSOFFS.at(&mut self.client)
     }
     /// Rla: 0x2172:01, register 370.
+    ///
+    /// Current of phase A in counts of the converter
+    ///
+    /// Constant: [`objects::RLA`].
     pub fn rla(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RLA.at(&mut self.client)
     }
     /// Rlb: 0x2173:01, register 371.
+    ///
+    /// Current of phase B in counts of the converter
+    ///
+    /// Constant: [`objects::RLB`].
     pub fn rlb(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RLB.at(&mut self.client)
     }
     /// Rlan: 0x2174:01, register 372.
+    ///
+    /// Current of phase A, filtered
+    ///
+    /// Constant: [`objects::RLAN`].
     pub fn rlan(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RLAN.at(&mut self.client)
     }
     /// Rlbn: 0x2175:01, register 373.
+    ///
+    /// Current of phase B, filtered
+    ///
+    /// Constant: [`objects::RLBN`].
     pub fn rlbn(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RLBN.at(&mut self.client)
     }
     /// Rla\_offs: 0x2176:01, register 374.
+    ///
+    /// Computed offset of the current sensor of phase A
+    ///
+    /// Constant: [`objects::RLA_OFFS`].
     pub fn rla_offs(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RLA_OFFS.at(&mut self.client)
     }
     /// Rlb\_offs: 0x2177:01, register 375.
+    ///
+    /// Computed offset of the current sensor of phase B
+    ///
+    /// Constant: [`objects::RLB_OFFS`].
     pub fn rlb_offs(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RLB_OFFS.at(&mut self.client)
     }
     /// Rla\_offsEI: 0x2178:01, register 376.
+    ///
+    /// Manual correction of phase A's offset; Rloadsav command 137 saves it, 138 measures and saves it
+    ///
+    /// Constant: [`objects::RLA_OFFS_EI`].
     pub fn rla_offs_ei(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RLA_OFFS_EI.at(&mut self.client)
     }
     /// Rlb\_offsEI: 0x2179:01, register 377.
+    ///
+    /// Manual correction of phase B's offset; Rloadsav command 137 saves it, 138 measures and saves it
+    ///
+    /// Constant: [`objects::RLB_OFFS_EI`].
     pub fn rlb_offs_ei(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RLB_OFFS_EI.at(&mut self.client)
     }
     /// Rid: 0x217A:01, register 378.
+    ///
+    /// Direct current, component d of the motor current
+    ///
+    /// Constant: [`objects::RID`].
     pub fn rid(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RID.at(&mut self.client)
     }
     /// Riq: 0x217B:01, register 379.
+    ///
+    /// Quadrature current, component q of the motor current
+    ///
+    /// Constant: [`objects::RIQ`].
     pub fn riq(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RIQ.at(&mut self.client)
     }
     /// Ridcorr: 0x2184:01, register 388.
+    ///
+    /// Correction of the direct current in smart mode
+    ///
+    /// Constant: [`objects::RIDCORR`].
     pub fn ridcorr(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RIDCORR.at(&mut self.client)
     }
     /// Rpwmmode: 0x21EF:01, register 495.
+    ///
+    /// How the pulses that make the motor current are aligned; save with Rloadsav command 146 and cycle the power
+    ///
+    /// Constant: [`objects::RPWMMODE`]. Values: [`PwmAlignment`](types::PwmAlignment).
     pub fn rpwmmode(&mut self) -> objects::ReadWriteAccess<'_, C, types::PwmAlignment> {
         objects::RPWMMODE.at(&mut self.client)
     }
     /// RpidposKp: 0x477E:01, register 10110.
+    ///
+    /// Proportional gain of the position PID
+    ///
+    /// Constant: [`objects::RPIDPOS_KP`].
     pub fn rpidpos_kp(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RPIDPOS_KP.at(&mut self.client)
     }
     /// RpidposKi: 0x477F:01, register 10111.
+    ///
+    /// Integral gain of the position PID
+    ///
+    /// Constant: [`objects::RPIDPOS_KI`].
     pub fn rpidpos_ki(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RPIDPOS_KI.at(&mut self.client)
     }
     /// RpidposKd: 0x4780:01, register 10112.
+    ///
+    /// Derivative gain of the position PID
+    ///
+    /// Constant: [`objects::RPIDPOS_KD`].
     pub fn rpidpos_kd(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RPIDPOS_KD.at(&mut self.client)
     }
     /// RpidposTauKd: 0x4781:01, register 10113.
+    ///
+    /// Time constant of the filter on the position PID's derivative part
+    ///
+    /// Constant: [`objects::RPIDPOS_TAU_KD`].
     pub fn rpidpos_tau_kd(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RPIDPOS_TAU_KD.at(&mut self.client)
     }
     /// RpidposKff: 0x4782:01, register 10114.
+    ///
+    /// Feed-forward gain of the position PID
+    ///
+    /// Constant: [`objects::RPIDPOS_KFF`].
     pub fn rpidpos_kff(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RPIDPOS_KFF.at(&mut self.client)
     }
     /// RpidposKaf: 0x4783:01, register 10115.
+    ///
+    /// Acceleration feed-forward gain of the position PID
+    ///
+    /// Constant: [`objects::RPIDPOS_KAF`].
     pub fn rpidpos_kaf(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RPIDPOS_KAF.at(&mut self.client)
     }
     /// RpidposKffFc: 0x4784:01, register 10116.
+    ///
+    /// Cut-off frequency of the low-pass filter on the position PID's feed-forward
+    ///
+    /// Constant: [`objects::RPIDPOS_KFF_FC`].
     pub fn rpidpos_kff_fc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPIDPOS_KFF_FC.at(&mut self.client)
     }
     /// RpidposKaw: 0x4785:01, register 10117.
+    ///
+    /// Anti-windup gain of the position PID
+    ///
+    /// Constant: [`objects::RPIDPOS_KAW`].
     pub fn rpidpos_kaw(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RPIDPOS_KAW.at(&mut self.client)
     }
     /// RpidvelKp: 0x4786:01, register 10118.
+    ///
+    /// Proportional gain of the speed PID
+    ///
+    /// Constant: [`objects::RPIDVEL_KP`].
     pub fn rpidvel_kp(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RPIDVEL_KP.at(&mut self.client)
     }
     /// RpidvelKi: 0x4787:01, register 10119.
+    ///
+    /// Integral gain of the speed PID
+    ///
+    /// Constant: [`objects::RPIDVEL_KI`].
     pub fn rpidvel_ki(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RPIDVEL_KI.at(&mut self.client)
     }
     /// RpidvelKd: 0x4788:01, register 10120.
+    ///
+    /// Derivative gain of the speed PID
+    ///
+    /// Constant: [`objects::RPIDVEL_KD`].
     pub fn rpidvel_kd(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RPIDVEL_KD.at(&mut self.client)
     }
     /// RpidveltauKd: 0x4789:01, register 10121.
+    ///
+    /// Time constant of the filter on the speed PID's derivative part
+    ///
+    /// Constant: [`objects::RPIDVELTAU_KD`].
     pub fn rpidveltau_kd(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RPIDVELTAU_KD.at(&mut self.client)
     }
     /// RpidvelKff: 0x478A:01, register 10122.
+    ///
+    /// Feed-forward gain of the speed PID
+    ///
+    /// Constant: [`objects::RPIDVEL_KFF`].
     pub fn rpidvel_kff(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RPIDVEL_KFF.at(&mut self.client)
     }
     /// RpidvelKaf: 0x478B:01, register 10123.
+    ///
+    /// Acceleration feed-forward gain of the speed PID
+    ///
+    /// Constant: [`objects::RPIDVEL_KAF`].
     pub fn rpidvel_kaf(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RPIDVEL_KAF.at(&mut self.client)
     }
     /// RpidvelKffFc: 0x478C:01, register 10124.
+    ///
+    /// Cut-off frequency of the low-pass filter on the speed PID's feed-forward
+    ///
+    /// Constant: [`objects::RPIDVEL_KFF_FC`].
     pub fn rpidvel_kff_fc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPIDVEL_KFF_FC.at(&mut self.client)
     }
     /// RpidvelKaw: 0x478D:01, register 10125.
+    ///
+    /// Anti-windup gain of the speed PID
+    ///
+    /// Constant: [`objects::RPIDVEL_KAW`].
     pub fn rpidvel_kaw(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RPIDVEL_KAW.at(&mut self.client)
     }
     /// RfilvelFc: 0x478E:01, register 10126.
+    ///
+    /// Cut-off frequency of the filter at the speed loop's input
+    ///
+    /// Constant: [`objects::RFILVEL_FC`].
     pub fn rfilvel_fc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RFILVEL_FC.at(&mut self.client)
     }
     /// RfilvelPG: 0x478F:01, register 10127.
+    ///
+    /// Peak gain of the filter at the speed loop's input
+    ///
+    /// Constant: [`objects::RFILVEL_PG`].
     pub fn rfilvel_pg(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RFILVEL_PG.at(&mut self.client)
     }
     /// RfilcurFc: 0x4790:01, register 10128.
+    ///
+    /// Cut-off frequency of the filter at the speed loop's output
+    ///
+    /// Constant: [`objects::RFILCUR_FC`].
     pub fn rfilcur_fc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RFILCUR_FC.at(&mut self.client)
     }
     /// RfilcurPG: 0x4791:01, register 10129.
+    ///
+    /// Peak gain of the filter at the speed loop's output
+    ///
+    /// Constant: [`objects::RFILCUR_PG`].
     pub fn rfilcur_pg(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RFILCUR_PG.at(&mut self.client)
     }
     /// Rpidposinpact: 0x47AC:01, register 10156.
+    ///
+    /// Input of the position PID at present
+    ///
+    /// Constant: [`objects::RPIDPOSINPACT`].
     pub fn rpidposinpact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDPOSINPACT.at(&mut self.client)
     }
     /// Rpidpospropact: 0x47AE:01, register 10158.
+    ///
+    /// Proportional part of the position PID at present
+    ///
+    /// Constant: [`objects::RPIDPOSPROPACT`].
     pub fn rpidpospropact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDPOSPROPACT.at(&mut self.client)
     }
     /// Rpidposintact: 0x47B0:01, register 10160.
+    ///
+    /// Integral part of the position PID at present
+    ///
+    /// Constant: [`objects::RPIDPOSINTACT`].
     pub fn rpidposintact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDPOSINTACT.at(&mut self.client)
     }
     /// Rpidposderact: 0x47B2:01, register 10162.
+    ///
+    /// Derivative part of the position PID at present
+    ///
+    /// Constant: [`objects::RPIDPOSDERACT`].
     pub fn rpidposderact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDPOSDERACT.at(&mut self.client)
     }
     /// Rpidposffact: 0x47B4:01, register 10164.
+    ///
+    /// Feed-forward part of the position PID at present
+    ///
+    /// Constant: [`objects::RPIDPOSFFACT`].
     pub fn rpidposffact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDPOSFFACT.at(&mut self.client)
     }
     /// Rpidposafact: 0x47B6:01, register 10166.
+    ///
+    /// Acceleration feed-forward part of the position PID at present
+    ///
+    /// Constant: [`objects::RPIDPOSAFACT`].
     pub fn rpidposafact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDPOSAFACT.at(&mut self.client)
     }
     /// Rpidposoutact: 0x47B8:01, register 10168.
+    ///
+    /// Output of the position PID at present
+    ///
+    /// Constant: [`objects::RPIDPOSOUTACT`].
     pub fn rpidposoutact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDPOSOUTACT.at(&mut self.client)
     }
     /// Rpidvelinpact: 0x47BA:01, register 10170.
+    ///
+    /// Input of the speed PID at present
+    ///
+    /// Constant: [`objects::RPIDVELINPACT`].
     pub fn rpidvelinpact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDVELINPACT.at(&mut self.client)
     }
     /// Rpidvelpropact: 0x47BC:01, register 10172.
+    ///
+    /// Proportional part of the speed PID at present
+    ///
+    /// Constant: [`objects::RPIDVELPROPACT`].
     pub fn rpidvelpropact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDVELPROPACT.at(&mut self.client)
     }
     /// Rpidvelintact: 0x47BE:01, register 10174.
+    ///
+    /// Integral part of the speed PID at present
+    ///
+    /// Constant: [`objects::RPIDVELINTACT`].
     pub fn rpidvelintact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDVELINTACT.at(&mut self.client)
     }
     /// Rpidvelderact: 0x47C0:01, register 10176.
+    ///
+    /// Derivative part of the speed PID at present
+    ///
+    /// Constant: [`objects::RPIDVELDERACT`].
     pub fn rpidvelderact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDVELDERACT.at(&mut self.client)
     }
     /// Rpidvelffact: 0x47C2:01, register 10178.
+    ///
+    /// Feed-forward part of the speed PID at present
+    ///
+    /// Constant: [`objects::RPIDVELFFACT`].
     pub fn rpidvelffact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDVELFFACT.at(&mut self.client)
     }
     /// Rpidvelafact: 0x47C4:01, register 10180.
+    ///
+    /// Acceleration feed-forward part of the speed PID at present
+    ///
+    /// Constant: [`objects::RPIDVELAFACT`].
     pub fn rpidvelafact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDVELAFACT.at(&mut self.client)
     }
     /// Rpidveloutact: 0x47C6:01, register 10182.
+    ///
+    /// Output of the speed PID at present
+    ///
+    /// Constant: [`objects::RPIDVELOUTACT`].
     pub fn rpidveloutact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RPIDVELOUTACT.at(&mut self.client)
     }
     /// Rfilvelinpact: 0x47C8:01, register 10184.
+    ///
+    /// Value before the filter at the speed loop's input
+    ///
+    /// Constant: [`objects::RFILVELINPACT`].
     pub fn rfilvelinpact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RFILVELINPACT.at(&mut self.client)
     }
     /// Rfilveloutact: 0x47CA:01, register 10186.
+    ///
+    /// Value after the filter at the speed loop's input
+    ///
+    /// Constant: [`objects::RFILVELOUTACT`].
     pub fn rfilveloutact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RFILVELOUTACT.at(&mut self.client)
     }
     /// Rfilcurinpact: 0x47CC:01, register 10188.
+    ///
+    /// Value before the filter at the speed loop's output
+    ///
+    /// Constant: [`objects::RFILCURINPACT`].
     pub fn rfilcurinpact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RFILCURINPACT.at(&mut self.client)
     }
     /// Rfilcuroutact: 0x47CE:01, register 10190.
+    ///
+    /// Value after the filter at the speed loop's output
+    ///
+    /// Constant: [`objects::RFILCUROUTACT`].
     pub fn rfilcuroutact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RFILCUROUTACT.at(&mut self.client)
     }
     /// Rmotype: 0x20DA:01, register 218.
+    ///
+    /// Position of the configured motor in the motor database
+    ///
+    /// Constant: [`objects::RMOTYPE`].
     pub fn rmotype(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RMOTYPE.at(&mut self.client)
     }
     /// Rmotres: 0x210F:01, register 271.
+    ///
+    /// Phase resistance of the motor
+    ///
+    /// Constant: [`objects::RMOTRES`].
     pub fn rmotres(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 10>> {
         objects::RMOTRES.at(&mut self.client)
     }
     /// Rmotind: 0x2110:01, register 272.
+    ///
+    /// Phase inductance of the motor
+    ///
+    /// Constant: [`objects::RMOTIND`].
     pub fn rmotind(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 10>> {
         objects::RMOTIND.at(&mut self.client)
     }
     /// Rmotkfm: 0x2111:01, register 273.
+    ///
+    /// Back-EMF constant of the motor: phase inductance in mH   nominal current in mA   100 / 1000
+    ///
+    /// Constant: [`objects::RMOTKFM`].
     pub fn rmotkfm(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 100>> {
         objects::RMOTKFM.at(&mut self.client)
     }
     /// Rmottensnom: 0x2112:01, register 274.
+    ///
+    /// Nominal voltage of the motor
+    ///
+    /// Constant: [`objects::RMOTTENSNOM`].
     pub fn rmottensnom(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RMOTTENSNOM.at(&mut self.client)
     }
     /// Rmotiph: 0x2113:01, register 275.
+    ///
+    /// Nominal phase current of the motor
+    ///
+    /// Constant: [`objects::RMOTIPH`].
     pub fn rmotiph(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RMOTIPH.at(&mut self.client)
     }
     /// Rmotktq: 0x2114:01, register 276.
+    ///
+    /// Torque constant of the motor
+    ///
+    /// Constant: [`objects::RMOTKTQ`].
     pub fn rmotktq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RMOTKTQ.at(&mut self.client)
     }
     /// Rmotvelnom: 0x2115:01, register 277.
+    ///
+    /// Nominal speed of the motor
+    ///
+    /// Constant: [`objects::RMOTVELNOM`].
     pub fn rmotvelnom(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RMOTVELNOM.at(&mut self.client)
     }
     /// Rtim0: 0x209B:01, register 155.
+    ///
+    /// Timer that counts down to 0, by one every millisecond
+    ///
+    /// Constant: [`objects::RTIM0`].
     pub fn rtim0(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RTIM0.at(&mut self.client)
     }
     /// Rtim1: 0x209D:01, register 157.
+    ///
+    /// Timer that counts down to 0, by one every millisecond
+    ///
+    /// Constant: [`objects::RTIM1`].
     pub fn rtim1(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RTIM1.at(&mut self.client)
     }
     /// Rtim2: 0x209F:01, register 159.
+    ///
+    /// Timer that counts down to 0, by one every millisecond
+    ///
+    /// Constant: [`objects::RTIM2`].
     pub fn rtim2(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RTIM2.at(&mut self.client)
     }
     /// Rtim3: 0x20A1:01, register 161.
+    ///
+    /// Timer that counts down to 0, by one every millisecond
+    ///
+    /// Constant: [`objects::RTIM3`].
     pub fn rtim3(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RTIM3.at(&mut self.client)
     }
     /// Rtim4: 0x2218:01, register 536.
+    ///
+    /// Timer that counts down to 0, by one every millisecond
+    ///
+    /// Constant: [`objects::RTIM4`].
     pub fn rtim4(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RTIM4.at(&mut self.client)
     }
     /// Rtim5: 0x221A:01, register 538.
+    ///
+    /// Timer that counts down to 0, by one every millisecond
+    ///
+    /// Constant: [`objects::RTIM5`].
     pub fn rtim5(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RTIM5.at(&mut self.client)
     }
     /// Rtim6: 0x221C:01, register 540.
+    ///
+    /// Timer that counts down to 0, by one every millisecond
+    ///
+    /// Constant: [`objects::RTIM6`].
     pub fn rtim6(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RTIM6.at(&mut self.client)
     }
     /// Rtim7: 0x221E:01, register 542.
+    ///
+    /// Timer that counts down to 0, by one every millisecond
+    ///
+    /// Constant: [`objects::RTIM7`].
     pub fn rtim7(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RTIM7.at(&mut self.client)
     }
     /// Rfreerun: 0x47AA:01, register 10154.
+    ///
+    /// Counter that runs freely, by one every millisecond
+    ///
+    /// Constant: [`objects::RFREERUN`].
     pub fn rfreerun(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RFREERUN.at(&mut self.client)
     }
     /// Rtempact: 0x2094:01, register 148.
+    ///
+    /// Temperature of the drive at present
+    ///
+    /// Constant: [`objects::RTEMPACT`].
     pub fn rtempact(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
         objects::RTEMPACT.at(&mut self.client)
     }
     /// Rtensact: 0x2095:01, register 149.
+    ///
+    /// Voltage of the drive's DC bus at present
+    ///
+    /// Constant: [`objects::RTENSACT`].
     pub fn rtensact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RTENSACT.at(&mut self.client)
     }
     /// Rcurdact: 0x2096:01, register 150.
+    ///
+    /// Current that the drive draws from its DC supply at present
+    ///
+    /// Constant: [`objects::RCURDACT`].
     pub fn rcurdact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RCURDACT.at(&mut self.client)
     }
     /// Rswrev: 0x20BE:01, register 190.
+    ///
+    /// Revision of the software; from firmware 6 see Rindswrev
+    ///
+    /// Constant: [`objects::RSWREV`].
     pub fn rswrev(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RSWREV.at(&mut self.client)
     }
     /// Rhwrev: 0x20BF:01, register 191.
+    ///
+    /// Revision of the hardware; the maker writes it before Rloadsav command 136
+    ///
+    /// Constant: [`objects::RHWREV`].
     pub fn rhwrev(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RHWREV.at(&mut self.client)
     }
     /// Rserial: 0x20C0:01, register 192.
+    ///
+    /// Serial number, set at the final test and locked once it isn't 0
+    ///
+    /// Constant: [`objects::RSERIAL`].
     pub fn rserial(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RSERIAL.at(&mut self.client)
     }
     /// Rrotsw: 0x20C5:01, register 197.
+    ///
+    /// Position of the rotary switches, as the drive has read it
+    ///
+    /// Constant: [`objects::RROTSW`].
     pub fn rrotsw(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RROTSW.at(&mut self.client)
     }
     /// Rhwoptions: 0x2157:01, register 343.
+    ///
+    /// Hardware options that are fitted and active
+    ///
+    /// Constant: [`objects::RHWOPTIONS`]. Values: [`HardwareOptions`](types::HardwareOptions).
     pub fn rhwoptions(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::HardwareOptions> {
         objects::RHWOPTIONS.at(&mut self.client)
     }
     /// Rindtype: 0x20C6:01, register 198.
+    ///
+    /// Model of the drive, as one of 126 codes; from firmware 5.50 it reads as 0xFFFF
+    ///
+    /// Constant: [`objects::RINDTYPE`]. Values: [`ModelCode`](types::ModelCode).
     pub fn rindtype(&mut self) -> objects::ReadOnlyAccess<'_, C, types::ModelCode> {
         objects::RINDTYPE.at(&mut self.client)
     }
     /// Rindfamily: 0x4710:01, register 10000.
+    ///
+    /// Family of the drive as a decimal number, such as 1204, 2204 or 5206
+    ///
+    /// Constant: [`objects::RINDFAMILY`].
     pub fn rindfamily(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RINDFAMILY.at(&mut self.client)
     }
     /// Rindmodel: 0x4711:01, register 10001.
+    ///
+    /// Voltage, application, platform and communication chip of the drive
+    ///
+    /// Constant: [`objects::RINDMODEL`]. Values: [`ModelDefinition`](types::ModelDefinition).
     pub fn rindmodel(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ModelDefinition> {
         objects::RINDMODEL.at(&mut self.client)
     }
     /// Rindfielbus: 0x4712:01, register 10002.
+    ///
+    /// Fieldbus that the drive has
+    ///
+    /// Constant: [`objects::RINDFIELBUS`]. Values: [`FieldbusKind`](types::FieldbusKind).
     pub fn rindfielbus(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::FieldbusKind> {
         objects::RINDFIELBUS.at(&mut self.client)
     }
     /// Rindoptions: 0x4713:01, register 10003.
+    ///
+    /// Options that the drive has: the absolute encoder
+    ///
+    /// Constant: [`objects::RINDOPTIONS`]. Values: [`DriveOptions`](types::DriveOptions).
     pub fn rindoptions(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::DriveOptions> {
         objects::RINDOPTIONS.at(&mut self.client)
     }
     /// Rindregset: 0x4714:01, register 10004.
+    ///
+    /// Revision of the register map
+    ///
+    /// Constant: [`objects::RINDREGSET`]. Values: [`RegisterMap`](types::RegisterMap).
     pub fn rindregset(&mut self) -> objects::ReadOnlyAccess<'_, C, types::RegisterMap> {
         objects::RINDREGSET.at(&mut self.client)
     }
     /// Rindswrev: 0x4715:01, register 10005.
+    ///
+    /// Revision of the software
+    ///
+    /// Constant: [`objects::RINDSWREV`].
     pub fn rindswrev(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RINDSWREV.at(&mut self.client)
     }
     /// Rindhwrev: 0x4716:01, register 10006.
+    ///
+    /// Revision of the hardware
+    ///
+    /// Constant: [`objects::RINDHWREV`].
     pub fn rindhwrev(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RINDHWREV.at(&mut self.client)
     }
     /// Rindsn: 0x4717:01, register 10007.
+    ///
+    /// Serial number, a copy of Rserial
+    ///
+    /// Constant: [`objects::RINDSN`].
     pub fn rindsn(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RINDSN.at(&mut self.client)
     }
     /// Rtestintmot: 0x202A:01, register 42.
+    ///
+    /// Constant that shows, when read as 32 bits, whether the words come in Intel or Motorola order
+    ///
+    /// Constant: [`objects::RTESTINTMOT`].
     pub fn rtestintmot(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RTESTINTMOT.at(&mut self.client)
     }
     /// Rprofists: 0x20A6:01, register 166.
+    ///
+    /// State of the Profibus communication
+    ///
+    /// Constant: [`objects::RPROFISTS`]. Values: [`ProfibusState`](types::ProfibusState).
     pub fn rprofists(&mut self) -> objects::ReadOnlyAccess<'_, C, types::ProfibusState> {
         objects::RPROFISTS.at(&mut self.client)
     }
     /// Rprofibaud: 0x20A7:01, register 167.
+    ///
+    /// Bit rate of Profibus
+    ///
+    /// Constant: [`objects::RPROFIBAUD`]. Values: [`ProfibusBitRate`](types::ProfibusBitRate).
     pub fn rprofibaud(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ProfibusBitRate> {
         objects::RPROFIBAUD.at(&mut self.client)
     }
     /// Rprofiaddr: 0x20A8:01, register 168.
+    ///
+    /// Added to the Profibus address set by hardware
+    ///
+    /// Constant: [`objects::RPROFIADDR`].
     pub fn rprofiaddr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPROFIADDR.at(&mut self.client)
     }
     /// Rcanbaud: 0x20A9:01, register 169.
+    ///
+    /// Bit rate of CAN
+    ///
+    /// Constant: [`objects::RCANBAUD`]. Values: [`CanBaudRate`](types::CanBaudRate).
     pub fn rcanbaud(&mut self) -> objects::ReadWriteAccess<'_, C, types::CanBaudRate> {
         objects::RCANBAUD.at(&mut self.client)
     }
     /// Rcanaddr: 0x20AA:01, register 170.
+    ///
+    /// Added to the CAN address set by hardware
+    ///
+    /// Constant: [`objects::RCANADDR`].
     pub fn rcanaddr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCANADDR.at(&mut self.client)
     }
     /// Rcantx: 0x20AB:01, register 171.
+    ///
+    /// Number of CAN messages sent
+    ///
+    /// Constant: [`objects::RCANTX`].
     pub fn rcantx(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RCANTX.at(&mut self.client)
     }
     /// Rcanrx: 0x20AD:01, register 173.
+    ///
+    /// Number of CAN messages received
+    ///
+    /// Constant: [`objects::RCANRX`].
     pub fn rcanrx(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RCANRX.at(&mut self.client)
     }
     /// Rcanovr: 0x20AF:01, register 175.
+    ///
+    /// Number of CAN overruns
+    ///
+    /// Constant: [`objects::RCANOVR`].
     pub fn rcanovr(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RCANOVR.at(&mut self.client)
     }
     /// Rcanerr: 0x20B0:01, register 176.
+    ///
+    /// Number of CAN errors
+    ///
+    /// Constant: [`objects::RCANERR`].
     pub fn rcanerr(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RCANERR.at(&mut self.client)
     }
     /// Rcanidx: 0x20B1:01, register 177.
+    ///
+    /// Index of the CANopen object that Rcancmd reads or writes
+    ///
+    /// Constant: [`objects::RCANIDX`].
     pub fn rcanidx(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCANIDX.at(&mut self.client)
     }
     /// Rcansub: 0x20B2:01, register 178.
+    ///
+    /// Sub-index of the CANopen object that Rcancmd reads or writes
+    ///
+    /// Constant: [`objects::RCANSUB`].
     pub fn rcansub(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCANSUB.at(&mut self.client)
     }
     /// Rcannew: 0x20B3:01, register 179.
+    ///
+    /// Value that Rcancmd writes to the CANopen object
+    ///
+    /// Constant: [`objects::RCANNEW`].
     pub fn rcannew(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RCANNEW.at(&mut self.client)
     }
     /// Rcancmd: 0x20B5:01, register 181.
+    ///
+    /// Writes Rcannew to the object of Rcanidx and Rcansub, or reads that object into Rcanact
+    ///
+    /// Constant: [`objects::RCANCMD`]. Values: [`CanObjectCommand`](types::CanObjectCommand).
     pub fn rcancmd(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::CanObjectCommand> {
         objects::RCANCMD.at(&mut self.client)
     }
     /// Rcanact: 0x20B6:01, register 182.
+    ///
+    /// Value that Rcancmd has read from the CANopen object
+    ///
+    /// Constant: [`objects::RCANACT`].
     pub fn rcanact(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RCANACT.at(&mut self.client)
     }
     /// Rcansts: 0x20B8:01, register 184.
+    ///
+    /// State of CANopen, as its red and green LED show it
+    ///
+    /// Constant: [`objects::RCANSTS`]. Values: [`CanopenStatus`](types::CanopenStatus).
     pub fn rcansts(&mut self) -> objects::ReadOnlyAccess<'_, C, types::CanopenStatus> {
         objects::RCANSTS.at(&mut self.client)
     }
     /// Rserbaud: 0x20B9:01, register 185.
+    ///
+    /// Bit rate of the serial port
+    ///
+    /// Constant: [`objects::RSERBAUD`]. Values: [`SerialBaudRate`](types::SerialBaudRate).
     pub fn rserbaud(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::SerialBaudRate> {
         objects::RSERBAUD.at(&mut self.client)
     }
     /// Rserpar: 0x20BA:01, register 186.
+    ///
+    /// Parity and stop bits of the serial port
+    ///
+    /// Constant: [`objects::RSERPAR`]. Values: [`SerialFormat`](types::SerialFormat).
     pub fn rserpar(&mut self) -> objects::ReadWriteAccess<'_, C, types::SerialFormat> {
         objects::RSERPAR.at(&mut self.client)
     }
     /// Rserdly: 0x20BB:01, register 187.
+    ///
+    /// Delay before the drive replies on the serial port
+    ///
+    /// Constant: [`objects::RSERDLY`].
     pub fn rserdly(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RSERDLY.at(&mut self.client)
     }
     /// Rseraddr: 0x20BC:01, register 188.
+    ///
+    /// Added to the serial address set by hardware
+    ///
+    /// Constant: [`objects::RSERADDR`].
     pub fn rseraddr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RSERADDR.at(&mut self.client)
     }
     /// Rintmot: 0x20BD:01, register 189.
+    ///
+    /// Order of the words of 32-bit registers on the serial port, RS232 or RS485
+    ///
+    /// Constant: [`objects::RINTMOT`]. Values: [`WordOrder`](types::WordOrder).
     pub fn rintmot(&mut self) -> objects::ReadWriteAccess<'_, C, types::WordOrder> {
         objects::RINTMOT.at(&mut self.client)
     }
     /// Rfinsenable: 0x212E:01, register 302.
+    ///
+    /// Enables Omron FINS/TCP on drives that communicate by Ethernet
+    ///
+    /// Constant: [`objects::RFINSENABLE`].
     pub fn rfinsenable(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RFINSENABLE.at(&mut self.client)
     }
     /// Rfinsnode: 0x212F:01, register 303.
+    ///
+    /// Station number with Omron FINS/TCP
+    ///
+    /// Constant: [`objects::RFINSNODE`].
     pub fn rfinsnode(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RFINSNODE.at(&mut self.client)
     }
     /// Rmdbport: 0x2130:01, register 304.
+    ///
+    /// TCP port of Modbus/TCP
+    ///
+    /// Constant: [`objects::RMDBPORT`].
     pub fn rmdbport(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RMDBPORT.at(&mut self.client)
     }
     /// Rethintmot: 0x2131:01, register 305.
+    ///
+    /// Order of the words of 32-bit registers with Modbus/TCP and other Ethernet protocols
+    ///
+    /// Constant: [`objects::RETHINTMOT`]. Values: [`WordOrder`](types::WordOrder).
     pub fn rethintmot(&mut self) -> objects::ReadWriteAccess<'_, C, types::WordOrder> {
         objects::RETHINTMOT.at(&mut self.client)
     }
     /// Rextmdbtime: 0x2134:01, register 308.
+    ///
+    /// Additional time between Modbus RTU messages, for slow remote connections
+    ///
+    /// Constant: [`objects::REXTMDBTIME`].
     pub fn rextmdbtime(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::REXTMDBTIME.at(&mut self.client)
     }
     /// Rstatuscan: 0x2161:01, register 353.
+    ///
+    /// Errors of agreement between controlword and statusword on CANopen
+    ///
+    /// Constant: [`objects::RSTATUSCAN`].
     pub fn rstatuscan(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RSTATUSCAN.at(&mut self.client)
     }
     /// Rcanmodeofoperation: 0x2162:01, register 354.
+    ///
+    /// Copy of object 0x6060, modes of operation
+    ///
+    /// Constant: [`objects::RCANMODEOFOPERATION`]. Values: [`ModesOfOperationI16`](types::ModesOfOperationI16).
     pub fn rcanmodeofoperation(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ModesOfOperationI16> {
         objects::RCANMODEOFOPERATION.at(&mut self.client)
     }
     /// Rswrevariantais: 0x2163:01, register 355.
+    ///
+    /// Firmware version of the Antaios chip; from firmware 6 see Rswrevariantaios
+    ///
+    /// Constant: [`objects::RSWREVARIANTAIS`].
     pub fn rswrevariantais(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RSWREVARIANTAIS.at(&mut self.client)
     }
     /// Rhwrevariantais: 0x2164:01, register 356.
+    ///
+    /// Hardware version of the Antaios chip; from firmware 6 see Rhwrevariantaios
+    ///
+    /// Constant: [`objects::RHWREVARIANTAIS`].
     pub fn rhwrevariantais(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RHWREVARIANTAIS.at(&mut self.client)
     }
     /// Rethercatid: 0x2165:01, register 357.
+    ///
+    /// Explicit address of the drive on EtherCAT
+    ///
+    /// Constant: [`objects::RETHERCATID`].
     pub fn rethercatid(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHERCATID.at(&mut self.client)
     }
     /// Rstrmodeofoperation: 0x2166:01, register 358.
+    ///
+    /// Value that object 0x6060 has after power-on, on CANopen and EtherCAT
+    ///
+    /// Constant: [`objects::RSTRMODEOFOPERATION`]. Values: [`ModesOfOperationI16`](types::ModesOfOperationI16).
     pub fn rstrmodeofoperation(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ModesOfOperationI16> {
         objects::RSTRMODEOFOPERATION.at(&mut self.client)
     }
     /// Rds402compatibility: 0x216D:01, register 365.
+    ///
+    /// Adapts the CiA 402 state machine to masters that expect something else
+    ///
+    /// Constant: [`objects::RDS402COMPATIBILITY`]. Values: [`Ds402Compatibility`](types::Ds402Compatibility).
     pub fn rds402compatibility(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::Ds402Compatibility> {
         objects::RDS402COMPATIBILITY.at(&mut self.client)
     }
     /// Rethlocipaddr32: 0x2203:01, register 515.
+    ///
+    /// Bytes 3 and 2 of the drive's own IP address
+    ///
+    /// Constant: [`objects::RETHLOCIPADDR32`].
     pub fn rethlocipaddr32(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHLOCIPADDR32.at(&mut self.client)
     }
     /// Rethlocipaddr10: 0x2204:01, register 516.
+    ///
+    /// Bytes 1 and 0 of the drive's own IP address
+    ///
+    /// Constant: [`objects::RETHLOCIPADDR10`].
     pub fn rethlocipaddr10(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHLOCIPADDR10.at(&mut self.client)
     }
     /// Rethsubnet32: 0x2205:01, register 517.
+    ///
+    /// Bytes 3 and 2 of the subnet mask
+    ///
+    /// Constant: [`objects::RETHSUBNET32`].
     pub fn rethsubnet32(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHSUBNET32.at(&mut self.client)
     }
     /// Rethsubnet10: 0x2206:01, register 518.
+    ///
+    /// Bytes 1 and 0 of the subnet mask
+    ///
+    /// Constant: [`objects::RETHSUBNET10`].
     pub fn rethsubnet10(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHSUBNET10.at(&mut self.client)
     }
     /// Rethgwaddr32: 0x2207:01, register 519.
+    ///
+    /// Bytes 3 and 2 of the gateway's IP address
+    ///
+    /// Constant: [`objects::RETHGWADDR32`].
     pub fn rethgwaddr32(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHGWADDR32.at(&mut self.client)
     }
     /// Rethgwaddr10: 0x2208:01, register 520.
+    ///
+    /// Bytes 1 and 0 of the gateway's IP address
+    ///
+    /// Constant: [`objects::RETHGWADDR10`].
     pub fn rethgwaddr10(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHGWADDR10.at(&mut self.client)
     }
     /// Rethmacaddr054: 0x2209:01, register 521.
+    ///
+    /// Bytes 5 and 4 of MAC address 0; write this one first of the three, command 140 saves them
+    ///
+    /// Constant: [`objects::RETHMACADDR054`].
     pub fn rethmacaddr054(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHMACADDR054.at(&mut self.client)
     }
     /// Rethmacaddr032: 0x220A:01, register 522.
+    ///
+    /// Bytes 3 and 2 of MAC address 0; write this one second of the three, command 140 saves them
+    ///
+    /// Constant: [`objects::RETHMACADDR032`].
     pub fn rethmacaddr032(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHMACADDR032.at(&mut self.client)
     }
     /// Rethmacaddr010: 0x220B:01, register 523.
+    ///
+    /// Bytes 1 and 0 of MAC address 0; write this one last, then at once Rloadsav command 140
+    ///
+    /// Constant: [`objects::RETHMACADDR010`].
     pub fn rethmacaddr010(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHMACADDR010.at(&mut self.client)
     }
     /// Rethmacaddr154: 0x220C:01, register 524.
+    ///
+    /// Bytes 5 and 4 of MAC address 1, of PROFINET port 1
+    ///
+    /// Constant: [`objects::RETHMACADDR154`].
     pub fn rethmacaddr154(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHMACADDR154.at(&mut self.client)
     }
     /// Rethmacaddr132: 0x220D:01, register 525.
+    ///
+    /// Bytes 3 and 2 of MAC address 1, of PROFINET port 1
+    ///
+    /// Constant: [`objects::RETHMACADDR132`].
     pub fn rethmacaddr132(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHMACADDR132.at(&mut self.client)
     }
     /// Rethmacaddr110: 0x220E:01, register 526.
+    ///
+    /// Bytes 1 and 0 of MAC address 1, of PROFINET port 1
+    ///
+    /// Constant: [`objects::RETHMACADDR110`].
     pub fn rethmacaddr110(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHMACADDR110.at(&mut self.client)
     }
     /// Rethmacaddr254: 0x220F:01, register 527.
+    ///
+    /// Bytes 5 and 4 of MAC address 2, of PROFINET port 2
+    ///
+    /// Constant: [`objects::RETHMACADDR254`].
     pub fn rethmacaddr254(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHMACADDR254.at(&mut self.client)
     }
     /// Rethmacaddr232: 0x2210:01, register 528.
+    ///
+    /// Bytes 3 and 2 of MAC address 2, of PROFINET port 2
+    ///
+    /// Constant: [`objects::RETHMACADDR232`].
     pub fn rethmacaddr232(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHMACADDR232.at(&mut self.client)
     }
     /// Rethmacaddr210: 0x2211:01, register 529.
+    ///
+    /// Bytes 1 and 0 of MAC address 2, of PROFINET port 2
+    ///
+    /// Constant: [`objects::RETHMACADDR210`].
     pub fn rethmacaddr210(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHMACADDR210.at(&mut self.client)
     }
     /// Rethprotsock1: 0x2220:01, register 544.
+    ///
+    /// Protocol of socket 1
+    ///
+    /// Constant: [`objects::RETHPROTSOCK1`]. Values: [`SocketProtocol`](types::SocketProtocol).
     pub fn rethprotsock1(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::SocketProtocol> {
         objects::RETHPROTSOCK1.at(&mut self.client)
     }
     /// Rethprotsock2: 0x2221:01, register 545.
+    ///
+    /// Protocol of socket 2
+    ///
+    /// Constant: [`objects::RETHPROTSOCK2`]. Values: [`SocketProtocol`](types::SocketProtocol).
     pub fn rethprotsock2(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::SocketProtocol> {
         objects::RETHPROTSOCK2.at(&mut self.client)
     }
     /// Rethprotsock3: 0x2222:01, register 546.
+    ///
+    /// Protocol of socket 3
+    ///
+    /// Constant: [`objects::RETHPROTSOCK3`]. Values: [`SocketProtocol`](types::SocketProtocol).
     pub fn rethprotsock3(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::SocketProtocol> {
         objects::RETHPROTSOCK3.at(&mut self.client)
     }
     /// Rethprotsock4: 0x2223:01, register 547.
+    ///
+    /// Reserved; by its name the protocol of socket 4
+    ///
+    /// Constant: [`objects::RETHPROTSOCK4`].
     pub fn rethprotsock4(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHPROTSOCK4.at(&mut self.client)
     }
     /// Rethprotsock5: 0x2224:01, register 548.
+    ///
+    /// Reserved; by its name the protocol of socket 5
+    ///
+    /// Constant: [`objects::RETHPROTSOCK5`].
     pub fn rethprotsock5(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHPROTSOCK5.at(&mut self.client)
     }
     /// Rethprotsock6: 0x2225:01, register 549.
+    ///
+    /// Reserved; by its name the protocol of socket 6
+    ///
+    /// Constant: [`objects::RETHPROTSOCK6`].
     pub fn rethprotsock6(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHPROTSOCK6.at(&mut self.client)
     }
     /// Rethprotsock7: 0x2226:01, register 550.
+    ///
+    /// Reserved; by its name the protocol of socket 7
+    ///
+    /// Constant: [`objects::RETHPROTSOCK7`].
     pub fn rethprotsock7(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHPROTSOCK7.at(&mut self.client)
     }
     /// Rethportsock1: 0x2227:01, register 551.
+    ///
+    /// Port number of socket 1
+    ///
+    /// Constant: [`objects::RETHPORTSOCK1`].
     pub fn rethportsock1(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHPORTSOCK1.at(&mut self.client)
     }
     /// Rethportsock2: 0x2228:01, register 552.
+    ///
+    /// Port number of socket 2
+    ///
+    /// Constant: [`objects::RETHPORTSOCK2`].
     pub fn rethportsock2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHPORTSOCK2.at(&mut self.client)
     }
     /// Rethportsock3: 0x2229:01, register 553.
+    ///
+    /// Port number of socket 3
+    ///
+    /// Constant: [`objects::RETHPORTSOCK3`].
     pub fn rethportsock3(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHPORTSOCK3.at(&mut self.client)
     }
     /// Rethportsock4: 0x222A:01, register 554.
+    ///
+    /// Port number of socket 4
+    ///
+    /// Constant: [`objects::RETHPORTSOCK4`].
     pub fn rethportsock4(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHPORTSOCK4.at(&mut self.client)
     }
     /// Rethportsock5: 0x222B:01, register 555.
+    ///
+    /// Port number of socket 5
+    ///
+    /// Constant: [`objects::RETHPORTSOCK5`].
     pub fn rethportsock5(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHPORTSOCK5.at(&mut self.client)
     }
     /// Rethportsock6: 0x222C:01, register 556.
+    ///
+    /// Port number of socket 6
+    ///
+    /// Constant: [`objects::RETHPORTSOCK6`].
     pub fn rethportsock6(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHPORTSOCK6.at(&mut self.client)
     }
     /// Rethportsock7: 0x222D:01, register 557.
+    ///
+    /// Port number of socket 7
+    ///
+    /// Constant: [`objects::RETHPORTSOCK7`].
     pub fn rethportsock7(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RETHPORTSOCK7.at(&mut self.client)
     }
     /// Rethcptimeout: 0x222E:01, register 558.
+    ///
+    /// Time-out of a TCP socket without activity; 0 switches it off
+    ///
+    /// Constant: [`objects::RETHCPTIMEOUT`].
     pub fn rethcptimeout(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::OrNone<rt::Scaled<u16, 1>, 0>> {
         objects::RETHCPTIMEOUT.at(&mut self.client)
     }
     /// Rprofinetnameptr: 0x4760:01, register 10080.
+    ///
+    /// Position in the PROFINET device name of the character that Rprofinetnamechr holds
+    ///
+    /// Constant: [`objects::RPROFINETNAMEPTR`].
     pub fn rprofinetnameptr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPROFINETNAMEPTR.at(&mut self.client)
     }
     /// Rprofinetnamechr: 0x4761:01, register 10081.
+    ///
+    /// Character of the PROFINET device name at the position in Rprofinetnameptr
+    ///
+    /// Constant: [`objects::RPROFINETNAMECHR`].
     pub fn rprofinetnamechr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPROFINETNAMECHR.at(&mut self.client)
     }
     /// Rprofinetname: 0x4762:01, register 10082.
+    ///
+    /// PROFINET device name, for a tool; it can't be sent to the drive as a whole
+    ///
+    /// Constant: [`objects::RPROFINETNAME`].
     pub fn rprofinetname(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
         objects::RPROFINETNAME.at(&mut self.client)
     }
     /// Rswrevariantaios: 0x479C:01, register 10140.
+    ///
+    /// Firmware version of the Antaios chip
+    ///
+    /// Constant: [`objects::RSWREVARIANTAIOS`].
     pub fn rswrevariantaios(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RSWREVARIANTAIOS.at(&mut self.client)
     }
     /// Rhwrevariantaios: 0x479D:01, register 10141.
+    ///
+    /// Hardware version of the Antaios chip
+    ///
+    /// Constant: [`objects::RHWREVARIANTAIOS`].
     pub fn rhwrevariantaios(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RHWREVARIANTAIOS.at(&mut self.client)
     }
     /// Rmodelantaios: 0x479E:01, register 10142.
+    ///
+    /// Model of the expansion card, by the Antaios firmware; Rloadsav command 12 reads it from the card
+    ///
+    /// Constant: [`objects::RMODELANTAIOS`].
     pub fn rmodelantaios(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RMODELANTAIOS.at(&mut self.client)
     }
     /// Rmodulcmd: 0x219D:01, register 413.
+    ///
+    /// Which positions wrap around, and in which direction the axis goes to a target
+    ///
+    /// Constant: [`objects::RMODULCMD`]. Values: [`ModuloCommand`](types::ModuloCommand).
     pub fn rmodulcmd(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ModuloCommand> {
         objects::RMODULCMD.at(&mut self.client)
     }
     /// Rmodulpos: 0x219E:01, register 414.
+    ///
+    /// Highest position of the positioner before it rolls over to 0
+    ///
+    /// Constant: [`objects::RMODULPOS`].
     pub fn rmodulpos(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RMODULPOS.at(&mut self.client)
     }
     /// Rmodulmotenc: 0x21A0:01, register 416.
+    ///
+    /// Highest count of encoder 1 before it rolls over to 0
+    ///
+    /// Constant: [`objects::RMODULMOTENC`].
     pub fn rmodulmotenc(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RMODULMOTENC.at(&mut self.client)
     }
     /// Rmodulextenc: 0x21A2:01, register 418.
+    ///
+    /// Highest count of encoder 2 before it rolls over to 0
+    ///
+    /// Constant: [`objects::RMODULEXTENC`].
     pub fn rmodulextenc(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RMODULEXTENC.at(&mut self.client)
     }
     /// Rlineupcmd: 0x21A4:01, register 420.
+    ///
+    /// Starts the line-up of the chosen positions; all wanted bits have to be written together
+    ///
+    /// Constant: [`objects::RLINEUPCMD`]. Values: [`LineUpCommand`](types::LineUpCommand).
     pub fn rlineupcmd(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::LineUpCommand> {
         objects::RLINEUPCMD.at(&mut self.client)
     }
     /// Rlineuppos: 0x21A5:01, register 421.
+    ///
+    /// Position that a line-up puts into Rposactreq; set it before the command
+    ///
+    /// Constant: [`objects::RLINEUPPOS`].
     pub fn rlineuppos(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RLINEUPPOS.at(&mut self.client)
     }
     /// Rlineupmotenc: 0x21A7:01, register 423.
+    ///
+    /// Count that a line-up gives to encoder 1; set it before the command
+    ///
+    /// Constant: [`objects::RLINEUPMOTENC`].
     pub fn rlineupmotenc(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RLINEUPMOTENC.at(&mut self.client)
     }
     /// Rlineupextenc: 0x21A9:01, register 425.
+    ///
+    /// Count that a line-up gives to encoder 2; set it before the command
+    ///
+    /// Constant: [`objects::RLINEUPEXTENC`].
     pub fn rlineupextenc(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RLINEUPEXTENC.at(&mut self.client)
     }
     /// Rlineupdef: 0x21AB:01, register 427.
+    ///
+    /// Bits that are copied to Rlineupcmd when the digital line-up input is activated
+    ///
+    /// Constant: [`objects::RLINEUPDEF`]. Values: [`LineUpDefinition`](types::LineUpDefinition).
     pub fn rlineupdef(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::LineUpDefinition> {
         objects::RLINEUPDEF.at(&mut self.client)
     }
     /// Rtouchprobefunc: 0x214B:01, register 331.
+    ///
+    /// Control word of both touch probes; the same as object 0x60B8
+    ///
+    /// Constant: [`objects::RTOUCHPROBEFUNC`]. Values: [`TouchProbeControl`](types::TouchProbeControl).
     pub fn rtouchprobefunc(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::TouchProbeControl> {
         objects::RTOUCHPROBEFUNC.at(&mut self.client)
     }
     /// Rtouchprobestatus: 0x214C:01, register 332.
+    ///
+    /// Status word of both touch probes; the same as object 0x60B9
+    ///
+    /// Constant: [`objects::RTOUCHPROBESTATUS`]. Values: [`TouchProbeStatusBeforeV6`](types::TouchProbeStatusBeforeV6).
     pub fn rtouchprobestatus(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::TouchProbeStatusBeforeV6> {
         objects::RTOUCHPROBESTATUS.at(&mut self.client)
     }
     /// Rtouchprobepos1pos: 0x214D:01, register 333.
+    ///
+    /// Position of probe 1 latched at its positive edge; object 0x60BA
+    ///
+    /// Constant: [`objects::RTOUCHPROBEPOS1POS`].
     pub fn rtouchprobepos1pos(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RTOUCHPROBEPOS1POS.at(&mut self.client)
     }
     /// Rtouchprobepos1neg: 0x214F:01, register 335.
+    ///
+    /// Position of probe 1 latched at its negative edge; object 0x60BB
+    ///
+    /// Constant: [`objects::RTOUCHPROBEPOS1NEG`].
     pub fn rtouchprobepos1neg(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RTOUCHPROBEPOS1NEG.at(&mut self.client)
     }
     /// Rtouchprobepos2pos: 0x2151:01, register 337.
+    ///
+    /// Position of probe 2 latched at its positive edge; object 0x60BC
+    ///
+    /// Constant: [`objects::RTOUCHPROBEPOS2POS`].
     pub fn rtouchprobepos2pos(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RTOUCHPROBEPOS2POS.at(&mut self.client)
     }
     /// Rtouchprobe2neg: 0x2153:01, register 339.
+    ///
+    /// Position of probe 2 latched at its negative edge; object 0x60BD
+    ///
+    /// Constant: [`objects::RTOUCHPROBE2NEG`].
     pub fn rtouchprobe2neg(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RTOUCHPROBE2NEG.at(&mut self.client)
     }
     /// Rtouchprobe1inpdef: 0x2155:01, register 341.
+    ///
+    /// Signal that triggers touch probe 1
+    ///
+    /// Constant: [`objects::RTOUCHPROBE1INPDEF`]. Values: [`TouchProbeInput`](types::TouchProbeInput).
     pub fn rtouchprobe1inpdef(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::TouchProbeInput> {
         objects::RTOUCHPROBE1INPDEF.at(&mut self.client)
     }
     /// Rtouchprobe2inpdef: 0x2156:01, register 342.
+    ///
+    /// Signal that triggers touch probe 2
+    ///
+    /// Constant: [`objects::RTOUCHPROBE2INPDEF`]. Values: [`TouchProbeInput`](types::TouchProbeInput).
     pub fn rtouchprobe2inpdef(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::TouchProbeInput> {
         objects::RTOUCHPROBE2INPDEF.at(&mut self.client)
     }
     /// Rtouchprobefunc\_v6: 0x4764:01, register 10084.
+    ///
+    /// Control word of both touch probes from firmware 6; the same as object 0x60B8
+    ///
+    /// Constant: [`objects::RTOUCHPROBEFUNC_V6`]. Values: [`TouchProbeControl`](types::TouchProbeControl).
     pub fn rtouchprobefunc_v6(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::TouchProbeControl> {
         objects::RTOUCHPROBEFUNC_V6.at(&mut self.client)
     }
     /// Rtouchprobestatus\_v6: 0x4765:01, register 10085.
+    ///
+    /// Status word of both touch probes from firmware 6; the same as object 0x60B9
+    ///
+    /// Constant: [`objects::RTOUCHPROBESTATUS_V6`]. Values: [`TouchProbeStatusV6`](types::TouchProbeStatusV6).
     pub fn rtouchprobestatus_v6(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::TouchProbeStatusV6> {
         objects::RTOUCHPROBESTATUS_V6.at(&mut self.client)
     }
     /// Rtouchprobepos1pos\_v6: 0x4766:01, register 10086.
+    ///
+    /// Position of probe 1 latched at its positive edge; object 0x60BA
+    ///
+    /// Constant: [`objects::RTOUCHPROBEPOS1POS_V6`].
     pub fn rtouchprobepos1pos_v6(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RTOUCHPROBEPOS1POS_V6.at(&mut self.client)
     }
     /// Rtouchprobepos1neg\_v6: 0x4768:01, register 10088.
+    ///
+    /// Position of probe 1 latched at its negative edge; object 0x60BB
+    ///
+    /// Constant: [`objects::RTOUCHPROBEPOS1NEG_V6`].
     pub fn rtouchprobepos1neg_v6(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RTOUCHPROBEPOS1NEG_V6.at(&mut self.client)
     }
     /// Rtouchprobe1inp: 0x476A:01, register 10090.
+    ///
+    /// Signal that triggers touch probe 1, from firmware 6
+    ///
+    /// Constant: [`objects::RTOUCHPROBE1INP`]. Values: [`TouchProbeInput`](types::TouchProbeInput).
     pub fn rtouchprobe1inp(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::TouchProbeInput> {
         objects::RTOUCHPROBE1INP.at(&mut self.client)
     }
     /// Rtouchprobe1timestamppos: 0x476B:01, register 10091.
+    ///
+    /// Time since the positive edge of probe 1, up to 4 s
+    ///
+    /// Constant: [`objects::RTOUCHPROBE1TIMESTAMPPOS`].
     pub fn rtouchprobe1timestamppos(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RTOUCHPROBE1TIMESTAMPPOS.at(&mut self.client)
     }
     /// Rtouchprobe1timestampneg: 0x476D:01, register 10093.
+    ///
+    /// Time since the negative edge of probe 1, up to 4 s
+    ///
+    /// Constant: [`objects::RTOUCHPROBE1TIMESTAMPNEG`].
     pub fn rtouchprobe1timestampneg(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RTOUCHPROBE1TIMESTAMPNEG.at(&mut self.client)
     }
     /// Rtouchprobe1posedgecnt: 0x476F:01, register 10095.
+    ///
+    /// Number of positive edges of probe 1
+    ///
+    /// Constant: [`objects::RTOUCHPROBE1POSEDGECNT`].
     pub fn rtouchprobe1posedgecnt(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RTOUCHPROBE1POSEDGECNT.at(&mut self.client)
     }
     /// Rtouchprobe1negedgecnt: 0x4770:01, register 10096.
+    ///
+    /// Number of negative edges of probe 1
+    ///
+    /// Constant: [`objects::RTOUCHPROBE1NEGEDGECNT`].
     pub fn rtouchprobe1negedgecnt(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RTOUCHPROBE1NEGEDGECNT.at(&mut self.client)
     }
     /// Rtouchprobe2pos: 0x4771:01, register 10097.
+    ///
+    /// Position of probe 2 latched at its positive edge; object 0x60BC
+    ///
+    /// Constant: [`objects::RTOUCHPROBE2POS`].
     pub fn rtouchprobe2pos(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RTOUCHPROBE2POS.at(&mut self.client)
     }
     /// Rtouchprobe2neg\_v6: 0x4773:01, register 10099.
+    ///
+    /// Position of probe 2 latched at its negative edge; object 0x60BD
+    ///
+    /// Constant: [`objects::RTOUCHPROBE2NEG_V6`].
     pub fn rtouchprobe2neg_v6(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RTOUCHPROBE2NEG_V6.at(&mut self.client)
     }
     /// Rtouchprobe2inp: 0x4775:01, register 10101.
+    ///
+    /// Signal that triggers touch probe 2, from firmware 6
+    ///
+    /// Constant: [`objects::RTOUCHPROBE2INP`]. Values: [`TouchProbeInput`](types::TouchProbeInput).
     pub fn rtouchprobe2inp(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::TouchProbeInput> {
         objects::RTOUCHPROBE2INP.at(&mut self.client)
     }
     /// Rtouchprobe2timestamppos: 0x4776:01, register 10102.
+    ///
+    /// Time since the positive edge of probe 2, up to 4 s
+    ///
+    /// Constant: [`objects::RTOUCHPROBE2TIMESTAMPPOS`].
     pub fn rtouchprobe2timestamppos(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RTOUCHPROBE2TIMESTAMPPOS.at(&mut self.client)
     }
     /// Rtouchprobe2timestampneg: 0x4778:01, register 10104.
+    ///
+    /// Time since the negative edge of probe 2, up to 4 s
+    ///
+    /// Constant: [`objects::RTOUCHPROBE2TIMESTAMPNEG`].
     pub fn rtouchprobe2timestampneg(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
         objects::RTOUCHPROBE2TIMESTAMPNEG.at(&mut self.client)
     }
     /// Rtouchprobe2posedgecnt: 0x477A:01, register 10106.
+    ///
+    /// Number of positive edges of probe 2
+    ///
+    /// Constant: [`objects::RTOUCHPROBE2POSEDGECNT`].
     pub fn rtouchprobe2posedgecnt(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RTOUCHPROBE2POSEDGECNT.at(&mut self.client)
     }
     /// Rtouchprobe2negedgecnt: 0x477B:01, register 10107.
+    ///
+    /// Number of negative edges of probe 2
+    ///
+    /// Constant: [`objects::RTOUCHPROBE2NEGEDGECNT`].
     pub fn rtouchprobe2negedgecnt(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RTOUCHPROBE2NEGEDGECNT.at(&mut self.client)
     }
     /// Rtouchprobe1source: 0x477C:01, register 10108.
+    ///
+    /// Position that touch probe 1 latches
+    ///
+    /// Constant: [`objects::RTOUCHPROBE1SOURCE`]. Values: [`TouchProbeSource`](types::TouchProbeSource).
     pub fn rtouchprobe1source(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::TouchProbeSource> {
         objects::RTOUCHPROBE1SOURCE.at(&mut self.client)
     }
     /// Rtouchprobe2source: 0x477D:01, register 10109.
+    ///
+    /// Position that touch probe 2 latches
+    ///
+    /// Constant: [`objects::RTOUCHPROBE2SOURCE`]. Values: [`TouchProbeSource`](types::TouchProbeSource).
     pub fn rtouchprobe2source(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::TouchProbeSource> {
         objects::RTOUCHPROBE2SOURCE.at(&mut self.client)
     }
     /// Rcapselinp: 0x2159:01, register 345.
+    ///
+    /// Number of the digital input that the capture function watches
+    ///
+    /// Constant: [`objects::RCAPSELINP`].
     pub fn rcapselinp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCAPSELINP.at(&mut self.client)
     }
     /// Rcaptvelmax: 0x215A:01, register 346.
+    ///
+    /// Highest value that the capture timer can reach, in steps of 20 µs
+    ///
+    /// Constant: [`objects::RCAPTVELMAX`].
     pub fn rcaptvelmax(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 20>> {
         objects::RCAPTVELMAX.at(&mut self.client)
     }
     /// Rcaptval: 0x215C:01, register 348.
+    ///
+    /// Period between two edges of the captured input, in steps of 20 µs
+    ///
+    /// Constant: [`objects::RCAPTVAL`].
     pub fn rcaptval(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 20>> {
         objects::RCAPTVAL.at(&mut self.client)
     }
     /// Rcaptcnt: 0x215E:01, register 350.
+    ///
+    /// Pulses counted on the captured input; after 65535 it begins again at 0
+    ///
+    /// Constant: [`objects::RCAPTCNT`].
     pub fn rcaptcnt(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCAPTCNT.at(&mut self.client)
     }
     /// Rcamstpulse: 0x217C:01, register 380.
+    ///
+    /// Counts per revolution of the master encoder, for cams of type 1 and 2
+    ///
+    /// Constant: [`objects::RCAMSTPULSE`].
     pub fn rcamstpulse(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCAMSTPULSE.at(&mut self.client)
     }
     /// Rcamstmaxfrq: 0x217D:01, register 381.
+    ///
+    /// Highest counts per second of the master encoder, for cams of type 2
+    ///
+    /// Constant: [`objects::RCAMSTMAXFRQ`].
     pub fn rcamstmaxfrq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCAMSTMAXFRQ.at(&mut self.client)
     }
     /// Rcamstrtphase: 0x217E:01, register 382.
+    ///
+    /// Number of the task that holds the first phase, for cams of type 1 and 2
+    ///
+    /// Constant: [`objects::RCAMSTRTPHASE`].
     pub fn rcamstrtphase(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCAMSTRTPHASE.at(&mut self.client)
     }
     /// Rcamstposact: 0x217F:01, register 383.
+    ///
+    /// Position of the master encoder now, for cams of type 1 and 2
+    ///
+    /// Constant: [`objects::RCAMSTPOSACT`].
     pub fn rcamstposact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RCAMSTPOSACT.at(&mut self.client)
     }
     /// Rcamphaseact: 0x2180:01, register 384.
+    ///
+    /// Phase (task) that runs now, for cams of type 1 and 2
+    ///
+    /// Constant: [`objects::RCAMPHASEACT`].
     pub fn rcamphaseact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
         objects::RCAMPHASEACT.at(&mut self.client)
     }
     /// Rcamflgwr: 0x2181:01, register 385.
+    ///
+    /// Control bits of cams of type 1 and 2
+    ///
+    /// Constant: [`objects::RCAMFLGWR`]. Values: [`CamControl`](types::CamControl).
     pub fn rcamflgwr(&mut self) -> objects::ReadWriteAccess<'_, C, types::CamControl> {
         objects::RCAMFLGWR.at(&mut self.client)
     }
     /// Rcamflgrd: 0x2182:01, register 386.
+    ///
+    /// Status bits of cams of type 1 and 2
+    ///
+    /// Constant: [`objects::RCAMFLGRD`]. Values: [`CamStatus`](types::CamStatus).
     pub fn rcamflgrd(&mut self) -> objects::ReadOnlyAccess<'_, C, types::CamStatus> {
         objects::RCAMFLGRD.at(&mut self.client)
     }
     /// Rcamkpl: 0x2183:01, register 387.
+    ///
+    /// Proportional gain of the increments in all cam modes: type 1, type 2, start/stop and winding
+    ///
+    /// Constant: [`objects::RCAMKPL`].
     pub fn rcamkpl(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCAMKPL.at(&mut self.client)
     }
     /// Rcamstspmstmmpulse: 0x21C8:01, register 456.
+    ///
+    /// Travel of the master per encoder count, in thousandths of a millimetre
+    ///
+    /// Constant: [`objects::RCAMSTSPMSTMMPULSE`].
     pub fn rcamstspmstmmpulse(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RCAMSTSPMSTMMPULSE.at(&mut self.client)
     }
     /// Rcamstspslvmmstep: 0x21C9:01, register 457.
+    ///
+    /// Travel of the slave per motor step, in thousandths of a millimetre
+    ///
+    /// Constant: [`objects::RCAMSTSPSLVMMSTEP`].
     pub fn rcamstspslvmmstep(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RCAMSTSPSLVMMSTEP.at(&mut self.client)
     }
     /// Rcamstspcor: 0x21CA:01, register 458.
+    ///
+    /// Correction of the ratio between master and slave
+    ///
+    /// Constant: [`objects::RCAMSTSPCOR`].
     pub fn rcamstspcor(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RCAMSTSPCOR.at(&mut self.client)
     }
     /// Rcamstspaccspace: 0x21CB:01, register 459.
+    ///
+    /// Master travel during which the slave accelerates
+    ///
+    /// Constant: [`objects::RCAMSTSPACCSPACE`].
     pub fn rcamstspaccspace(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 10>> {
         objects::RCAMSTSPACCSPACE.at(&mut self.client)
     }
     /// Rcamstspctrl: 0x21CC:01, register 460.
+    ///
+    /// Control bits of the start/stop cam
+    ///
+    /// Constant: [`objects::RCAMSTSPCTRL`]. Values: [`CamStartStopControl`](types::CamStartStopControl).
     pub fn rcamstspctrl(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::CamStartStopControl> {
         objects::RCAMSTSPCTRL.at(&mut self.client)
     }
     /// Rcamstspstatus: 0x21CD:01, register 461.
+    ///
+    /// Status bits of the start/stop cam
+    ///
+    /// Constant: [`objects::RCAMSTSPSTATUS`]. Values: [`CamStartStopStatus`](types::CamStartStopStatus).
     pub fn rcamstspstatus(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::CamStartStopStatus> {
         objects::RCAMSTSPSTATUS.at(&mut self.client)
     }
     /// Rcamstsplowquotestlv: 0x21CE:01, register 462.
+    ///
+    /// Lowest position of the slave in the start/stop cam
+    ///
+    /// Constant: [`objects::RCAMSTSPLOWQUOTESTLV`].
     pub fn rcamstsplowquotestlv(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RCAMSTSPLOWQUOTESTLV.at(&mut self.client)
     }
     /// Rcamstsphighquotestlv: 0x21D0:01, register 464.
+    ///
+    /// Highest position of the slave in the start/stop cam
+    ///
+    /// Constant: [`objects::RCAMSTSPHIGHQUOTESTLV`].
     pub fn rcamstsphighquotestlv(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RCAMSTSPHIGHQUOTESTLV.at(&mut self.client)
     }
     /// Rcamstsplowquotemst: 0x21D2:01, register 466.
+    ///
+    /// Lowest position of the master in the start/stop cam
+    ///
+    /// Constant: [`objects::RCAMSTSPLOWQUOTEMST`].
     pub fn rcamstsplowquotemst(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RCAMSTSPLOWQUOTEMST.at(&mut self.client)
     }
     /// Rcamstsphighquotemst: 0x21D4:01, register 468.
+    ///
+    /// Highest position of the master in the start/stop cam
+    ///
+    /// Constant: [`objects::RCAMSTSPHIGHQUOTEMST`].
     pub fn rcamstsphighquotemst(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RCAMSTSPHIGHQUOTEMST.at(&mut self.client)
     }
     /// Rcammodeselect: 0x21D6:01, register 470.
+    ///
+    /// Which kind of cam is used
+    ///
+    /// Constant: [`objects::RCAMMODESELECT`]. Values: [`CamMode`](types::CamMode).
     pub fn rcammodeselect(&mut self) -> objects::ReadWriteAccess<'_, C, types::CamMode> {
         objects::RCAMMODESELECT.at(&mut self.client)
     }
     /// Rcamstspsimvel: 0x21F0:01, register 496.
+    ///
+    /// Speed of the simulated master encoder of the start/stop cam
+    ///
+    /// Constant: [`objects::RCAMSTSPSIMVEL`].
     pub fn rcamstspsimvel(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RCAMSTSPSIMVEL.at(&mut self.client)
     }
     /// Rcamstspdecspace: 0x21F1:01, register 497.
+    ///
+    /// Master travel during which the slave decelerates
+    ///
+    /// Constant: [`objects::RCAMSTSPDECSPACE`].
     pub fn rcamstspdecspace(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 10>> {
         objects::RCAMSTSPDECSPACE.at(&mut self.client)
     }
     /// Rcamstspstartdly: 0x21F2:01, register 498.
+    ///
+    /// Master travel before the slave starts
+    ///
+    /// Constant: [`objects::RCAMSTSPSTARTDLY`].
     pub fn rcamstspstartdly(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 10>> {
         objects::RCAMSTSPSTARTDLY.at(&mut self.client)
     }
     /// Rcamstspstopdly: 0x21F3:01, register 499.
+    ///
+    /// Travel of the slave between the stop command and the beginning of its deceleration ramp
+    ///
+    /// Constant: [`objects::RCAMSTSPSTOPDLY`].
     pub fn rcamstspstopdly(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 10>> {
         objects::RCAMSTSPSTOPDLY.at(&mut self.client)
     }
     /// Rwindspoolimpturn: 0x21D7:01, register 471.
+    ///
+    /// Encoder counts per revolution of the spool
+    ///
+    /// Constant: [`objects::RWINDSPOOLIMPTURN`].
     pub fn rwindspoolimpturn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RWINDSPOOLIMPTURN.at(&mut self.client)
     }
     /// Rwindyarnguidemmstep: 0x21D8:01, register 472.
+    ///
+    /// Travel of the yarn guide per motor step
+    ///
+    /// Constant: [`objects::RWINDYARNGUIDEMMSTEP`].
     pub fn rwindyarnguidemmstep(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 1000>> {
         objects::RWINDYARNGUIDEMMSTEP.at(&mut self.client)
     }
     /// Rwindaccspoolturn: 0x21D9:01, register 473.
+    ///
+    /// Revolutions in which the yarn guide accelerates to the speed required
+    ///
+    /// Constant: [`objects::RWINDACCSPOOLTURN`].
     pub fn rwindaccspoolturn(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 10>> {
         objects::RWINDACCSPOOLTURN.at(&mut self.client)
     }
     /// Rwindyarnshift: 0x21DA:01, register 474.
+    ///
+    /// Travel of the yarn guide per revolution of the spool
+    ///
+    /// Constant: [`objects::RWINDYARNSHIFT`].
     pub fn rwindyarnshift(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 100>> {
         objects::RWINDYARNSHIFT.at(&mut self.client)
     }
     /// Rwindtyingshift: 0x21DB:01, register 475.
+    ///
+    /// Travel of the yarn guide per revolution of the spool while it ties
+    ///
+    /// Constant: [`objects::RWINDTYINGSHIFT`].
     pub fn rwindtyingshift(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 1, 100>> {
         objects::RWINDTYINGSHIFT.at(&mut self.client)
     }
     /// Rwindctrl: 0x21DC:01, register 476.
+    ///
+    /// Control bits of the winding cam
+    ///
+    /// Constant: [`objects::RWINDCTRL`]. Values: [`WindingControl`](types::WindingControl).
     pub fn rwindctrl(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::WindingControl> {
         objects::RWINDCTRL.at(&mut self.client)
     }
     /// Rwindstatus: 0x21DD:01, register 477.
+    ///
+    /// Status bits of the winding cam
+    ///
+    /// Constant: [`objects::RWINDSTATUS`]. Values: [`WindingStatus`](types::WindingStatus).
     pub fn rwindstatus(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::WindingStatus> {
         objects::RWINDSTATUS.at(&mut self.client)
     }
     /// Rwindquotelleft: 0x21DE:01, register 478.
+    ///
+    /// End position of the yarn guide on the side of the machine
+    ///
+    /// Constant: [`objects::RWINDQUOTELLEFT`].
     pub fn rwindquotelleft(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>> {
         objects::RWINDQUOTELLEFT.at(&mut self.client)
     }
     /// Rwindquoteright: 0x21E0:01, register 480.
+    ///
+    /// End position of the yarn guide on the side of the operator
+    ///
+    /// Constant: [`objects::RWINDQUOTERIGHT`].
     pub fn rwindquoteright(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>> {
         objects::RWINDQUOTERIGHT.at(&mut self.client)
     }
     /// Rwindquotestop: 0x21E2:01, register 482.
+    ///
+    /// Position where the yarn guide stops
+    ///
+    /// Constant: [`objects::RWINDQUOTESTOP`].
     pub fn rwindquotestop(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>> {
         objects::RWINDQUOTESTOP.at(&mut self.client)
     }
     /// Rwindtyingquotelleft: 0x21E4:01, register 484.
+    ///
+    /// End position of the yarn guide on the machine's side while it ties
+    ///
+    /// Constant: [`objects::RWINDTYINGQUOTELLEFT`].
     pub fn rwindtyingquotelleft(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>> {
         objects::RWINDTYINGQUOTELLEFT.at(&mut self.client)
     }
     /// Rwindtyingquoteright: 0x21E6:01, register 486.
+    ///
+    /// End position of the yarn guide on the operator's side while it ties
+    ///
+    /// Constant: [`objects::RWINDTYINGQUOTERIGHT`].
     pub fn rwindtyingquoteright(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>> {
         objects::RWINDTYINGQUOTERIGHT.at(&mut self.client)
     }
     /// Rwindyarnguidemturnmotor: 0x21E8:01, register 488.
+    ///
+    /// Travel of the yarn guide per revolution of the stepper motor
+    ///
+    /// Constant: [`objects::RWINDYARNGUIDEMTURNMOTOR`].
     pub fn rwindyarnguidemturnmotor(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 100>> {
         objects::RWINDYARNGUIDEMTURNMOTOR.at(&mut self.client)
     }
     /// Rwindrevcnt: 0x21EA:01, register 490.
+    ///
+    /// How often the stepper motor has reversed in winding mode
+    ///
+    /// Constant: [`objects::RWINDREVCNT`].
     pub fn rwindrevcnt(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RWINDREVCNT.at(&mut self.client)
     }
     /// Rwindrevpause: 0x21EB:01, register 491.
+    ///
+    /// Counts of the master encoder for which the motor pauses while it reverses
+    ///
+    /// Constant: [`objects::RWINDREVPAUSE`].
     pub fn rwindrevpause(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
         objects::RWINDREVPAUSE.at(&mut self.client)
     }
     /// Renccamfbk: 0x471C:01, register 10012.
+    ///
+    /// Encoder that the cam and winding functions follow
+    ///
+    /// Constant: [`objects::RENCCAMFBK`]. Values: [`CamFeedback`](types::CamFeedback).
     pub fn renccamfbk(&mut self) -> objects::ReadWriteAccess<'_, C, types::CamFeedback> {
         objects::RENCCAMFBK.at(&mut self.client)
     }
     /// Rbrakedlyopen: 0x2062:01, register 98.
+    ///
+    /// Delay with which the external brake opens
+    ///
+    /// Constant: [`objects::RBRAKEDLYOPEN`].
     pub fn rbrakedlyopen(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RBRAKEDLYOPEN.at(&mut self.client)
     }
     /// Rbrakedlyclose: 0x2158:01, register 344.
+    ///
+    /// Delay with which the external brake closes
+    ///
+    /// Constant: [`objects::RBRAKEDLYCLOSE`].
     pub fn rbrakedlyclose(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RBRAKEDLYCLOSE.at(&mut self.client)
     }
     /// Rusrpidkp: 0x21F4:01, register 500.
+    ///
+    /// Proportional gain of the user PID
+    ///
+    /// Constant: [`objects::RUSRPIDKP`].
     pub fn rusrpidkp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RUSRPIDKP.at(&mut self.client)
     }
     /// Rusrpidki: 0x21F5:01, register 501.
+    ///
+    /// Integral gain of the user PID
+    ///
+    /// Constant: [`objects::RUSRPIDKI`].
     pub fn rusrpidki(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RUSRPIDKI.at(&mut self.client)
     }
     /// Rusrpidkd: 0x21F6:01, register 502.
+    ///
+    /// Derivative gain of the user PID
+    ///
+    /// Constant: [`objects::RUSRPIDKD`].
     pub fn rusrpidkd(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RUSRPIDKD.at(&mut self.client)
     }
     /// Rusrpidkt: 0x21F7:01, register 503.
+    ///
+    /// Integration time of the user PID
+    ///
+    /// Constant: [`objects::RUSRPIDKT`].
     pub fn rusrpidkt(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RUSRPIDKT.at(&mut self.client)
     }
     /// Rusrpidflag: 0x21F8:01, register 504.
+    ///
+    /// Starts, stops and resets the user PID
+    ///
+    /// Constant: [`objects::RUSRPIDFLAG`]. Values: [`UserPidControl`](types::UserPidControl).
     pub fn rusrpidflag(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::UserPidControl> {
         objects::RUSRPIDFLAG.at(&mut self.client)
     }
     /// Rusrpidmaxout: 0x21F9:01, register 505.
+    ///
+    /// Highest output of the user PID
+    ///
+    /// Constant: [`objects::RUSRPIDMAXOUT`].
     pub fn rusrpidmaxout(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RUSRPIDMAXOUT.at(&mut self.client)
     }
     /// Rusrpidminout: 0x21FB:01, register 507.
+    ///
+    /// Lowest output of the user PID
+    ///
+    /// Constant: [`objects::RUSRPIDMINOUT`].
     pub fn rusrpidminout(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RUSRPIDMINOUT.at(&mut self.client)
     }
     /// Rusrpidsetpoint: 0x21FD:01, register 509.
+    ///
+    /// Set-point of the user PID
+    ///
+    /// Constant: [`objects::RUSRPIDSETPOINT`].
     pub fn rusrpidsetpoint(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RUSRPIDSETPOINT.at(&mut self.client)
     }
     /// Rusrpidprocessvalue: 0x21FF:01, register 511.
+    ///
+    /// Process value of the user PID
+    ///
+    /// Constant: [`objects::RUSRPIDPROCESSVALUE`].
     pub fn rusrpidprocessvalue(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RUSRPIDPROCESSVALUE.at(&mut self.client)
     }
     /// Rusrpidout: 0x2201:01, register 513.
+    ///
+    /// Output of the user PID
+    ///
+    /// Constant: [`objects::RUSRPIDOUT`].
     pub fn rusrpidout(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::RUSRPIDOUT.at(&mut self.client)
     }
     /// Rfgapplyto: 0x213B:01, register 315.
+    ///
+    /// What the signal of the internal function generator is applied to
+    ///
+    /// Constant: [`objects::RFGAPPLYTO`]. Values: [`GeneratorTarget`](types::GeneratorTarget).
     pub fn rfgapplyto(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::GeneratorTarget> {
         objects::RFGAPPLYTO.at(&mut self.client)
     }
     /// Rfgvalmin: 0x213C:01, register 316.
+    ///
+    /// Lowest value of the generated signal
+    ///
+    /// Constant: [`objects::RFGVALMIN`].
     pub fn rfgvalmin(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RFGVALMIN.at(&mut self.client)
     }
     /// Rfgvalmax: 0x213E:01, register 318.
+    ///
+    /// Highest value of the generated signal
+    ///
+    /// Constant: [`objects::RFGVALMAX`].
     pub fn rfgvalmax(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RFGVALMAX.at(&mut self.client)
     }
     /// Rfgfreq: 0x2140:01, register 320.
+    ///
+    /// Frequency of the generated signal
+    ///
+    /// Constant: [`objects::RFGFREQ`].
     pub fn rfgfreq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RFGFREQ.at(&mut self.client)
     }
     /// Rfgperiod: 0x2141:01, register 321.
+    ///
+    /// Period of the generated signal
+    ///
+    /// Constant: [`objects::RFGPERIOD`].
     pub fn rfgperiod(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RFGPERIOD.at(&mut self.client)
     }
     /// Rfgcmd: 0x2142:01, register 322.
+    ///
+    /// Starts and stops the function generator
+    ///
+    /// Constant: [`objects::RFGCMD`]. Values: [`GeneratorCommand`](types::GeneratorCommand).
     pub fn rfgcmd(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::GeneratorCommand> {
         objects::RFGCMD.at(&mut self.client)
     }
     /// Rfgmode: 0x2143:01, register 323.
+    ///
+    /// Shape of the generated signal
+    ///
+    /// Constant: [`objects::RFGMODE`]. Values: [`GeneratorMode`](types::GeneratorMode).
     pub fn rfgmode(&mut self) -> objects::ReadWriteAccess<'_, C, types::GeneratorMode> {
         objects::RFGMODE.at(&mut self.client)
     }
     /// Rfgout32: 0x2144:01, register 324.
+    ///
+    /// Output of the function generator in 32 bits
+    ///
+    /// Constant: [`objects::RFGOUT32`].
     pub fn rfgout32(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::RFGOUT32.at(&mut self.client)
     }
     /// Rfgout16: 0x2146:01, register 326.
+    ///
+    /// Output of the function generator in 16 bits
+    ///
+    /// Constant: [`objects::RFGOUT16`].
     pub fn rfgout16(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
         objects::RFGOUT16.at(&mut self.client)
     }
     /// Rstsprg: 0x20CC:01, register 204.
+    ///
+    /// Whether the user program runs and is valid
+    ///
+    /// Constant: [`objects::RSTSPRG`]. Values: [`ProgramStatus`](types::ProgramStatus).
     pub fn rstsprg(&mut self) -> objects::ReadOnlyAccess<'_, C, types::ProgramStatus> {
         objects::RSTSPRG.at(&mut self.client)
     }
     /// Rprgrunmode: 0x20CD:01, register 205.
+    ///
+    /// Stops the user program, runs it, or runs one step of it
+    ///
+    /// Constant: [`objects::RPRGRUNMODE`]. Values: [`ProgramRunMode`](types::ProgramRunMode).
     pub fn rprgrunmode(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ProgramRunMode> {
         objects::RPRGRUNMODE.at(&mut self.client)
     }
     /// Rprgstopevent: 0x20CE:01, register 206.
+    ///
+    /// Why the user program stopped
+    ///
+    /// Constant: [`objects::RPRGSTOPEVENT`]. Values: [`ProgramStopEvent`](types::ProgramStopEvent).
     pub fn rprgstopevent(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ProgramStopEvent> {
         objects::RPRGSTOPEVENT.at(&mut self.client)
     }
     /// Rprgcnt: 0x20CF:01, register 207.
+    ///
+    /// Program counter of the user program; it can be written while the program is stopped
+    ///
+    /// Constant: [`objects::RPRGCNT`].
     pub fn rprgcnt(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPRGCNT.at(&mut self.client)
     }
     /// Rprgccflag: 0x20D0:01, register 208.
+    ///
+    /// Condition codes of the user program
+    ///
+    /// Constant: [`objects::RPRGCCFLAG`]. Values: [`ProgramConditionCodes`](types::ProgramConditionCodes).
     pub fn rprgccflag(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ProgramConditionCodes> {
         objects::RPRGCCFLAG.at(&mut self.client)
     }
     /// Rprgeventcounterptr: 0x2242:01, register 578.
+    ///
+    /// Program address whose passing is counted in Rprgeventcounter
+    ///
+    /// Constant: [`objects::RPRGEVENTCOUNTERPTR`].
     pub fn rprgeventcounterptr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPRGEVENTCOUNTERPTR.at(&mut self.client)
     }
     /// Rprgeventcounter: 0x2243:01, register 579.
+    ///
+    /// How often the program has passed the address in Rprgeventcounterptr
+    ///
+    /// Constant: [`objects::RPRGEVENTCOUNTER`].
     pub fn rprgeventcounter(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
         objects::RPRGEVENTCOUNTER.at(&mut self.client)
     }
     /// Rprgusrpsw: register 2000.
+    ///
+    /// Password entered; unless it is the one in the EEPROM, the program memory can be neither read nor written
+    ///
+    /// Constant: [`objects::RPRGUSRPSW`].
     pub fn rprgusrpsw(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
         objects::RPRGUSRPSW.at(&mut self.client)
     }
     /// Rprgcmd: register 2001.
+    ///
+    /// Saves, loads and erases the user program, and sets its password
+    ///
+    /// Constant: [`objects::RPRGCMD`]. Values: [`ProgramCommand`](types::ProgramCommand).
     pub fn rprgcmd(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ProgramCommand, rt::OnModbus> {
         objects::RPRGCMD.at(&mut self.client)
     }
     /// Rprgcmdsts: register 2002.
+    ///
+    /// Result of the last command in Rprgcmd; its values aren't described
+    ///
+    /// Constant: [`objects::RPRGCMDSTS`].
     pub fn rprgcmdsts(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
         objects::RPRGCMDSTS.at(&mut self.client)
     }
     /// Rprgnewpsw: register 2003.
+    ///
+    /// Password that the command 0x82 in Rprgcmd sets
+    ///
+    /// Constant: [`objects::RPRGNEWPSW`].
     pub fn rprgnewpsw(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
         objects::RPRGNEWPSW.at(&mut self.client)
     }
     /// Rprgpswact: register 2004.
+    ///
+    /// Whether a password protects the user program
+    ///
+    /// Constant: [`objects::RPRGPSWACT`]. Values: [`ProgramProtection`](types::ProgramProtection).
     pub fn rprgpswact(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ProgramProtection, rt::OnModbus> {
         objects::RPRGPSWACT.at(&mut self.client)
     }
     /// Rprgbpenable: register 2005.
+    ///
+    /// Enables software breakpoints
+    ///
+    /// Constant: [`objects::RPRGBPENABLE`].
     pub fn rprgbpenable(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
         objects::RPRGBPENABLE.at(&mut self.client)
     }
     /// Rprgbpnum: register 2006.
+    ///
+    /// Which breakpoint Rprgbpval reads or writes
+    ///
+    /// Constant: [`objects::RPRGBPNUM`]. Values: [`ProgramBreakpoint`](types::ProgramBreakpoint).
     pub fn rprgbpnum(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ProgramBreakpoint, rt::OnModbus> {
         objects::RPRGBPNUM.at(&mut self.client)
     }
     /// Rprgbpval: register 2007.
+    ///
+    /// Value of the breakpoint that Rprgbpnum points to
+    ///
+    /// Constant: [`objects::RPRGBPVAL`].
     pub fn rprgbpval(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
         objects::RPRGBPVAL.at(&mut self.client)
     }
     /// Rprglen: register 2008.
+    ///
+    /// Length of the user program
+    ///
+    /// Constant: [`objects::RPRGLEN`].
     pub fn rprglen(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
         objects::RPRGLEN.at(&mut self.client)
     }
     /// Rprgprgcks: register 2009.
+    ///
+    /// Checksum of the user program
+    ///
+    /// Constant: [`objects::RPRGPRGCKS`].
     pub fn rprgprgcks(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
         objects::RPRGPRGCKS.at(&mut self.client)
     }
     /// Rprgusrprg: register 2010.
+    ///
+    /// First location of the user program
+    ///
+    /// Constant: [`objects::RPRGUSRPRG`].
     pub fn rprgusrprg(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
         objects::RPRGUSRPRG.at(&mut self.client)
     }
     /// user\_program\_locations: register 2011.
+    ///
+    /// Locations 1 to 4988 of the user program
+    ///
+    /// Constant: [`objects::USER_PROGRAM_LOCATIONS`].
     pub fn user_program_locations(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Opaque, rt::OnModbus> {
         objects::USER_PROGRAM_LOCATIONS.at(&mut self.client)
     }
     /// user\_program\_last\_location: register 6999.
+    ///
+    /// Last location of the user program
+    ///
+    /// Constant: [`objects::USER_PROGRAM_LAST_LOCATION`].
     pub fn user_program_last_location(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
         objects::USER_PROGRAM_LAST_LOCATION.at(&mut self.client)
     }
-    /// Device Type: 0x1000.
+    /// Device Type: 0x1000:00.
+    ///
+    /// Device profile in the low word, additional information in the high word
+    ///
+    /// Constant: [`objects::DEVICE_TYPE`]. Values: [`DeviceType`](types::DeviceType).
     pub fn device_type(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::DeviceType, rt::OnCanOpenAndCoE> {
         objects::DEVICE_TYPE.at(&mut self.client)
     }
-    /// Error Register: 0x1001.
+    /// Error Register: 0x1001:00.
+    ///
+    /// Errors of the device, one bit per kind
+    ///
+    /// Constant: [`objects::ERROR_REGISTER`]. Values: [`ErrorRegister`](types::ErrorRegister).
     pub fn error_register(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ErrorRegister, rt::OnCanOpenAndCoE> {
         objects::ERROR_REGISTER.at(&mut self.client)
     }
     /// Pre-defined Error Field: 0x1003.
+    /// Constants: [`objects::pre_defined_error_field`].
     pub fn pre_defined_error_field(
         &mut self,
     ) -> objects::pre_defined_error_field::Accessors<'_, C> {
@@ -2947,67 +5296,108 @@ impl<C> VectorStep<C> {
             client: &mut self.client,
         }
     }
-    /// COB-ID SYNC Message: 0x1005.
+    /// COB-ID SYNC Message: 0x1005:00.
+    ///
+    /// Identifier of the SYNC message, and whether the device produces it; changes of bits 29 and 30 are refused (abort 0x06090030)
+    ///
+    /// Constant: [`objects::COB_ID_SYNC_MESSAGE`]. Values: [`CobIdSync`](types::CobIdSync).
     pub fn cob_id_sync_message(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::CobIdSync, rt::OnCanOpenAndCoE> {
         objects::COB_ID_SYNC_MESSAGE.at(&mut self.client)
     }
-    /// Communication Cycle Period: 0x1006.
+    /// Communication Cycle Period: 0x1006:00.
+    ///
+    /// Interval of SYNC; 0 where it isn't used
+    ///
+    /// Constant: [`objects::COMMUNICATION_CYCLE_PERIOD`].
     pub fn communication_cycle_period(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
         objects::COMMUNICATION_CYCLE_PERIOD.at(&mut self.client)
     }
-    /// Synchronous window length: 0x1007.
+    /// Synchronous window length: 0x1007:00.
+    ///
+    /// Length of the time window for synchronous PDOs; 0 where it isn't used
+    ///
+    /// Constant: [`objects::SYNCHRONOUS_WINDOW_LENGTH`].
     pub fn synchronous_window_length(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
         objects::SYNCHRONOUS_WINDOW_LENGTH.at(&mut self.client)
     }
-    /// Manufacturer Device Name: 0x1008.
+    /// Manufacturer Device Name: 0x1008:00.
+    ///
+    /// Code of the device
+    ///
+    /// Constant: [`objects::MANUFACTURER_DEVICE_NAME`].
     pub fn manufacturer_device_name(
         &mut self,
     ) -> objects::ConstantAccess<'_, C, rt::VisibleString, rt::OnCanOpenAndCoE> {
         objects::MANUFACTURER_DEVICE_NAME.at(&mut self.client)
     }
-    /// Manufacturer Hardware Version: 0x1009.
+    /// Manufacturer Hardware Version: 0x1009:00.
+    ///
+    /// Hardware version, in the form Hw ver.X.XX
+    ///
+    /// Constant: [`objects::MANUFACTURER_HARDWARE_VERSION`].
     pub fn manufacturer_hardware_version(
         &mut self,
     ) -> objects::ConstantAccess<'_, C, rt::VisibleString, rt::OnCanOpenAndCoE> {
         objects::MANUFACTURER_HARDWARE_VERSION.at(&mut self.client)
     }
-    /// Manufacturer Software Version: 0x100A.
+    /// Manufacturer Software Version: 0x100A:00.
+    ///
+    /// Software version, in the form Sw ver.X.XX
+    ///
+    /// Constant: [`objects::MANUFACTURER_SOFTWARE_VERSION`].
     pub fn manufacturer_software_version(
         &mut self,
     ) -> objects::ConstantAccess<'_, C, rt::VisibleString, rt::OnCanOpenAndCoE> {
         objects::MANUFACTURER_SOFTWARE_VERSION.at(&mut self.client)
     }
-    /// Guard time: 0x100C.
+    /// Guard time: 0x100C:00.
+    ///
+    /// Times the life-time factor it is the life time of node guarding; 0 where it isn't used
+    ///
+    /// Constant: [`objects::GUARD_TIME`].
     pub fn guard_time(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
         objects::GUARD_TIME.at(&mut self.client)
     }
-    /// Life-time factor: 0x100D.
+    /// Life-time factor: 0x100D:00.
+    ///
+    /// Factor that makes the life time of life guarding out of the guard time; 0 where it isn't used
+    ///
+    /// Constant: [`objects::LIFE_TIME_FACTOR`].
     pub fn life_time_factor(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
         objects::LIFE_TIME_FACTOR.at(&mut self.client)
     }
-    /// COB-ID Emergency Object: 0x1014.
+    /// COB-ID Emergency Object: 0x1014:00.
+    ///
+    /// Identifier of the emergency message; changes of bits 29 and 30 are refused (abort 0x06090030)
+    ///
+    /// Constant: [`objects::COB_ID_EMERGENCY_OBJECT`]. Values: [`CobIdEmergency`](types::CobIdEmergency).
     pub fn cob_id_emergency_object(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::CobIdEmergency, rt::OnCanOpenAndCoE> {
         objects::COB_ID_EMERGENCY_OBJECT.at(&mut self.client)
     }
-    /// Inhibit Time Emergency: 0x1015.
+    /// Inhibit Time Emergency: 0x1015:00.
+    ///
+    /// Least time between two emergency messages, in multiples of 100 µs
+    ///
+    /// Constant: [`objects::INHIBIT_TIME_EMERGENCY`].
     pub fn inhibit_time_emergency(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 100>, rt::OnCanOpenAndCoE> {
         objects::INHIBIT_TIME_EMERGENCY.at(&mut self.client)
     }
     /// Consumer Heartbeat Time: 0x1016.
+    /// Constants: [`objects::consumer_heartbeat_time`].
     pub fn consumer_heartbeat_time(
         &mut self,
     ) -> objects::consumer_heartbeat_time::Accessors<'_, C> {
@@ -3015,25 +5405,32 @@ impl<C> VectorStep<C> {
             client: &mut self.client,
         }
     }
-    /// Producer Heartbeat Time: 0x1017.
+    /// Producer Heartbeat Time: 0x1017:00.
+    ///
+    /// Cycle time of the heartbeat that the device sends; 0 where it isn't used
+    ///
+    /// Constant: [`objects::PRODUCER_HEARTBEAT_TIME`].
     pub fn producer_heartbeat_time(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
         objects::PRODUCER_HEARTBEAT_TIME.at(&mut self.client)
     }
     /// Identity Object: 0x1018.
+    /// Constants: [`objects::identity_object`].
     pub fn identity_object(&mut self) -> objects::identity_object::Accessors<'_, C> {
         objects::identity_object::Accessors {
             client: &mut self.client,
         }
     }
     /// SDO1 Parameter: 0x1200.
+    /// Constants: [`objects::sdo1_parameter`].
     pub fn sdo1_parameter(&mut self) -> objects::sdo1_parameter::Accessors<'_, C> {
         objects::sdo1_parameter::Accessors {
             client: &mut self.client,
         }
     }
     /// RxPDO1 Communication Parameters: 0x1400.
+    /// Constants: [`objects::rx_pdo1_communication_parameters`].
     pub fn rx_pdo1_communication_parameters(
         &mut self,
     ) -> objects::rx_pdo1_communication_parameters::Accessors<'_, C> {
@@ -3042,6 +5439,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// RxPDO2 Communication Parameters: 0x1401.
+    /// Constants: [`objects::rx_pdo2_communication_parameters`].
     pub fn rx_pdo2_communication_parameters(
         &mut self,
     ) -> objects::rx_pdo2_communication_parameters::Accessors<'_, C> {
@@ -3050,6 +5448,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// RxPDO3 Communication Parameters: 0x1402.
+    /// Constants: [`objects::rx_pdo3_communication_parameters`].
     pub fn rx_pdo3_communication_parameters(
         &mut self,
     ) -> objects::rx_pdo3_communication_parameters::Accessors<'_, C> {
@@ -3058,6 +5457,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// RxPDO4 Communication Parameters: 0x1403.
+    /// Constants: [`objects::rx_pdo4_communication_parameters`].
     pub fn rx_pdo4_communication_parameters(
         &mut self,
     ) -> objects::rx_pdo4_communication_parameters::Accessors<'_, C> {
@@ -3066,6 +5466,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// RxPDO1 Mapping Parameters: 0x1600.
+    /// Constants: [`objects::rx_pdo1_mapping_parameters`].
     pub fn rx_pdo1_mapping_parameters(
         &mut self,
     ) -> objects::rx_pdo1_mapping_parameters::Accessors<'_, C> {
@@ -3074,6 +5475,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// RxPDO2 Mapping Parameters: 0x1601.
+    /// Constants: [`objects::rx_pdo2_mapping_parameters`].
     pub fn rx_pdo2_mapping_parameters(
         &mut self,
     ) -> objects::rx_pdo2_mapping_parameters::Accessors<'_, C> {
@@ -3082,6 +5484,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// RxPDO3 Mapping Parameters: 0x1602.
+    /// Constants: [`objects::rx_pdo3_mapping_parameters`].
     pub fn rx_pdo3_mapping_parameters(
         &mut self,
     ) -> objects::rx_pdo3_mapping_parameters::Accessors<'_, C> {
@@ -3090,6 +5493,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// RxPDO4 Mapping Parameters: 0x1603.
+    /// Constants: [`objects::rx_pdo4_mapping_parameters`].
     pub fn rx_pdo4_mapping_parameters(
         &mut self,
     ) -> objects::rx_pdo4_mapping_parameters::Accessors<'_, C> {
@@ -3098,6 +5502,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// TxPDO1 Communication Parameters: 0x1800.
+    /// Constants: [`objects::tx_pdo1_communication_parameters`].
     pub fn tx_pdo1_communication_parameters(
         &mut self,
     ) -> objects::tx_pdo1_communication_parameters::Accessors<'_, C> {
@@ -3106,6 +5511,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// TxPDO2 Communication Parameters: 0x1801.
+    /// Constants: [`objects::tx_pdo2_communication_parameters`].
     pub fn tx_pdo2_communication_parameters(
         &mut self,
     ) -> objects::tx_pdo2_communication_parameters::Accessors<'_, C> {
@@ -3114,6 +5520,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// TxPDO3 Communication Parameters: 0x1802.
+    /// Constants: [`objects::tx_pdo3_communication_parameters`].
     pub fn tx_pdo3_communication_parameters(
         &mut self,
     ) -> objects::tx_pdo3_communication_parameters::Accessors<'_, C> {
@@ -3122,6 +5529,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// TxPDO4 Communication Parameters: 0x1803.
+    /// Constants: [`objects::tx_pdo4_communication_parameters`].
     pub fn tx_pdo4_communication_parameters(
         &mut self,
     ) -> objects::tx_pdo4_communication_parameters::Accessors<'_, C> {
@@ -3130,6 +5538,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// TxPDO1 Mapping Parameters: 0x1A00.
+    /// Constants: [`objects::tx_pdo1_mapping_parameters`].
     pub fn tx_pdo1_mapping_parameters(
         &mut self,
     ) -> objects::tx_pdo1_mapping_parameters::Accessors<'_, C> {
@@ -3138,6 +5547,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// TxPDO2 Mapping Parameters: 0x1A01.
+    /// Constants: [`objects::tx_pdo2_mapping_parameters`].
     pub fn tx_pdo2_mapping_parameters(
         &mut self,
     ) -> objects::tx_pdo2_mapping_parameters::Accessors<'_, C> {
@@ -3146,6 +5556,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// TxPDO3 Mapping Parameters: 0x1A02.
+    /// Constants: [`objects::tx_pdo3_mapping_parameters`].
     pub fn tx_pdo3_mapping_parameters(
         &mut self,
     ) -> objects::tx_pdo3_mapping_parameters::Accessors<'_, C> {
@@ -3154,6 +5565,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// TxPDO4 Mapping Parameters: 0x1A03.
+    /// Constants: [`objects::tx_pdo4_mapping_parameters`].
     pub fn tx_pdo4_mapping_parameters(
         &mut self,
     ) -> objects::tx_pdo4_mapping_parameters::Accessors<'_, C> {
@@ -3162,6 +5574,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// read\_write\_variable: 0x23E8.
+    /// Constants: [`objects::read_write_variable`].
     pub fn read_write_variable(
         &mut self,
     ) -> objects::read_write_variable::Accessors<'_, C> {
@@ -3169,25 +5582,41 @@ impl<C> VectorStep<C> {
             client: &mut self.client,
         }
     }
-    /// Error code: 0x603F.
+    /// Error code: 0x603F:00.
+    ///
+    /// Code of the last error, the low 16 bits of the entry in 0x1003
+    ///
+    /// Constant: [`objects::ERROR_CODE`]. Values: [`ErrorCode`](types::ErrorCode).
     pub fn error_code(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ErrorCode, rt::OnCanOpenAndCoE> {
         objects::ERROR_CODE.at(&mut self.client)
     }
-    /// Controlword: 0x6040.
+    /// Controlword: 0x6040:00.
+    ///
+    /// Commands the state machine and the mode of operation; the manual has it in the first two bytes of every received PDO
+    ///
+    /// Constant: [`objects::CONTROLWORD`]. Values: [`Controlword`](types::Controlword). Carried by [`RxPdo1`](pdo::RxPdo1), [`RxPdo2`](pdo::RxPdo2).
     pub fn controlword(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::Controlword, rt::OnCanOpenAndCoE> {
         objects::CONTROLWORD.at(&mut self.client)
     }
-    /// Statusword: 0x6041.
+    /// Statusword: 0x6041:00.
+    ///
+    /// State of the drive; the manual has it in the first two bytes of every transmitted PDO
+    ///
+    /// Constant: [`objects::STATUSWORD`]. Values: [`Statusword`](types::Statusword). Carried by [`TxPdo1`](pdo::TxPdo1), [`TxPdo2`](pdo::TxPdo2).
     pub fn statusword(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::Statusword, rt::OnCanOpenAndCoE> {
         objects::STATUSWORD.at(&mut self.client)
     }
-    /// Quick-Stop option code: 0x605A.
+    /// Quick-Stop option code: 0x605A:00.
+    ///
+    /// What a quick stop does (transition 11)
+    ///
+    /// Constant: [`objects::QUICK_STOP_OPTION_CODE`]. Values: [`QuickStopOptionCode`](types::QuickStopOptionCode).
     pub fn quick_stop_option_code(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -3198,7 +5627,11 @@ impl<C> VectorStep<C> {
     > {
         objects::QUICK_STOP_OPTION_CODE.at(&mut self.client)
     }
-    /// Shutdown option code: 0x605B.
+    /// Shutdown option code: 0x605B:00.
+    ///
+    /// What transition 8 does, from operation enabled to ready to switch on
+    ///
+    /// Constant: [`objects::SHUTDOWN_OPTION_CODE`]. Values: [`ShutdownOptionCode`](types::ShutdownOptionCode).
     pub fn shutdown_option_code(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -3209,7 +5642,11 @@ impl<C> VectorStep<C> {
     > {
         objects::SHUTDOWN_OPTION_CODE.at(&mut self.client)
     }
-    /// Disable operation option code: 0x605C.
+    /// Disable operation option code: 0x605C:00.
+    ///
+    /// What transition 5 does, from operation enabled to switched on
+    ///
+    /// Constant: [`objects::DISABLE_OPERATION_OPTION_CODE`]. Values: [`DisableOperationOptionCode`](types::DisableOperationOptionCode).
     pub fn disable_operation_option_code(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -3220,13 +5657,21 @@ impl<C> VectorStep<C> {
     > {
         objects::DISABLE_OPERATION_OPTION_CODE.at(&mut self.client)
     }
-    /// Stop option code: 0x605D.
+    /// Stop option code: 0x605D:00.
+    ///
+    /// What a requested stop does
+    ///
+    /// Constant: [`objects::STOP_OPTION_CODE`]. Values: [`StopOptionCode`](types::StopOptionCode).
     pub fn stop_option_code(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::StopOptionCode, rt::OnCanOpenAndCoE> {
         objects::STOP_OPTION_CODE.at(&mut self.client)
     }
-    /// Fault reaction option code: 0x605E.
+    /// Fault reaction option code: 0x605E:00.
+    ///
+    /// What the drive does on a fault
+    ///
+    /// Constant: [`objects::FAULT_REACTION_OPTION_CODE`]. Values: [`FaultReactionOptionCode`](types::FaultReactionOptionCode).
     pub fn fault_reaction_option_code(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -3237,121 +5682,198 @@ impl<C> VectorStep<C> {
     > {
         objects::FAULT_REACTION_OPTION_CODE.at(&mut self.client)
     }
-    /// Modes of operation: 0x6060.
+    /// Modes of operation: 0x6060:00.
+    ///
+    /// Chooses the mode of operation
+    ///
+    /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`ModesOfOperation`](types::ModesOfOperation). Carried by [`RxPdo1`](pdo::RxPdo1).
     pub fn modes_of_operation(
         &mut self,
     ) -> objects::WriteOnlyAccess<'_, C, types::ModesOfOperation, rt::OnCanOpenAndCoE> {
         objects::MODES_OF_OPERATION.at(&mut self.client)
     }
-    /// Modes of operation display: 0x6061.
+    /// Modes of operation display: 0x6061:00.
+    ///
+    /// The mode of operation that is in effect
+    ///
+    /// Constant: [`objects::MODES_OF_OPERATION_DISPLAY`]. Values: [`ModesOfOperation`](types::ModesOfOperation). Carried by [`TxPdo1`](pdo::TxPdo1).
     pub fn modes_of_operation_display(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::ModesOfOperation, rt::OnCanOpenAndCoE> {
         objects::MODES_OF_OPERATION_DISPLAY.at(&mut self.client)
     }
-    /// Position actual value: 0x6064.
+    /// Position actual value: 0x6064:00.
+    ///
+    /// Absolute position of the axis in steps
+    ///
+    /// Constant: [`objects::POSITION_ACTUAL_VALUE`]. Carried by [`TxPdo2`](pdo::TxPdo2).
     pub fn position_actual_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
         objects::POSITION_ACTUAL_VALUE.at(&mut self.client)
     }
-    /// Following error window: 0x6065.
+    /// Following error window: 0x6065:00.
+    ///
+    /// Following error that is tolerated
+    ///
+    /// Constant: [`objects::FOLLOWING_ERROR_WINDOW`].
     pub fn following_error_window(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
         objects::FOLLOWING_ERROR_WINDOW.at(&mut self.client)
     }
-    /// Following error time-out: 0x6066.
+    /// Following error time-out: 0x6066:00.
+    ///
+    /// How long the following error may exceed its window
+    ///
+    /// Constant: [`objects::FOLLOWING_ERROR_TIME_OUT`].
     pub fn following_error_time_out(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
         objects::FOLLOWING_ERROR_TIME_OUT.at(&mut self.client)
     }
-    /// Position window: 0x6067.
+    /// Position window: 0x6067:00.
+    ///
+    /// Distance from the target within which it counts as reached
+    ///
+    /// Constant: [`objects::POSITION_WINDOW`].
     pub fn position_window(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
         objects::POSITION_WINDOW.at(&mut self.client)
     }
-    /// Position window time-out: 0x6068.
+    /// Position window time-out: 0x6068:00.
+    ///
+    /// How long the position has to stay within its window
+    ///
+    /// Constant: [`objects::POSITION_WINDOW_TIME_OUT`].
     pub fn position_window_time_out(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
         objects::POSITION_WINDOW_TIME_OUT.at(&mut self.client)
     }
-    /// Velocity actual value: 0x606C.
+    /// Velocity actual value: 0x606C:00.
+    ///
+    /// Present velocity of the motor
+    ///
+    /// Constant: [`objects::VELOCITY_ACTUAL_VALUE`].
     pub fn velocity_actual_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, rt::Scaled<i32, 1, 100>, rt::OnCanOpenAndCoE> {
         objects::VELOCITY_ACTUAL_VALUE.at(&mut self.client)
     }
-    /// Target position: 0x607A.
+    /// Target position: 0x607A:00.
+    ///
+    /// Position wanted in profile position mode; bit 6 of the Controlword makes it absolute or relative
+    ///
+    /// Constant: [`objects::TARGET_POSITION`]. Carried by [`RxPdo2`](pdo::RxPdo2).
     pub fn target_position(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
         objects::TARGET_POSITION.at(&mut self.client)
     }
-    /// Home offset: 0x607C.
+    /// Home offset: 0x607C:00.
+    ///
+    /// Value that the actual position gets at the end of homing
+    ///
+    /// Constant: [`objects::HOME_OFFSET`].
     pub fn home_offset(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
         objects::HOME_OFFSET.at(&mut self.client)
     }
-    /// Profile velocity: 0x6081.
+    /// Profile velocity: 0x6081:00.
+    ///
+    /// Velocity of a movement
+    ///
+    /// Constant: [`objects::PROFILE_VELOCITY`].
     pub fn profile_velocity(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 100>, rt::OnCanOpenAndCoE> {
         objects::PROFILE_VELOCITY.at(&mut self.client)
     }
-    /// End Velocity: 0x6082.
+    /// End Velocity: 0x6082:00.
+    ///
+    /// Velocity at which a movement starts and stops
+    ///
+    /// Constant: [`objects::END_VELOCITY`].
     pub fn end_velocity(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i32, 1, 100>, rt::OnCanOpenAndCoE> {
         objects::END_VELOCITY.at(&mut self.client)
     }
-    /// Profile acceleration: 0x6083.
+    /// Profile acceleration: 0x6083:00.
+    ///
+    /// Acceleration of a movement
+    ///
+    /// Constant: [`objects::PROFILE_ACCELERATION`].
     pub fn profile_acceleration(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>, rt::OnCanOpenAndCoE> {
         objects::PROFILE_ACCELERATION.at(&mut self.client)
     }
-    /// Profile deceleration: 0x6084.
+    /// Profile deceleration: 0x6084:00.
+    ///
+    /// Deceleration of a movement
+    ///
+    /// Constant: [`objects::PROFILE_DECELERATION`].
     pub fn profile_deceleration(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>, rt::OnCanOpenAndCoE> {
         objects::PROFILE_DECELERATION.at(&mut self.client)
     }
-    /// Quick stop deceleration: 0x6085.
+    /// Quick stop deceleration: 0x6085:00.
+    ///
+    /// Deceleration in an emergency
+    ///
+    /// Constant: [`objects::QUICK_STOP_DECELERATION`].
     pub fn quick_stop_deceleration(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>, rt::OnCanOpenAndCoE> {
         objects::QUICK_STOP_DECELERATION.at(&mut self.client)
     }
-    /// Motion profile type: 0x6086.
+    /// Motion profile type: 0x6086:00.
+    ///
+    /// Shape of the acceleration and deceleration ramps: linear or S
+    ///
+    /// Constant: [`objects::MOTION_PROFILE_TYPE`]. Values: [`MotionProfileType`](types::MotionProfileType).
     pub fn motion_profile_type(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::MotionProfileType, rt::OnCanOpenAndCoE> {
         objects::MOTION_PROFILE_TYPE.at(&mut self.client)
     }
-    /// Homing method: 0x6098.
+    /// Homing method: 0x6098:00.
+    ///
+    /// How the axis is homed
+    ///
+    /// Constant: [`objects::HOMING_METHOD`]. Values: [`HomingMethod`](types::HomingMethod).
     pub fn homing_method(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::HomingMethod, rt::OnCanOpenAndCoE> {
         objects::HOMING_METHOD.at(&mut self.client)
     }
     /// Homing speeds: 0x6099.
+    /// Constants: [`objects::homing_speeds`].
     pub fn homing_speeds(&mut self) -> objects::homing_speeds::Accessors<'_, C> {
         objects::homing_speeds::Accessors {
             client: &mut self.client,
         }
     }
-    /// Homing acceleration: 0x609A.
+    /// Homing acceleration: 0x609A:00.
+    ///
+    /// Acceleration and deceleration during homing
+    ///
+    /// Constant: [`objects::HOMING_ACCELERATION`].
     pub fn homing_acceleration(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>, rt::OnCanOpenAndCoE> {
         objects::HOMING_ACCELERATION.at(&mut self.client)
     }
-    /// Touch Probe function: 0x60B8.
+    /// Touch Probe function: 0x60B8:00.
+    ///
+    /// Controls the touch probes; the same as register 331, from firmware 6 register 10084 (L2994)
+    ///
+    /// Constant: [`objects::TOUCH_PROBE_FUNCTION`]. Values: [`TouchProbeFunction`](types::TouchProbeFunction).
     pub fn touch_probe_function(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -3362,37 +5884,61 @@ impl<C> VectorStep<C> {
     > {
         objects::TOUCH_PROBE_FUNCTION.at(&mut self.client)
     }
-    /// Touch Probe status: 0x60B9.
+    /// Touch Probe status: 0x60B9:00.
+    ///
+    /// State of the touch probes; the same as register 332, from firmware 6 register 10085 (L3035)
+    ///
+    /// Constant: [`objects::TOUCH_PROBE_STATUS`]. Values: [`TouchProbeStatus`](types::TouchProbeStatus).
     pub fn touch_probe_status(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, types::TouchProbeStatus, rt::OnCanOpenAndCoE> {
         objects::TOUCH_PROBE_STATUS.at(&mut self.client)
     }
-    /// Touch probe position 1 positive value: 0x60BA.
+    /// Touch probe position 1 positive value: 0x60BA:00.
+    ///
+    /// Position at the positive edge of touch probe 1, in the user's position units; register 333-334, from firmware 6 10086-10087
+    ///
+    /// Constant: [`objects::TOUCH_PROBE_POSITION_1_POSITIVE_VALUE`].
     pub fn touch_probe_position_1_positive_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
         objects::TOUCH_PROBE_POSITION_1_POSITIVE_VALUE.at(&mut self.client)
     }
-    /// Touch probe position 1 negative value: 0x60BB.
+    /// Touch probe position 1 negative value: 0x60BB:00.
+    ///
+    /// Position at the negative edge of touch probe 1, in the user's position units; register 335-336, from firmware 6 10088-10089
+    ///
+    /// Constant: [`objects::TOUCH_PROBE_POSITION_1_NEGATIVE_VALUE`].
     pub fn touch_probe_position_1_negative_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
         objects::TOUCH_PROBE_POSITION_1_NEGATIVE_VALUE.at(&mut self.client)
     }
-    /// Touch probe position 2 positive value: 0x60BC.
+    /// Touch probe position 2 positive value: 0x60BC:00.
+    ///
+    /// Position at the positive edge of touch probe 2, in the user's position units; register 337-338, from firmware 6 10097-10098
+    ///
+    /// Constant: [`objects::TOUCH_PROBE_POSITION_2_POSITIVE_VALUE`].
     pub fn touch_probe_position_2_positive_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
         objects::TOUCH_PROBE_POSITION_2_POSITIVE_VALUE.at(&mut self.client)
     }
-    /// Touch probe position 2 negative value: 0x60BD.
+    /// Touch probe position 2 negative value: 0x60BD:00.
+    ///
+    /// Position at the negative edge of touch probe 2, in the user's position units; register 339-340, from firmware 6 10099-10100
+    ///
+    /// Constant: [`objects::TOUCH_PROBE_POSITION_2_NEGATIVE_VALUE`].
     pub fn touch_probe_position_2_negative_value(
         &mut self,
     ) -> objects::ReadOnlyAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
         objects::TOUCH_PROBE_POSITION_2_NEGATIVE_VALUE.at(&mut self.client)
     }
-    /// Interpolation Submode Select: 0x60C0.
+    /// Interpolation Submode Select: 0x60C0:00.
+    ///
+    /// How the drive interpolates
+    ///
+    /// Constant: [`objects::INTERPOLATION_SUBMODE_SELECT`]. Values: [`InterpolationSubmode`](types::InterpolationSubmode).
     pub fn interpolation_submode_select(
         &mut self,
     ) -> objects::ReadWriteAccess<
@@ -3404,6 +5950,7 @@ impl<C> VectorStep<C> {
         objects::INTERPOLATION_SUBMODE_SELECT.at(&mut self.client)
     }
     /// Interpolation Data Record: 0x60C1.
+    /// Constants: [`objects::interpolation_data_record`].
     pub fn interpolation_data_record(
         &mut self,
     ) -> objects::interpolation_data_record::Accessors<'_, C> {
@@ -3412,6 +5959,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// Interpolation Time Period: 0x60C2.
+    /// Constants: [`objects::interpolation_time_period`].
     pub fn interpolation_time_period(
         &mut self,
     ) -> objects::interpolation_time_period::Accessors<'_, C> {
@@ -3420,6 +5968,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// Interpolation Sync Definition: 0x60C3.
+    /// Constants: [`objects::interpolation_sync_definition`].
     pub fn interpolation_sync_definition(
         &mut self,
     ) -> objects::interpolation_sync_definition::Accessors<'_, C> {
@@ -3428,6 +5977,7 @@ impl<C> VectorStep<C> {
         }
     }
     /// Interpolation Data Configuration: 0x60C4.
+    /// Constants: [`objects::interpolation_data_configuration`].
     pub fn interpolation_data_configuration(
         &mut self,
     ) -> objects::interpolation_data_configuration::Accessors<'_, C> {
@@ -3435,7 +5985,11 @@ impl<C> VectorStep<C> {
             client: &mut self.client,
         }
     }
-    /// Digital inputs: 0x60FD.
+    /// Digital inputs: 0x60FD:00.
+    ///
+    /// Limit and home switches, and the 16 digital inputs
+    ///
+    /// Constant: [`objects::DIGITAL_INPUTS`]. Values: [`ProfileDigitalInputs`](types::ProfileDigitalInputs).
     pub fn digital_inputs(
         &mut self,
     ) -> objects::ReadOnlyAccess<
@@ -3447,18 +6001,27 @@ impl<C> VectorStep<C> {
         objects::DIGITAL_INPUTS.at(&mut self.client)
     }
     /// Digital outputs: 0x60FE.
+    /// Constants: [`objects::digital_outputs`].
     pub fn digital_outputs(&mut self) -> objects::digital_outputs::Accessors<'_, C> {
         objects::digital_outputs::Accessors {
             client: &mut self.client,
         }
     }
-    /// Motor type: 0x6402.
+    /// Motor type: 0x6402:00.
+    ///
+    /// Kind of motor; 9 again after each power-on
+    ///
+    /// Constant: [`objects::MOTOR_TYPE`]. Values: [`MotorType`](types::MotorType).
     pub fn motor_type(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::MotorType, rt::OnCanOpenAndCoE> {
         objects::MOTOR_TYPE.at(&mut self.client)
     }
-    /// Supported drive modes: 0x6502.
+    /// Supported drive modes: 0x6502:00.
+    ///
+    /// Modes of operation that the drive has
+    ///
+    /// Constant: [`objects::SUPPORTED_DRIVE_MODES`]. Values: [`SupportedDriveModes`](types::SupportedDriveModes).
     pub fn supported_drive_modes(
         &mut self,
     ) -> objects::ReadOnlyAccess<
@@ -3469,13 +6032,21 @@ impl<C> VectorStep<C> {
     > {
         objects::SUPPORTED_DRIVE_MODES.at(&mut self.client)
     }
-    /// Drive manufacturer: 0x6504.
+    /// Drive manufacturer: 0x6504:00.
+    ///
+    /// Name of the manufacturer; what is written is lost at power-off
+    ///
+    /// Constant: [`objects::DRIVE_MANUFACTURER`].
     pub fn drive_manufacturer(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::VisibleString, rt::OnCanOpenAndCoE> {
         objects::DRIVE_MANUFACTURER.at(&mut self.client)
     }
-    /// http drive catalog address: 0x6505.
+    /// http drive catalog address: 0x6505:00.
+    ///
+    /// Web address of the data sheet; what is written is lost at power-off
+    ///
+    /// Constant: [`objects::HTTP_DRIVE_CATALOG_ADDRESS`].
     pub fn http_drive_catalog_address(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::VisibleString, rt::OnCanOpenAndCoE> {
@@ -3486,6 +6057,10 @@ impl<C> VectorStep<C> {
 pub mod types {
     use ::lexibus as rt;
     /// DeviceType drive type.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 4 | [`StepperMotor`](Self::StepperMotor) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DeviceTypeDriveType {
         /// 4: stepper motor.
@@ -3519,6 +6094,11 @@ pub mod types {
         }
     }
     /// CobIdSync SYNC production.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`On`](Self::On) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CobIdSyncSyncProduction {
         /// 0: off.
@@ -3552,6 +6132,11 @@ pub mod types {
         }
     }
     /// CobIdSync frame format.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Base`](Self::Base) |
+    /// | 1 | [`Extended`](Self::Extended) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CobIdSyncFrameFormat {
         /// 0: base.
@@ -3585,6 +6170,11 @@ pub mod types {
         }
     }
     /// CobIdEmergency frame format.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Base`](Self::Base) |
+    /// | 1 | [`Extended`](Self::Extended) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CobIdEmergencyFrameFormat {
         /// 0: base.
@@ -3618,6 +6208,11 @@ pub mod types {
         }
     }
     /// CobIdPdo validity.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Valid`](Self::Valid) |
+    /// | 1 | [`Invalid`](Self::Invalid) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CobIdPdoValidity {
         /// 0: valid.
@@ -3651,6 +6246,11 @@ pub mod types {
         }
     }
     /// CobIdPdo remote request.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Allowed`](Self::Allowed) |
+    /// | 1 | [`Refused`](Self::Refused) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CobIdPdoRemoteRequest {
         /// 0: allowed.
@@ -3684,6 +6284,11 @@ pub mod types {
         }
     }
     /// CobIdPdo frame format.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Base`](Self::Base) |
+    /// | 1 | [`Extended`](Self::Extended) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CobIdPdoFrameFormat {
         /// 0: base.
@@ -3719,6 +6324,16 @@ pub mod types {
     /// TransmissionType.
     ///
     /// Manual, line 995-1003, 1105-1113.
+    ///
+    /// Values of [`rx_pdo1_communication_parameters::TRANSMISSION_TYPE`](super::objects::rx_pdo1_communication_parameters::TRANSMISSION_TYPE), [`rx_pdo2_communication_parameters::TRANSMISSION_TYPE`](super::objects::rx_pdo2_communication_parameters::TRANSMISSION_TYPE), [`rx_pdo3_communication_parameters::TRANSMISSION_TYPE`](super::objects::rx_pdo3_communication_parameters::TRANSMISSION_TYPE), [`rx_pdo4_communication_parameters::TRANSMISSION_TYPE`](super::objects::rx_pdo4_communication_parameters::TRANSMISSION_TYPE), [`tx_pdo1_communication_parameters::TRANSMISSION_TYPE`](super::objects::tx_pdo1_communication_parameters::TRANSMISSION_TYPE), [`tx_pdo2_communication_parameters::TRANSMISSION_TYPE`](super::objects::tx_pdo2_communication_parameters::TRANSMISSION_TYPE), [`tx_pdo3_communication_parameters::TRANSMISSION_TYPE`](super::objects::tx_pdo3_communication_parameters::TRANSMISSION_TYPE), [`tx_pdo4_communication_parameters::TRANSMISSION_TYPE`](super::objects::tx_pdo4_communication_parameters::TRANSMISSION_TYPE).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`SynchronousAcyclic`](Self::SynchronousAcyclic) | On a SYNC, but not periodically. |
+    /// | 252 | [`SynchronousOnRequest`](Self::SynchronousOnRequest) | Sent on a remote request only, with data as they were at the SYNC. |
+    /// | 253 | [`AsynchronousOnRequest`](Self::AsynchronousOnRequest) | Sent on a remote request only, with data as they are then. |
+    /// | 254 | [`EventTriggered254`](Self::EventTriggered254) | Asynchronous: on events, and when the event timer runs out. |
+    /// | 255 | [`EventTriggered255`](Self::EventTriggered255) | Asynchronous: on events, and when the event timer runs out; as 254. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TransmissionType {
         /// 0: synchronous acyclic. On a SYNC, but not periodically. Manual, line 997, 1107.
@@ -3768,6 +6383,11 @@ pub mod types {
         }
     }
     /// Controlword jog.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Stop`](Self::Stop) |
+    /// | 1 | [`Start`](Self::Start) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ControlwordJog {
         /// 0: stop.
@@ -3801,6 +6421,11 @@ pub mod types {
         }
     }
     /// Controlword jog direction.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Clockwise`](Self::Clockwise) |
+    /// | 1 | [`Counterclockwise`](Self::Counterclockwise) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ControlwordJogDirection {
         /// 0: clockwise.
@@ -3834,6 +6459,11 @@ pub mod types {
         }
     }
     /// Controlword target.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Absolute`](Self::Absolute) |
+    /// | 1 | [`Relative`](Self::Relative) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ControlwordTarget {
         /// 0: absolute.
@@ -3867,6 +6497,11 @@ pub mod types {
         }
     }
     /// Controlword jog velocity update.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`OnJogStart`](Self::OnJogStart) |
+    /// | 1 | [`Continuous`](Self::Continuous) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ControlwordJogVelocityUpdate {
         /// 0: on jog start.
@@ -3902,6 +6537,20 @@ pub mod types {
     /// QuickStopOptionCode.
     ///
     /// Manual, line 1368-1379.
+    ///
+    /// Values of [`QUICK_STOP_OPTION_CODE`](super::objects::QUICK_STOP_OPTION_CODE).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`DisableDrive`](Self::DisableDrive) |  |
+    /// | 1 | [`SlowDownRampThenDisabled`](Self::SlowDownRampThenDisabled) | slow down ramp, then disabled. Slows down on the deceleration ramp and goes to switch on disabled. |
+    /// | 2 | [`QuickStopRampThenDisabled`](Self::QuickStopRampThenDisabled) | quick stop ramp, then disabled. Slows down on the quick stop ramp and goes to switch on disabled. |
+    /// | 3 | [`Reserved3`](Self::Reserved3) |  |
+    /// | 4 | [`Reserved4`](Self::Reserved4) |  |
+    /// | 5 | [`SlowDownRampThenQuickStop`](Self::SlowDownRampThenQuickStop) | slow down ramp, then quick stop. Slows down on the deceleration ramp and stays in quick stop active. |
+    /// | 6 | [`QuickStopRampThenQuickStop`](Self::QuickStopRampThenQuickStop) | quick stop ramp, then quick stop. Slows down on the quick stop ramp and stays in quick stop active. |
+    /// | 7 | [`Reserved7`](Self::Reserved7) |  |
+    /// | 8 | [`Reserved8`](Self::Reserved8) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum QuickStopOptionCode {
         /// 0: disable drive. Manual, line 1370: Disable drive function.
@@ -3969,6 +6618,13 @@ pub mod types {
     /// ShutdownOptionCode.
     ///
     /// Manual, line 1391-1395.
+    ///
+    /// Values of [`SHUTDOWN_OPTION_CODE`](super::objects::SHUTDOWN_OPTION_CODE).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`DisableDrive`](Self::DisableDrive) |  |
+    /// | 1 | [`SlowDownRamp`](Self::SlowDownRamp) | Slows down on the deceleration ramp. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ShutdownOptionCode {
         /// 0: disable drive. Manual, line 1393: Disable drive function.
@@ -4008,6 +6664,13 @@ pub mod types {
     /// DisableOperationOptionCode.
     ///
     /// Manual, line 1407-1411.
+    ///
+    /// Values of [`DISABLE_OPERATION_OPTION_CODE`](super::objects::DISABLE_OPERATION_OPTION_CODE).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`DisableDrive`](Self::DisableDrive) |  |
+    /// | 1 | [`SlowDownRamp`](Self::SlowDownRamp) | Slows down on the deceleration ramp. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DisableOperationOptionCode {
         /// 0: disable drive. Manual, line 1409: Disable drive function.
@@ -4047,6 +6710,14 @@ pub mod types {
     /// StopOptionCode.
     ///
     /// Manual, line 1425-1430.
+    ///
+    /// Values of [`STOP_OPTION_CODE`](super::objects::STOP_OPTION_CODE).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`DisableDrive`](Self::DisableDrive) |  |
+    /// | 1 | [`SlowDownRamp`](Self::SlowDownRamp) | Slows down on the deceleration ramp. |
+    /// | 2 | [`QuickStopRamp`](Self::QuickStopRamp) | Slows down on the quick stop ramp. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum StopOptionCode {
         /// 0: disable drive. Manual, line 1427: Disable drive function.
@@ -4090,6 +6761,14 @@ pub mod types {
     /// FaultReactionOptionCode.
     ///
     /// Manual, line 1444-1449.
+    ///
+    /// Values of [`FAULT_REACTION_OPTION_CODE`](super::objects::FAULT_REACTION_OPTION_CODE).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`DisableDrive`](Self::DisableDrive) |  |
+    /// | 1 | [`SlowDownRamp`](Self::SlowDownRamp) | Slows down on the deceleration ramp. |
+    /// | 2 | [`QuickStopRamp`](Self::QuickStopRamp) | Slows down on the quick stop ramp. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum FaultReactionOptionCode {
         /// 0: disable drive. Manual, line 1446: Disable drive function.
@@ -4133,6 +6812,18 @@ pub mod types {
     /// ModesOfOperation.
     ///
     /// Manual, line 1461-1469, 1487-1495.
+    ///
+    /// Values of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION), [`MODES_OF_OPERATION_DISPLAY`](super::objects::MODES_OF_OPERATION_DISPLAY).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | -1 | [`AecVelocity`](Self::AecVelocity) | Jog at a velocity. |
+    /// | 0 | [`Reserved0`](Self::Reserved0) |  |
+    /// | 1 | [`ProfilePosition`](Self::ProfilePosition) |  |
+    /// | 6 | [`Homing`](Self::Homing) |  |
+    /// | 7 | [`InterpolatedPosition`](Self::InterpolatedPosition) |  |
+    /// | 8 | [`CyclicSynchronousPosition`](Self::CyclicSynchronousPosition) |  |
+    /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModesOfOperation {
         /// -1: AEC velocity. Jog at a velocity. Manual, line 1463, 1489: AEC Velocity mode (JOG).
@@ -4192,6 +6883,25 @@ pub mod types {
     /// MotionProfileType.
     ///
     /// Manual, line 1595-1611.
+    ///
+    /// Values of [`MOTION_PROFILE_TYPE`](super::objects::MOTION_PROFILE_TYPE).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | -10 | [`PureSRamp`](Self::PureSRamp) | Phases 2 and 6 last 0 %. |
+    /// | -9 | [`SRamp10PercentLinear`](Self::SRamp10PercentLinear) | S ramp, 10 percent linear. Phases 2 and 6 last 10 %. |
+    /// | -8 | [`SRamp20PercentLinear`](Self::SRamp20PercentLinear) | S ramp, 20 percent linear. Phases 2 and 6 last 20 %. |
+    /// | -7 | [`SRamp30PercentLinear`](Self::SRamp30PercentLinear) | S ramp, 30 percent linear. Phases 2 and 6 last 30 %. |
+    /// | -6 | [`SRamp40PercentLinear`](Self::SRamp40PercentLinear) | S ramp, 40 percent linear. Phases 2 and 6 last 40 %. |
+    /// | -5 | [`SRamp50PercentLinear`](Self::SRamp50PercentLinear) | S ramp, 50 percent linear. Phases 2 and 6 last 50 %. |
+    /// | -4 | [`SRamp60PercentLinear`](Self::SRamp60PercentLinear) | S ramp, 60 percent linear. Phases 2 and 6 last 60 %. |
+    /// | -3 | [`SRamp70PercentLinear`](Self::SRamp70PercentLinear) | S ramp, 70 percent linear. Phases 2 and 6 last 70 %. |
+    /// | -2 | [`SRamp80PercentLinear`](Self::SRamp80PercentLinear) | S ramp, 80 percent linear. Phases 2 and 6 last 80 %. |
+    /// | -1 | [`SRamp90PercentLinear`](Self::SRamp90PercentLinear) | S ramp, 90 percent linear. Phases 2 and 6 last 90 %. |
+    /// | 0 | [`TrapezoidalRamp`](Self::TrapezoidalRamp) | Phases 2 and 6 last 100 %. |
+    /// | 1 | [`NotUsed1`](Self::NotUsed1) |  |
+    /// | 2 | [`NotUsed2`](Self::NotUsed2) |  |
+    /// | 3 | [`NotUsed3`](Self::NotUsed3) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum MotionProfileType {
         /// -10: pure S ramp. Phases 2 and 6 last 0 %. Manual, line 1597: Rampa ad S pura.
@@ -4277,6 +6987,30 @@ pub mod types {
         }
     }
     /// HomingMethod.
+    ///
+    /// Values of [`HOMING_METHOD`](super::objects::HOMING_METHOD).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | -16 | [`ForwardLimitAndIndexPositive`](Self::ForwardLimitAndIndexPositive) | forward limit and index, positive. |
+    /// | -15 | [`ForwardLimitAndIndexNegative`](Self::ForwardLimitAndIndexNegative) | forward limit and index, negative. |
+    /// | -14 | [`ForwardLimitPositive`](Self::ForwardLimitPositive) | forward limit, positive. |
+    /// | -13 | [`ForwardLimitNegative`](Self::ForwardLimitNegative) | forward limit, negative. |
+    /// | -12 | [`ForwardMechanicalStopAndIndex`](Self::ForwardMechanicalStopAndIndex) |  |
+    /// | -11 | [`BackwardMechanicalStopAndIndex`](Self::BackwardMechanicalStopAndIndex) |  |
+    /// | -10 | [`ForwardMechanicalStop`](Self::ForwardMechanicalStop) |  |
+    /// | -9 | [`BackwardMechanicalStop`](Self::BackwardMechanicalStop) |  |
+    /// | -8 | [`ForwardMechanicalStopAndMeasureAxis`](Self::ForwardMechanicalStopAndMeasureAxis) | Measures the axis and sets Rlowlim and Rupplim. |
+    /// | -7 | [`BackwardMechanicalStopAndMeasureAxis`](Self::BackwardMechanicalStopAndMeasureAxis) | Measures the axis and sets Rlowlim and Rupplim. |
+    /// | -6 | [`IndexPositive`](Self::IndexPositive) | index, positive. |
+    /// | -5 | [`IndexNegative`](Self::IndexNegative) | index, negative. |
+    /// | -4 | [`BackwardLimitAndIndexPositive`](Self::BackwardLimitAndIndexPositive) | backward limit and index, positive. |
+    /// | -3 | [`BackwardLimitAndIndexNegative`](Self::BackwardLimitAndIndexNegative) | backward limit and index, negative. |
+    /// | -2 | [`BackwardLimitPositive`](Self::BackwardLimitPositive) | backward limit, positive. |
+    /// | -1 | [`BackwardLimitNegative`](Self::BackwardLimitNegative) | backward limit, negative. |
+    /// | 0 | [`InPlace`](Self::InPlace) |  |
+    /// | 35 | [`InPlaceDs402Method35`](Self::InPlaceDs402Method35) | in place, DS402 method 35. The same as 0, for compatibility with DS402. |
+    /// | 37 | [`InPlaceDs402Method37`](Self::InPlaceDs402Method37) | in place, DS402 method 37. The same as 0, for compatibility with DS402. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum HomingMethod {
         /// -16: forward limit and index, positive. Manual: Home su FLS + TOP, direzione positiva.
@@ -4287,17 +7021,17 @@ pub mod types {
         ForwardLimitPositive,
         /// -13: forward limit, negative. Manual: Home su FLS, direzione negativa.
         ForwardLimitNegative,
-        /// -12: forward mechanical stop and index. Only while Rfocmode is 2 or 3. Manual: Home in battuta avanti + TOP.
+        /// -12: forward mechanical stop and index. Only while [Rfocmode](super::objects::RFOCMODE) is 2 or 3. Manual: Home in battuta avanti + TOP.
         ForwardMechanicalStopAndIndex,
-        /// -11: backward mechanical stop and index. Only while Rfocmode is 2 or 3. Manual: Home in battuta indietro + TOP.
+        /// -11: backward mechanical stop and index. Only while [Rfocmode](super::objects::RFOCMODE) is 2 or 3. Manual: Home in battuta indietro + TOP.
         BackwardMechanicalStopAndIndex,
-        /// -10: forward mechanical stop. Only while Rfocmode is 2 or 3. Manual: Home in battuta avanti.
+        /// -10: forward mechanical stop. Only while [Rfocmode](super::objects::RFOCMODE) is 2 or 3. Manual: Home in battuta avanti.
         ForwardMechanicalStop,
-        /// -9: backward mechanical stop. Only while Rfocmode is 2 or 3. Manual: Home in battuta indietro.
+        /// -9: backward mechanical stop. Only while [Rfocmode](super::objects::RFOCMODE) is 2 or 3. Manual: Home in battuta indietro.
         BackwardMechanicalStop,
-        /// -8: forward mechanical stop and measure axis. Measures the axis and sets Rlowlim and Rupplim. Only while Rfocmode is 2 or 3. Manual: Home in battuta avanti + misura asse.
+        /// -8: forward mechanical stop and measure axis. Measures the axis and sets Rlowlim and Rupplim. Only while [Rfocmode](super::objects::RFOCMODE) is 2 or 3. Manual: Home in battuta avanti + misura asse.
         ForwardMechanicalStopAndMeasureAxis,
-        /// -7: backward mechanical stop and measure axis. Measures the axis and sets Rlowlim and Rupplim. Only while Rfocmode is 2 or 3. Manual: Home in battuta indietro + misura asse.
+        /// -7: backward mechanical stop and measure axis. Measures the axis and sets Rlowlim and Rupplim. Only while [Rfocmode](super::objects::RFOCMODE) is 2 or 3. Manual: Home in battuta indietro + misura asse.
         BackwardMechanicalStopAndMeasureAxis,
         /// -6: index, positive. Manual: Home solo con TOP, direzione positiva.
         IndexPositive,
@@ -4382,6 +7116,11 @@ pub mod types {
         }
     }
     /// TouchProbeFunction probe 1 enable.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeFunctionProbe1Enable {
         /// 0: off.
@@ -4415,6 +7154,11 @@ pub mod types {
         }
     }
     /// TouchProbeFunction probe 1 continuous.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`FirstEvent`](Self::FirstEvent) |
+    /// | 1 | [`Continuous`](Self::Continuous) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeFunctionProbe1Continuous {
         /// 0: first event.
@@ -4448,6 +7192,13 @@ pub mod types {
         }
     }
     /// TouchProbeFunction probe 1 trigger.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Input0`](Self::Input0) |
+    /// | 1 | [`EncoderIndex`](Self::EncoderIndex) |
+    /// | 2 | [`ByObject60D0`](Self::ByObject60D0) |
+    /// | 3 | [`Reserved`](Self::Reserved) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeFunctionProbe1Trigger {
         /// 0: input 0.
@@ -4489,6 +7240,11 @@ pub mod types {
         }
     }
     /// TouchProbeFunction probe 1 positive edge.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`Sampled`](Self::Sampled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeFunctionProbe1PositiveEdge {
         /// 0: off.
@@ -4522,6 +7278,11 @@ pub mod types {
         }
     }
     /// TouchProbeFunction probe 1 negative edge.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`Sampled`](Self::Sampled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeFunctionProbe1NegativeEdge {
         /// 0: off.
@@ -4555,6 +7316,13 @@ pub mod types {
         }
     }
     /// TouchProbeFunction probe 1 position.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActualPosition`](Self::ActualPosition) |
+    /// | 1 | [`Encoder1`](Self::Encoder1) |
+    /// | 2 | [`Encoder2`](Self::Encoder2) |
+    /// | 3 | [`AbsoluteEncoder`](Self::AbsoluteEncoder) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeFunctionProbe1Position {
         /// 0: actual position. Manual: Touch Rposact.
@@ -4596,6 +7364,11 @@ pub mod types {
         }
     }
     /// TouchProbeFunction probe 2 enable.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeFunctionProbe2Enable {
         /// 0: off.
@@ -4629,6 +7402,11 @@ pub mod types {
         }
     }
     /// TouchProbeFunction probe 2 continuous.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`FirstEvent`](Self::FirstEvent) |
+    /// | 1 | [`Continuous`](Self::Continuous) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeFunctionProbe2Continuous {
         /// 0: first event.
@@ -4662,6 +7440,13 @@ pub mod types {
         }
     }
     /// TouchProbeFunction probe 2 trigger.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Input1`](Self::Input1) |
+    /// | 1 | [`EncoderIndex`](Self::EncoderIndex) |
+    /// | 2 | [`ByObject60D0`](Self::ByObject60D0) |
+    /// | 3 | [`Reserved`](Self::Reserved) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeFunctionProbe2Trigger {
         /// 0: input 1.
@@ -4703,6 +7488,11 @@ pub mod types {
         }
     }
     /// TouchProbeFunction probe 2 positive edge.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`Sampled`](Self::Sampled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeFunctionProbe2PositiveEdge {
         /// 0: off.
@@ -4736,6 +7526,11 @@ pub mod types {
         }
     }
     /// TouchProbeFunction probe 2 negative edge.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`Sampled`](Self::Sampled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeFunctionProbe2NegativeEdge {
         /// 0: off.
@@ -4769,6 +7564,13 @@ pub mod types {
         }
     }
     /// TouchProbeFunction probe 2 position.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActualPosition`](Self::ActualPosition) |
+    /// | 1 | [`Encoder1`](Self::Encoder1) |
+    /// | 2 | [`Encoder2`](Self::Encoder2) |
+    /// | 3 | [`AbsoluteEncoder`](Self::AbsoluteEncoder) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeFunctionProbe2Position {
         /// 0: actual position. Manual: Touch Rposact.
@@ -4810,6 +7612,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatus probe 1 enabled.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`SwitchedOff`](Self::SwitchedOff) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusProbe1Enabled {
         /// 0: switched off.
@@ -4843,6 +7650,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatus probe 1 positive edge stored.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`NoValue`](Self::NoValue) |
+    /// | 1 | [`Stored`](Self::Stored) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusProbe1PositiveEdgeStored {
         /// 0: no value.
@@ -4876,6 +7688,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatus probe 1 negative edge stored.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`NoValue`](Self::NoValue) |
+    /// | 1 | [`Stored`](Self::Stored) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusProbe1NegativeEdgeStored {
         /// 0: no value.
@@ -4909,6 +7726,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatus probe 2 enabled.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`SwitchedOff`](Self::SwitchedOff) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusProbe2Enabled {
         /// 0: switched off.
@@ -4942,6 +7764,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatus probe 2 positive edge stored.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`NoValue`](Self::NoValue) |
+    /// | 1 | [`Stored`](Self::Stored) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusProbe2PositiveEdgeStored {
         /// 0: no value.
@@ -4975,6 +7802,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatus probe 2 negative edge stored.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`NoValue`](Self::NoValue) |
+    /// | 1 | [`Stored`](Self::Stored) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusProbe2NegativeEdgeStored {
         /// 0: no value.
@@ -5010,6 +7842,12 @@ pub mod types {
     /// InterpolationSubmode.
     ///
     /// Manual, line 1812-1815.
+    ///
+    /// Values of [`INTERPOLATION_SUBMODE_SELECT`](super::objects::INTERPOLATION_SUBMODE_SELECT).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Linear`](Self::Linear) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum InterpolationSubmode {
         /// 0: linear. Manual, line 1814: Interpolazione lineare.
@@ -5045,6 +7883,13 @@ pub mod types {
     /// BufferClear.
     ///
     /// Manual, line 1939-1942.
+    ///
+    /// Values of [`interpolation_data_configuration::BUFFER_CLEAR`](super::objects::interpolation_data_configuration::BUFFER_CLEAR).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`Clear`](Self::Clear) | Clears the buffer and disables access to it. |
+    /// | 1 | [`EnableAccess`](Self::EnableAccess) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum BufferClear {
         /// 0: clear. Clears the buffer and disables access to it. Manual, line 1940: Cancello il buffer.
@@ -5084,6 +7929,23 @@ pub mod types {
     /// MotorType.
     ///
     /// Manual, line 2011-2025.
+    ///
+    /// Values of [`MOTOR_TYPE`](super::objects::MOTOR_TYPE).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`NonStandardMotor`](Self::NonStandardMotor) | Not supported. |
+    /// | 1 | [`PhaseModulatedDcMotor`](Self::PhaseModulatedDcMotor) | Not supported. |
+    /// | 2 | [`FrequencyControlledDcMotor`](Self::FrequencyControlledDcMotor) | Not supported. |
+    /// | 3 | [`PmSynchronousMotor`](Self::PmSynchronousMotor) | Not supported. |
+    /// | 4 | [`FcSynchronousMotor`](Self::FcSynchronousMotor) | Not supported. |
+    /// | 5 | [`SwitchedReluctanceMotor`](Self::SwitchedReluctanceMotor) | Not supported. |
+    /// | 6 | [`WoundRotorInductionMotor`](Self::WoundRotorInductionMotor) | Not supported. |
+    /// | 7 | [`SquirrelCageInductionMotor`](Self::SquirrelCageInductionMotor) | Not supported. |
+    /// | 8 | [`StepperMotor`](Self::StepperMotor) | Supported. |
+    /// | 9 | [`MicrostepStepperMotor`](Self::MicrostepStepperMotor) | Supported; what the drive has after power-on. |
+    /// | 10 | [`SinusoidalPmBlMotor`](Self::SinusoidalPmBlMotor) | Not supported. |
+    /// | 11 | [`TrapezoidalPmBlMotor`](Self::TrapezoidalPmBlMotor) | Not supported. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum MotorType {
         /// 0: non-standard motor. Not supported. Manual, line 2012: Non-Standard Motor.
@@ -5161,6 +8023,11 @@ pub mod types {
         }
     }
     /// Status motor current.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`On`](Self::On) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum StatusMotorCurrent {
         /// 0: off.
@@ -5194,6 +8061,11 @@ pub mod types {
         }
     }
     /// ModeFlags actual position after homing.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Reset`](Self::Reset) |
+    /// | 1 | [`NoReset`](Self::NoReset) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModeFlagsActualPositionAfterHoming {
         /// 0: reset.
@@ -5227,6 +8099,11 @@ pub mod types {
         }
     }
     /// ModeFlags motor encoder after homing.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Reset`](Self::Reset) |
+    /// | 1 | [`NoReset`](Self::NoReset) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModeFlagsMotorEncoderAfterHoming {
         /// 0: reset.
@@ -5260,6 +8137,11 @@ pub mod types {
         }
     }
     /// ModeFlags external encoder after homing.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Reset`](Self::Reset) |
+    /// | 1 | [`NoReset`](Self::NoReset) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModeFlagsExternalEncoderAfterHoming {
         /// 0: reset.
@@ -5293,6 +8175,11 @@ pub mod types {
         }
     }
     /// ModeFlags actual position after home offset.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Reset`](Self::Reset) |
+    /// | 1 | [`NoReset`](Self::NoReset) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModeFlagsActualPositionAfterHomeOffset {
         /// 0: reset.
@@ -5326,6 +8213,11 @@ pub mod types {
         }
     }
     /// ModeFlags motor encoder after home offset.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Reset`](Self::Reset) |
+    /// | 1 | [`NoReset`](Self::NoReset) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModeFlagsMotorEncoderAfterHomeOffset {
         /// 0: reset.
@@ -5359,6 +8251,11 @@ pub mod types {
         }
     }
     /// ModeFlags external encoder after home offset.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Reset`](Self::Reset) |
+    /// | 1 | [`NoReset`](Self::NoReset) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModeFlagsExternalEncoderAfterHomeOffset {
         /// 0: reset.
@@ -5392,6 +8289,11 @@ pub mod types {
         }
     }
     /// ModeFlags USB port parameters.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Fixed9600N8_1`](Self::Fixed9600N8_1) |
+    /// | 1 | [`FromRegisters`](Self::FromRegisters) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModeFlagsUsbPortParameters {
         /// 0: fixed 9600 N 8 1.
@@ -5425,6 +8327,11 @@ pub mod types {
         }
     }
     /// HardwareConfig motor encoder kind.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Quadrature`](Self::Quadrature) |
+    /// | 1 | [`PulseAndDirection`](Self::PulseAndDirection) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum HardwareConfigMotorEncoderKind {
         /// 0: quadrature.
@@ -5458,6 +8365,11 @@ pub mod types {
         }
     }
     /// HardwareConfig SSI encoder complement.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Normal`](Self::Normal) |
+    /// | 1 | [`Complement`](Self::Complement) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum HardwareConfigSsiEncoderComplement {
         /// 0: normal.
@@ -5491,6 +8403,11 @@ pub mod types {
         }
     }
     /// HardwareConfig SSI encoder code.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Gray`](Self::Gray) |
+    /// | 1 | [`Binary`](Self::Binary) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum HardwareConfigSsiEncoderCode {
         /// 0: Gray.
@@ -5524,6 +8441,12 @@ pub mod types {
         }
     }
     /// HardwareConfig SSI encoder alignment.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Right`](Self::Right) |
+    /// | 1 | [`Left`](Self::Left) |
+    /// | 2 | [`Centred`](Self::Centred) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum HardwareConfigSsiEncoderAlignment {
         /// 0: right.
@@ -5565,6 +8488,11 @@ pub mod types {
         }
     }
     /// HardwareConfig PWM range.
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`_50Percent`](Self::_50Percent) | 50 %. |
+    /// | 1 | [`_0To100Percent`](Self::_0To100Percent) | 0 to 100 %. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum HardwareConfigPwmRange {
         /// 0: 50 %.
@@ -5598,6 +8526,13 @@ pub mod types {
         }
     }
     /// RampProfile.
+    ///
+    /// Values of [`RACCPRO`](super::objects::RACCPRO), [`RDECPRO`](super::objects::RDECPRO).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`SCurve`](Self::SCurve) |
+    /// | 10 | [`Linear`](Self::Linear) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum RampProfile {
         /// 0: S-curve. Manual: S.
@@ -5635,6 +8570,14 @@ pub mod types {
         }
     }
     /// SpeedDivisor.
+    ///
+    /// Values of [`RDEFUM`](super::objects::RDEFUM).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 1 | [`OneToOne`](Self::OneToOne) | Set value and real value are the same. |
+    /// | 10 | [`TenToOne`](Self::TenToOne) | The set value is 10 times the real one. |
+    /// | 100 | [`HundredToOne`](Self::HundredToOne) | The set value is 100 times the real one. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum SpeedDivisor {
         /// 1: one to one. Set value and real value are the same. Manual: 1:1.
@@ -5676,6 +8619,13 @@ pub mod types {
         }
     }
     /// LimitSwitchInput.
+    ///
+    /// Values of [`RDEFINPBLS`](super::objects::RDEFINPBLS), [`RDEFINPFLS`](super::objects::RDEFINPFLS).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 255 | [`StandardInput`](Self::StandardInput) |
+    /// | 254 | [`Disabled`](Self::Disabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum LimitSwitchInput {
         /// 255: standard input. Manual: Ingresso standard.
@@ -5713,6 +8663,30 @@ pub mod types {
         }
     }
     /// HomingMethodI16.
+    ///
+    /// Values of [`RHMODE`](super::objects::RHMODE), [`RSTRTHMODE`](super::objects::RSTRTHMODE).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | -16 | [`ForwardLimitAndIndexPositive`](Self::ForwardLimitAndIndexPositive) | forward limit and index, positive. |
+    /// | -15 | [`ForwardLimitAndIndexNegative`](Self::ForwardLimitAndIndexNegative) | forward limit and index, negative. |
+    /// | -14 | [`ForwardLimitPositive`](Self::ForwardLimitPositive) | forward limit, positive. |
+    /// | -13 | [`ForwardLimitNegative`](Self::ForwardLimitNegative) | forward limit, negative. |
+    /// | -12 | [`ForwardMechanicalStopAndIndex`](Self::ForwardMechanicalStopAndIndex) |  |
+    /// | -11 | [`BackwardMechanicalStopAndIndex`](Self::BackwardMechanicalStopAndIndex) |  |
+    /// | -10 | [`ForwardMechanicalStop`](Self::ForwardMechanicalStop) |  |
+    /// | -9 | [`BackwardMechanicalStop`](Self::BackwardMechanicalStop) |  |
+    /// | -8 | [`ForwardMechanicalStopAndMeasureAxis`](Self::ForwardMechanicalStopAndMeasureAxis) | Measures the axis and sets Rlowlim and Rupplim. |
+    /// | -7 | [`BackwardMechanicalStopAndMeasureAxis`](Self::BackwardMechanicalStopAndMeasureAxis) | Measures the axis and sets Rlowlim and Rupplim. |
+    /// | -6 | [`IndexPositive`](Self::IndexPositive) | index, positive. |
+    /// | -5 | [`IndexNegative`](Self::IndexNegative) | index, negative. |
+    /// | -4 | [`BackwardLimitAndIndexPositive`](Self::BackwardLimitAndIndexPositive) | backward limit and index, positive. |
+    /// | -3 | [`BackwardLimitAndIndexNegative`](Self::BackwardLimitAndIndexNegative) | backward limit and index, negative. |
+    /// | -2 | [`BackwardLimitPositive`](Self::BackwardLimitPositive) | backward limit, positive. |
+    /// | -1 | [`BackwardLimitNegative`](Self::BackwardLimitNegative) | backward limit, negative. |
+    /// | 0 | [`InPlace`](Self::InPlace) |  |
+    /// | 35 | [`InPlaceDs402Method35`](Self::InPlaceDs402Method35) | in place, DS402 method 35. The same as 0, for compatibility with DS402. |
+    /// | 37 | [`InPlaceDs402Method37`](Self::InPlaceDs402Method37) | in place, DS402 method 37. The same as 0, for compatibility with DS402. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum HomingMethodI16 {
         /// -16: forward limit and index, positive. Manual: Home su FLS + TOP, direzione positiva.
@@ -5723,17 +8697,17 @@ pub mod types {
         ForwardLimitPositive,
         /// -13: forward limit, negative. Manual: Home su FLS, direzione negativa.
         ForwardLimitNegative,
-        /// -12: forward mechanical stop and index. Only while Rfocmode is 2 or 3. Manual: Home in battuta avanti + TOP.
+        /// -12: forward mechanical stop and index. Only while [Rfocmode](super::objects::RFOCMODE) is 2 or 3. Manual: Home in battuta avanti + TOP.
         ForwardMechanicalStopAndIndex,
-        /// -11: backward mechanical stop and index. Only while Rfocmode is 2 or 3. Manual: Home in battuta indietro + TOP.
+        /// -11: backward mechanical stop and index. Only while [Rfocmode](super::objects::RFOCMODE) is 2 or 3. Manual: Home in battuta indietro + TOP.
         BackwardMechanicalStopAndIndex,
-        /// -10: forward mechanical stop. Only while Rfocmode is 2 or 3. Manual: Home in battuta avanti.
+        /// -10: forward mechanical stop. Only while [Rfocmode](super::objects::RFOCMODE) is 2 or 3. Manual: Home in battuta avanti.
         ForwardMechanicalStop,
-        /// -9: backward mechanical stop. Only while Rfocmode is 2 or 3. Manual: Home in battuta indietro.
+        /// -9: backward mechanical stop. Only while [Rfocmode](super::objects::RFOCMODE) is 2 or 3. Manual: Home in battuta indietro.
         BackwardMechanicalStop,
-        /// -8: forward mechanical stop and measure axis. Measures the axis and sets Rlowlim and Rupplim. Only while Rfocmode is 2 or 3. Manual: Home in battuta avanti + misura asse.
+        /// -8: forward mechanical stop and measure axis. Measures the axis and sets Rlowlim and Rupplim. Only while [Rfocmode](super::objects::RFOCMODE) is 2 or 3. Manual: Home in battuta avanti + misura asse.
         ForwardMechanicalStopAndMeasureAxis,
-        /// -7: backward mechanical stop and measure axis. Measures the axis and sets Rlowlim and Rupplim. Only while Rfocmode is 2 or 3. Manual: Home in battuta indietro + misura asse.
+        /// -7: backward mechanical stop and measure axis. Measures the axis and sets Rlowlim and Rupplim. Only while [Rfocmode](super::objects::RFOCMODE) is 2 or 3. Manual: Home in battuta indietro + misura asse.
         BackwardMechanicalStopAndMeasureAxis,
         /// -6: index, positive. Manual: Home solo con TOP, direzione positiva.
         IndexPositive,
@@ -5818,6 +8792,11 @@ pub mod types {
         }
     }
     /// BestopSetup condition.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Low`](Self::Low) |
+    /// | 1 | [`High`](Self::High) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum BestopSetupCondition {
         /// 0: low.
@@ -5851,6 +8830,11 @@ pub mod types {
         }
     }
     /// BestopSetup type.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Variable`](Self::Variable) |
+    /// | 1 | [`Register`](Self::Register) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum BestopSetupType {
         /// 0: variable.
@@ -5884,6 +8868,11 @@ pub mod types {
         }
     }
     /// EstopSetup destination.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Variable`](Self::Variable) |
+    /// | 1 | [`Register`](Self::Register) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum EstopSetupDestination {
         /// 0: variable.
@@ -5917,6 +8906,13 @@ pub mod types {
         }
     }
     /// EstopSetup source.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Variable`](Self::Variable) |
+    /// | 1 | [`Register`](Self::Register) |
+    /// | 2 | [`Number`](Self::Number) |
+    /// | 3 | [`NotAllowed`](Self::NotAllowed) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum EstopSetupSource {
         /// 0: variable.
@@ -5958,6 +8954,15 @@ pub mod types {
         }
     }
     /// EstopSetup condition.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Equal`](Self::Equal) |
+    /// | 1 | [`NotEqual`](Self::NotEqual) |
+    /// | 2 | [`Higher`](Self::Higher) |
+    /// | 3 | [`Lower`](Self::Lower) |
+    /// | 4 | [`HigherOrSame`](Self::HigherOrSame) |
+    /// | 5 | [`LowerOrSame`](Self::LowerOrSame) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum EstopSetupCondition {
         /// 0: equal.
@@ -6011,6 +9016,18 @@ pub mod types {
         }
     }
     /// AlarmReaction.
+    ///
+    /// Values of [`RALARMREACT`](super::objects::RALARMREACT).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | -4 | [`EmergencyRampCurrentOffByAlarm`](Self::EmergencyRampCurrentOffByAlarm) | emergency ramp, current off by alarm. Aborts on the emergency ramp; current goes off depending on the alarm. |
+    /// | -3 | [`EmergencyRampCurrentOffVendor`](Self::EmergencyRampCurrentOffVendor) | emergency ramp, current off (vendor). |
+    /// | -2 | [`StopRampCurrentOffVendor`](Self::StopRampCurrentOffVendor) | stop ramp, current off (vendor). |
+    /// | -1 | [`CurrentOffVendor`](Self::CurrentOffVendor) | current off (vendor). |
+    /// | 0 | [`CurrentOff`](Self::CurrentOff) |  |
+    /// | 1 | [`StopRampCurrentOff`](Self::StopRampCurrentOff) | stop ramp, current off. |
+    /// | 2 | [`EmergencyRampCurrentOff`](Self::EmergencyRampCurrentOff) | emergency ramp, current off. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum AlarmReaction {
         /// -4: emergency ramp, current off by alarm. Aborts on the emergency ramp; current goes off depending on the alarm. Manual: Abort in rampa di emergenza e Current off.
@@ -6068,6 +9085,11 @@ pub mod types {
         }
     }
     /// LimitSwitchPolarity forward limit switch.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum LimitSwitchPolarityForwardLimitSwitch {
         /// 0: active high.
@@ -6101,6 +9123,11 @@ pub mod types {
         }
     }
     /// LimitSwitchPolarity backward limit switch.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum LimitSwitchPolarityBackwardLimitSwitch {
         /// 0: active high.
@@ -6134,6 +9161,11 @@ pub mod types {
         }
     }
     /// LimitSwitchPolarity motor encoder index.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum LimitSwitchPolarityMotorEncoderIndex {
         /// 0: active high.
@@ -6167,6 +9199,11 @@ pub mod types {
         }
     }
     /// LimitSwitchPolarity motor encoder channel A.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum LimitSwitchPolarityMotorEncoderChannelA {
         /// 0: active high.
@@ -6200,6 +9237,11 @@ pub mod types {
         }
     }
     /// LimitSwitchPolarity motor encoder channel B.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum LimitSwitchPolarityMotorEncoderChannelB {
         /// 0: active high.
@@ -6233,6 +9275,11 @@ pub mod types {
         }
     }
     /// LimitSwitchPolarity external encoder index.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum LimitSwitchPolarityExternalEncoderIndex {
         /// 0: active high.
@@ -6266,6 +9313,11 @@ pub mod types {
         }
     }
     /// LimitSwitchPolarity external encoder channel A.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum LimitSwitchPolarityExternalEncoderChannelA {
         /// 0: active high.
@@ -6299,6 +9351,11 @@ pub mod types {
         }
     }
     /// LimitSwitchPolarity external encoder channel B.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum LimitSwitchPolarityExternalEncoderChannelB {
         /// 0: active high.
@@ -6332,6 +9389,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 0.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput0 {
         /// 0: active high.
@@ -6365,6 +9427,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 1.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput1 {
         /// 0: active high.
@@ -6398,6 +9465,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 2.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput2 {
         /// 0: active high.
@@ -6431,6 +9503,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 3.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput3 {
         /// 0: active high.
@@ -6464,6 +9541,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 4.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput4 {
         /// 0: active high.
@@ -6497,6 +9579,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 5.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput5 {
         /// 0: active high.
@@ -6530,6 +9617,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 6.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput6 {
         /// 0: active high.
@@ -6563,6 +9655,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 7.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput7 {
         /// 0: active high.
@@ -6596,6 +9693,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 8.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput8 {
         /// 0: active high.
@@ -6629,6 +9731,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 9.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput9 {
         /// 0: active high.
@@ -6662,6 +9769,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 10.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput10 {
         /// 0: active high.
@@ -6695,6 +9807,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 11.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput11 {
         /// 0: active high.
@@ -6728,6 +9845,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 12.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput12 {
         /// 0: active high.
@@ -6761,6 +9883,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 13.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput13 {
         /// 0: active high.
@@ -6794,6 +9921,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 14.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput14 {
         /// 0: active high.
@@ -6827,6 +9959,11 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity input 15.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputPolarityInput15 {
         /// 0: active high.
@@ -6860,6 +9997,11 @@ pub mod types {
         }
     }
     /// DigitalOutputPolarity output 0.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputPolarityOutput0 {
         /// 0: active high.
@@ -6893,6 +10035,11 @@ pub mod types {
         }
     }
     /// DigitalOutputPolarity output 1.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputPolarityOutput1 {
         /// 0: active high.
@@ -6926,6 +10073,11 @@ pub mod types {
         }
     }
     /// DigitalOutputPolarity output 2.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputPolarityOutput2 {
         /// 0: active high.
@@ -6959,6 +10111,11 @@ pub mod types {
         }
     }
     /// DigitalOutputPolarity output 3.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputPolarityOutput3 {
         /// 0: active high.
@@ -6992,6 +10149,11 @@ pub mod types {
         }
     }
     /// DigitalOutputPolarity output 4.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputPolarityOutput4 {
         /// 0: active high.
@@ -7025,6 +10187,11 @@ pub mod types {
         }
     }
     /// DigitalOutputPolarity output 5.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputPolarityOutput5 {
         /// 0: active high.
@@ -7058,6 +10225,11 @@ pub mod types {
         }
     }
     /// DigitalOutputPolarity output 6.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputPolarityOutput6 {
         /// 0: active high.
@@ -7091,6 +10263,11 @@ pub mod types {
         }
     }
     /// DigitalOutputPolarity output 7.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActiveHigh`](Self::ActiveHigh) |
+    /// | 1 | [`ActiveLow`](Self::ActiveLow) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputPolarityOutput7 {
         /// 0: active high.
@@ -7124,6 +10301,27 @@ pub mod types {
         }
     }
     /// OutputFunction.
+    ///
+    /// Values of [`RFUNO0`](super::objects::RFUNO0), [`RFUNO1`](super::objects::RFUNO1), [`RFUNO2`](super::objects::RFUNO2), [`RFUNO3`](super::objects::RFUNO3), [`RFUNO4`](super::objects::RFUNO4), [`RFUNO5`](super::objects::RFUNO5), [`RFUNO6`](super::objects::RFUNO6), [`RFUNO7`](super::objects::RFUNO7).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`NormalOutput`](Self::NormalOutput) |  |
+    /// | 1 | [`DriveEnabled`](Self::DriveEnabled) |  |
+    /// | 2 | [`DriveAlarm`](Self::DriveAlarm) |  |
+    /// | 3 | [`Homed`](Self::Homed) |  |
+    /// | 4 | [`MotorMoving`](Self::MotorMoving) |  |
+    /// | 5 | [`TaskRunning`](Self::TaskRunning) |  |
+    /// | 6 | [`I2tAlarm`](Self::I2tAlarm) |  |
+    /// | 7 | [`InPosition`](Self::InPosition) |  |
+    /// | 8 | [`ReallyMoving`](Self::ReallyMoving) | For closed loop. |
+    /// | 9 | [`MovingInTheoryAndReally`](Self::MovingInTheoryAndReally) | For closed loop. |
+    /// | 10 | [`ExternalBrake`](Self::ExternalBrake) |  |
+    /// | 11 | [`MovedWhileDisabled`](Self::MovedWhileDisabled) | The position changed while the drive was disabled; with an encoder only. |
+    /// | 12 | [`InPositionAndNotMovedWhileDisabled`](Self::InPositionAndNotMovedWhileDisabled) | With an encoder only. While the drive is enabled: 1 = in position and not moved while it was … |
+    /// | 13 | [`VirtualMotorStep`](Self::VirtualMotorStep) |  |
+    /// | 14 | [`MotorDirection`](Self::MotorDirection) |  |
+    /// | 15 | [`StoOutput`](Self::StoOutput) | Above the maximum of 14 that the rows state. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum OutputFunction {
         /// 0: normal output. Manual: Uscita digitale normale.
@@ -7217,6 +10415,34 @@ pub mod types {
         }
     }
     /// InputFunction.
+    ///
+    /// Values of [`RFUNI0`](super::objects::RFUNI0), [`RFUNI1`](super::objects::RFUNI1), [`RFUNI2`](super::objects::RFUNI2), [`RFUNI3`](super::objects::RFUNI3), [`RFUNI4`](super::objects::RFUNI4), [`RFUNI5`](super::objects::RFUNI5), [`RFUNI6`](super::objects::RFUNI6), [`RFUNI7`](super::objects::RFUNI7) and 8 more.
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`NormalInput`](Self::NormalInput) |  |
+    /// | 1 | [`EnableOrDisableDrive`](Self::EnableOrDisableDrive) |  |
+    /// | 2 | [`JogForward`](Self::JogForward) |  |
+    /// | 3 | [`JogBackward`](Self::JogBackward) |  |
+    /// | 4 | [`Go`](Self::Go) | Moves to the position in Rpostarg. |
+    /// | 5 | [`Gor`](Self::Gor) |  |
+    /// | 6 | [`Home`](Self::Home) |  |
+    /// | 7 | [`TaskNumberBit0`](Self::TaskNumberBit0) |  |
+    /// | 8 | [`TaskNumberBit1`](Self::TaskNumberBit1) |  |
+    /// | 9 | [`TaskNumberBit2`](Self::TaskNumberBit2) |  |
+    /// | 10 | [`TaskNumberBit3`](Self::TaskNumberBit3) |  |
+    /// | 11 | [`TaskNumberBit4`](Self::TaskNumberBit4) |  |
+    /// | 12 | [`TaskNumberBit5`](Self::TaskNumberBit5) |  |
+    /// | 13 | [`TaskNumberBit6`](Self::TaskNumberBit6) |  |
+    /// | 14 | [`StartTask`](Self::StartTask) | Starts the task that the number bits select. |
+    /// | 15 | [`ResetAlarms`](Self::ResetAlarms) |  |
+    /// | 16 | [`LineUpPosition`](Self::LineUpPosition) | Rlineupdef says which positions are lined up. |
+    /// | 17 | [`CurrentReduction`](Self::CurrentReduction) |  |
+    /// | 18 | [`Abort`](Self::Abort) |  |
+    /// | 19 | [`Stop`](Self::Stop) |  |
+    /// | 20 | [`Gear`](Self::Gear) |  |
+    /// | 21 | [`Direction`](Self::Direction) | Inverts the direction of jogging. |
+    /// | 22 | [`ResumePosition`](Self::ResumePosition) | With an encoder only. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum InputFunction {
         /// 0: normal input. Manual: Ingresso digitale normale.
@@ -7338,6 +10564,13 @@ pub mod types {
         }
     }
     /// DigitalInputLevel.
+    ///
+    /// Values of [`RDIGINPLEV`](super::objects::RDIGINPLEV).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`_12V`](Self::_12V) | For inputs of 24 V; Rtrginp24v sets the voltage. |
+    /// | 1 | [`_2_5V`](Self::_2_5V) | For inputs of 5 V; Rtrginp5v sets the voltage. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalInputLevel {
         /// 0: 12 V. For inputs of 24 V; Rtrginp24v sets the voltage. Manual: Trigger a 12V.
@@ -7375,6 +10608,11 @@ pub mod types {
         }
     }
     /// DigitalOutputEnable output 0.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Disabled`](Self::Disabled) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputEnableOutput0 {
         /// 0: disabled.
@@ -7408,6 +10646,11 @@ pub mod types {
         }
     }
     /// DigitalOutputEnable output 1.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Disabled`](Self::Disabled) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputEnableOutput1 {
         /// 0: disabled.
@@ -7441,6 +10684,11 @@ pub mod types {
         }
     }
     /// DigitalOutputEnable output 2.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Disabled`](Self::Disabled) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputEnableOutput2 {
         /// 0: disabled.
@@ -7474,6 +10722,11 @@ pub mod types {
         }
     }
     /// DigitalOutputEnable output 3.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Disabled`](Self::Disabled) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputEnableOutput3 {
         /// 0: disabled.
@@ -7507,6 +10760,11 @@ pub mod types {
         }
     }
     /// DigitalOutputEnable output 4.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Disabled`](Self::Disabled) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputEnableOutput4 {
         /// 0: disabled.
@@ -7540,6 +10798,11 @@ pub mod types {
         }
     }
     /// DigitalOutputEnable output 5.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Disabled`](Self::Disabled) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputEnableOutput5 {
         /// 0: disabled.
@@ -7573,6 +10836,11 @@ pub mod types {
         }
     }
     /// DigitalOutputEnable output 6.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Disabled`](Self::Disabled) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputEnableOutput6 {
         /// 0: disabled.
@@ -7606,6 +10874,11 @@ pub mod types {
         }
     }
     /// DigitalOutputEnable output 7.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Disabled`](Self::Disabled) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputEnableOutput7 {
         /// 0: disabled.
@@ -7639,6 +10912,11 @@ pub mod types {
         }
     }
     /// DigitalOutputEnable output 8.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Disabled`](Self::Disabled) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DigitalOutputEnableOutput8 {
         /// 0: disabled.
@@ -7672,6 +10950,15 @@ pub mod types {
         }
     }
     /// FeedbackEncoder.
+    ///
+    /// Values of [`RENCMOTFBK`](super::objects::RENCMOTFBK).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Encoder1`](Self::Encoder1) |
+    /// | 1 | [`Encoder2`](Self::Encoder2) |
+    /// | 2 | [`Encoder3`](Self::Encoder3) |
+    /// | 3 | [`AbsoluteEncoder`](Self::AbsoluteEncoder) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum FeedbackEncoder {
         /// 0: encoder 1. Manual: Encoder 1.
@@ -7717,6 +11004,16 @@ pub mod types {
         }
     }
     /// EncoderModel.
+    ///
+    /// Values of [`RENC1CODE`](super::objects::RENC1CODE), [`RENC2CODE`](super::objects::RENC2CODE), [`RENC3CODE`](super::objects::RENC3CODE).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Custom`](Self::Custom) |
+    /// | 1 | [`TC`](Self::TC) |
+    /// | 10 | [`To0512L05C`](Self::To0512L05C) |
+    /// | 11 | [`To0512P24C`](Self::To0512P24C) |
+    /// | 12 | [`To1000L05C`](Self::To1000L05C) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum EncoderModel {
         /// 0: custom. Manual: CUSTOM.
@@ -7766,6 +11063,15 @@ pub mod types {
         }
     }
     /// EncoderMode.
+    ///
+    /// Values of [`REXTENCMODE`](super::objects::REXTENCMODE), [`RENC1MODE`](super::objects::RENC1MODE), [`RENC2MODE`](super::objects::RENC2MODE).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`QuadratureForward`](Self::QuadratureForward) |  |
+    /// | 1 | [`QuadratureBackward`](Self::QuadratureBackward) |  |
+    /// | 2 | [`StepAndDirection`](Self::StepAndDirection) | Each pulse counts once. |
+    /// | 3 | [`StepAndDirectionDoubled`](Self::StepAndDirectionDoubled) | Each pulse counts twice. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum EncoderMode {
         /// 0: quadrature forward. Manual: Quadratura avanti.
@@ -7811,6 +11117,11 @@ pub mod types {
         }
     }
     /// AbsoluteEncoderMode complement.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Normal`](Self::Normal) |
+    /// | 1 | [`Complement`](Self::Complement) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum AbsoluteEncoderModeComplement {
         /// 0: normal.
@@ -7844,6 +11155,11 @@ pub mod types {
         }
     }
     /// AbsoluteEncoderMode code.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Gray`](Self::Gray) |
+    /// | 1 | [`Binary`](Self::Binary) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum AbsoluteEncoderModeCode {
         /// 0: Gray.
@@ -7877,6 +11193,13 @@ pub mod types {
         }
     }
     /// AbsoluteEncoderMode alignment.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Right`](Self::Right) |
+    /// | 1 | [`Left`](Self::Left) |
+    /// | 2 | [`Centred`](Self::Centred) |
+    /// | 3 | [`Free`](Self::Free) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum AbsoluteEncoderModeAlignment {
         /// 0: right.
@@ -7918,6 +11241,16 @@ pub mod types {
         }
     }
     /// AbsoluteEncoderModel.
+    ///
+    /// Values of [`RENCABSCODE`](super::objects::RENCABSCODE).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Custom`](Self::Custom) |
+    /// | 1 | [`TC`](Self::TC) |
+    /// | 10 | [`Tm1611B05C`](Self::Tm1611B05C) |
+    /// | 11 | [`Tm1611E05C`](Self::Tm1611E05C) |
+    /// | 12 | [`Tm1611S05C`](Self::Tm1611S05C) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum AbsoluteEncoderModel {
         /// 0: custom. Manual: CUSTOM.
@@ -7967,6 +11300,50 @@ pub mod types {
         }
     }
     /// EepromCommand.
+    ///
+    /// Values of [`RLOADSAV`](super::objects::RLOADSAV).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`Done`](Self::Done) | What is read once a command was carried out; no command. |
+    /// | 1 | [`LoadRegisters`](Self::LoadRegisters) |  |
+    /// | 2 | [`LoadVariables`](Self::LoadVariables) |  |
+    /// | 3 | [`LoadTasks`](Self::LoadTasks) |  |
+    /// | 4 | [`LoadCurrentSensorOffsets`](Self::LoadCurrentSensorOffsets) |  |
+    /// | 5 | [`LoadMacAddress`](Self::LoadMacAddress) |  |
+    /// | 6 | [`LoadAbsoluteEncoderOffset`](Self::LoadAbsoluteEncoderOffset) |  |
+    /// | 7 | [`LoadCurrentAmplification`](Self::LoadCurrentAmplification) |  |
+    /// | 8 | [`LoadInputTriggerLevels`](Self::LoadInputTriggerLevels) | Rtrginp5v and Rtrginp24v. |
+    /// | 9 | [`LoadPwmMode`](Self::LoadPwmMode) |  |
+    /// | 10 | [`ReadAntaiosCommunication`](Self::ReadAntaiosCommunication) | Reads the present communication parameters from the chip. |
+    /// | 11 | [`ReadProfinetName`](Self::ReadProfinetName) | Reads the PROFINET device name from the chip. |
+    /// | 12 | [`ReadExpansionModel`](Self::ReadExpansionModel) | Reads Rmodelantaios from the expansion board. |
+    /// | 129 | [`SaveRegisters`](Self::SaveRegisters) | Copies Rconfig to Rstrtconf as well, where bit 15 of Rconfig is 0. |
+    /// | 130 | [`SaveVariables`](Self::SaveVariables) |  |
+    /// | 131 | [`SaveTasks`](Self::SaveTasks) |  |
+    /// | 132 | [`ResetRegisters`](Self::ResetRegisters) | To their defaults; not carried out while the user program runs. |
+    /// | 133 | [`ResetVariables`](Self::ResetVariables) | To 0; not carried out while the user program runs. |
+    /// | 134 | [`ResetTasks`](Self::ResetTasks) | Not carried out while the user program runs. |
+    /// | 135 | [`InitialiseEeprom`](Self::InitialiseEeprom) | Not carried out while the user program runs. |
+    /// | 136 | [`SaveHardwareRevisionAndSerialNumber`](Self::SaveHardwareRevisionAndSerialNumber) | For AEC only; right after Rhwrev and Rserial were written. |
+    /// | 137 | [`SaveCurrentSensorOffsets`](Self::SaveCurrentSensorOffsets) | Carried out only while the drive isn't enabled; the user program may run. |
+    /// | 138 | [`AcquireCurrentSensorOffsets`](Self::AcquireCurrentSensorOffsets) | Measures and saves them; carried out only while the drive isn't enabled; the user program may run. |
+    /// | 139 | [`ApplyEthernetSettings`](Self::ApplyEthernetSettings) |  |
+    /// | 140 | [`SaveMacAddress`](Self::SaveMacAddress) | For AEC only; right after the three words of the address were written in order. |
+    /// | 141 | [`SaveAbsoluteEncoderOffset`](Self::SaveAbsoluteEncoderOffset) |  |
+    /// | 142 | [`RestartFirst`](Self::RestartFirst) | First of the two commands that restart the drive. |
+    /// | 143 | [`RestartSecond`](Self::RestartSecond) | Second of the two commands that restart the drive, right after 142. |
+    /// | 144 | [`SaveCurrentAmplification`](Self::SaveCurrentAmplification) |  |
+    /// | 145 | [`SaveInputTriggerLevels`](Self::SaveInputTriggerLevels) | Rtrginp5v and Rtrginp24v. |
+    /// | 146 | [`SavePwmMode`](Self::SavePwmMode) | Then switch the drive off and on. |
+    /// | 147 | [`BootModeFirst`](Self::BootModeFirst) | First and third command of the sequence 147, 148, 147 that puts the chip into boot mode; Modbus is … |
+    /// | 148 | [`BootModeSecond`](Self::BootModeSecond) | Second command of the sequence 147, 148, 147 that puts the chip into boot mode. |
+    /// | 149 | [`ForceIpAddress`](Self::ForceIpAddress) | Sets the IP address in the chip, with PROFINET. |
+    /// | 150 | [`SendProfinetName`](Self::SendProfinetName) | Sends the device name to the chip. |
+    /// | 151 | [`ResetProfinetData`](Self::ResetProfinetData) | Asks the chip to reset its PROFINET data. |
+    /// | 152 | [`SavePhasingPosition`](Self::SavePhasingPosition) | Saves the absolute encoder's position, with which phasing of the motor's encoder is skipped later. |
+    /// | 153 | [`SaveZeroOffset`](Self::SaveZeroOffset) | Preset by software: saves the offset that brings the absolute encoder's position to 0. |
+    /// | 154 | [`ResetPhasingPosition`](Self::ResetPhasingPosition) | Forgets what 152 saved; the motor has to be phased again after the next power-on. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum EepromCommand {
         /// 0: done. What is read once a command was carried out; no command.
@@ -8001,19 +11378,19 @@ pub mod types {
         SaveVariables,
         /// 131: save tasks. Manual: Salva task in Eeprom.
         SaveTasks,
-        /// 132: reset registers. To their defaults; not carried out while the user program runs. Only while Rstsprg \& 0x1 is 0. Manual: Resetta il blocco registri ai parametri di default.
+        /// 132: reset registers. To their defaults; not carried out while the user program runs. Only while [Rstsprg](super::objects::RSTSPRG) \& 0x1 is 0. Manual: Resetta il blocco registri ai parametri di default.
         ResetRegisters,
-        /// 133: reset variables. To 0; not carried out while the user program runs. Only while Rstsprg \& 0x1 is 0. Manual: Resetta il blocco variabili a 0.
+        /// 133: reset variables. To 0; not carried out while the user program runs. Only while [Rstsprg](super::objects::RSTSPRG) \& 0x1 is 0. Manual: Resetta il blocco variabili a 0.
         ResetVariables,
-        /// 134: reset tasks. Not carried out while the user program runs. Only while Rstsprg \& 0x1 is 0. Manual: Resetta le task.
+        /// 134: reset tasks. Not carried out while the user program runs. Only while [Rstsprg](super::objects::RSTSPRG) \& 0x1 is 0. Manual: Resetta le task.
         ResetTasks,
-        /// 135: initialise EEPROM. Not carried out while the user program runs. Only while Rstsprg \& 0x1 is 0. Manual: Inizializza EEPROM.
+        /// 135: initialise EEPROM. Not carried out while the user program runs. Only while [Rstsprg](super::objects::RSTSPRG) \& 0x1 is 0. Manual: Inizializza EEPROM.
         InitialiseEeprom,
         /// 136: save hardware revision and serial number. For AEC only; right after Rhwrev and Rserial were written. Manual: Salva HwRev e Serial (solo AEC).
         SaveHardwareRevisionAndSerialNumber,
-        /// 137: save current sensor offsets. Carried out only while the drive isn't enabled; the user program may run. Only while Rstsflg \& 0x1 is 0. Manual: Salva offset sensori corrente.
+        /// 137: save current sensor offsets. Carried out only while the drive isn't enabled; the user program may run. Only while [Rstsflg](super::objects::RSTSFLG) \& 0x1 is 0. Manual: Salva offset sensori corrente.
         SaveCurrentSensorOffsets,
-        /// 138: acquire current sensor offsets. Measures and saves them; carried out only while the drive isn't enabled; the user program may run. Only while Rstsflg \& 0x1 is 0. Manual: Acquisisce e salva offset sensori corrente.
+        /// 138: acquire current sensor offsets. Measures and saves them; carried out only while the drive isn't enabled; the user program may run. Only while [Rstsflg](super::objects::RSTSFLG) \& 0x1 is 0. Manual: Acquisisce e salva offset sensori corrente.
         AcquireCurrentSensorOffsets,
         /// 139: apply Ethernet settings. Manual: Applica parametri network Ethernet.
         ApplyEthernetSettings,
@@ -8152,6 +11529,11 @@ pub mod types {
         }
     }
     /// VariableCommand action.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Save`](Self::Save) |
+    /// | 1 | [`Load`](Self::Load) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum VariableCommandAction {
         /// 0: save.
@@ -8185,6 +11567,14 @@ pub mod types {
         }
     }
     /// StartMode.
+    ///
+    /// Values of [`RSTRTMODE`](super::objects::RSTRTMODE).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 1 | [`Load`](Self::Load) | Loads the registers and sets the mode. |
+    /// | 2 | [`LoadAndEnable`](Self::LoadAndEnable) | Loads the registers, sets the mode and enables the drive. |
+    /// | 3 | [`LoadEnableAndRun`](Self::LoadEnableAndRun) | Loads the registers, sets the mode, enables the drive and runs the user program. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum StartMode {
         /// 1: load. Loads the registers and sets the mode. Manual: Carica i registri e setta modo di funzionamento.
@@ -8226,6 +11616,27 @@ pub mod types {
         }
     }
     /// Configuration.
+    ///
+    /// Values of [`RSTRTCONF`](super::objects::RSTRTCONF), [`RCONFIG`](super::objects::RCONFIG).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`NotConfigured`](Self::NotConfigured) |  |
+    /// | 1 | [`Reserved1`](Self::Reserved1) |  |
+    /// | 2 | [`OpenLoopSpeed`](Self::OpenLoopSpeed) |  |
+    /// | 3 | [`OpenLoopPosition`](Self::OpenLoopPosition) |  |
+    /// | 4 | [`OpenLoopStepDirection`](Self::OpenLoopStepDirection) |  |
+    /// | 5 | [`ClosedLoopTorque`](Self::ClosedLoopTorque) |  |
+    /// | 6 | [`ClosedLoopSpeed`](Self::ClosedLoopSpeed) | Speed from an encoder. |
+    /// | 7 | [`ClosedLoopPosition`](Self::ClosedLoopPosition) |  |
+    /// | 8 | [`ClosedLoopStepDirection`](Self::ClosedLoopStepDirection) |  |
+    /// | 9 | [`ClosedLoopSpeedWithTachometer`](Self::ClosedLoopSpeedWithTachometer) |  |
+    /// | 10 | [`Reserved10`](Self::Reserved10) |  |
+    /// | 11 | [`SmartModeSpeed`](Self::SmartModeSpeed) |  |
+    /// | 12 | [`SmartModePosition`](Self::SmartModePosition) |  |
+    /// | 13 | [`SmartModeStepDirection`](Self::SmartModeStepDirection) |  |
+    /// | 14 | [`SmitDevice`](Self::SmitDevice) | Settings for a Smit device. |
+    /// | 15 | [`OpenLoopPwm`](Self::OpenLoopPwm) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Configuration {
         /// 0: not configured. Manual: Non configurato.
@@ -8319,6 +11730,15 @@ pub mod types {
         }
     }
     /// ControlState.
+    ///
+    /// Values of [`RFOCMODE`](super::objects::RFOCMODE).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`NotInitialised`](Self::NotInitialised) |
+    /// | 1 | [`OpenLoop`](Self::OpenLoop) |
+    /// | 2 | [`ClosedLoop`](Self::ClosedLoop) |
+    /// | 3 | [`SmartMode`](Self::SmartMode) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ControlState {
         /// 0: not initialised. Manual: Non inizializzato.
@@ -8364,6 +11784,16 @@ pub mod types {
         }
     }
     /// CurrentLevelState.
+    ///
+    /// Values of [`RCURMODEACT`](super::objects::RCURMODEACT).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`NoCurrent`](Self::NoCurrent) |
+    /// | 1 | [`ReducedCurrent`](Self::ReducedCurrent) |
+    /// | 2 | [`NominalCurrent`](Self::NominalCurrent) |
+    /// | 3 | [`BoostCurrent`](Self::BoostCurrent) |
+    /// | 4 | [`AutomaticCurrentReduction`](Self::AutomaticCurrentReduction) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CurrentLevelState {
         /// 0: no current. Manual: Corrente nulla.
@@ -8413,6 +11843,15 @@ pub mod types {
         }
     }
     /// CurrentLevel.
+    ///
+    /// Values of [`RCURMODE`](super::objects::RCURMODE).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`NoCurrent`](Self::NoCurrent) |
+    /// | 1 | [`ReducedCurrent`](Self::ReducedCurrent) |
+    /// | 2 | [`NominalCurrent`](Self::NominalCurrent) |
+    /// | 3 | [`BoostCurrent`](Self::BoostCurrent) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CurrentLevel {
         /// 0: no current. Manual: Corrente nulla.
@@ -8458,6 +11897,13 @@ pub mod types {
         }
     }
     /// AccelerationForward.
+    ///
+    /// Values of [`RSWACFW`](super::objects::RSWACFW).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Current`](Self::Current) |
+    /// | 1 | [`Speed`](Self::Speed) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum AccelerationForward {
         /// 0: current. Manual: Corrente.
@@ -8495,6 +11941,13 @@ pub mod types {
         }
     }
     /// PwmAlignment.
+    ///
+    /// Values of [`RPWMMODE`](super::objects::RPWMMODE).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Centred`](Self::Centred) |
+    /// | 1 | [`LeftAligned`](Self::LeftAligned) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum PwmAlignment {
         /// 0: centred. Manual: Centrato.
@@ -8532,6 +11985,8 @@ pub mod types {
         }
     }
     /// ModelCode.
+    ///
+    /// Values of [`RINDTYPE`](super::objects::RINDTYPE).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModelCode {
         /// 0: SMD30.06LIM.
@@ -9069,6 +12524,11 @@ pub mod types {
         }
     }
     /// ModelDefinition voltage.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Low`](Self::Low) |
+    /// | 1 | [`High`](Self::High) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModelDefinitionVoltage {
         /// 0: low.
@@ -9106,6 +12566,12 @@ pub mod types {
         }
     }
     /// ModelDefinition application.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Indexer`](Self::Indexer) |
+    /// | 1 | [`StepDirection`](Self::StepDirection) |
+    /// | 2 | [`Labeller`](Self::Labeller) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModelDefinitionApplication {
         /// 0: indexer.
@@ -9147,6 +12613,13 @@ pub mod types {
         }
     }
     /// ModelDefinition platform.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Undefined`](Self::Undefined) |
+    /// | 1 | [`Smd`](Self::Smd) |
+    /// | 2 | [`Dmd`](Self::Dmd) |
+    /// | 3 | [`Bmd`](Self::Bmd) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModelDefinitionPlatform {
         /// 0: undefined.
@@ -9192,6 +12665,13 @@ pub mod types {
         }
     }
     /// ModelDefinition communication chip.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Dsp`](Self::Dsp) |
+    /// | 1 | [`Wiznet`](Self::Wiznet) |
+    /// | 2 | [`Antaios`](Self::Antaios) |
+    /// | 3 | [`Vpc3`](Self::Vpc3) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModelDefinitionCommunicationChip {
         /// 0: DSP.
@@ -9237,6 +12717,22 @@ pub mod types {
         }
     }
     /// FieldbusKind.
+    ///
+    /// Values of [`RINDFIELBUS`](super::objects::RINDFIELBUS).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Usb`](Self::Usb) |
+    /// | 1 | [`ModbusRtu`](Self::ModbusRtu) |
+    /// | 2 | [`ModbusTcp`](Self::ModbusTcp) |
+    /// | 3 | [`ModbusTcpAntaios`](Self::ModbusTcpAntaios) |
+    /// | 4 | [`Profibus`](Self::Profibus) |
+    /// | 5 | [`ProfibusAntaios`](Self::ProfibusAntaios) |
+    /// | 6 | [`EtherCat`](Self::EtherCat) |
+    /// | 7 | [`Profinet`](Self::Profinet) |
+    /// | 8 | [`CaNopen`](Self::CaNopen) |
+    /// | 9 | [`CaNopenAntaios`](Self::CaNopenAntaios) |
+    /// | 10 | [`StepDirection`](Self::StepDirection) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum FieldbusKind {
         /// 0: USB. Manual: USB (xUM).
@@ -9310,6 +12806,17 @@ pub mod types {
         }
     }
     /// DriveOptions absolute encoder.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`None`](Self::None) |
+    /// | 1 | [`Ssi`](Self::Ssi) |
+    /// | 2 | [`EnDat`](Self::EnDat) |
+    /// | 3 | [`BiSs`](Self::BiSs) |
+    /// | 4 | [`SinCos`](Self::SinCos) |
+    /// | 5 | [`Free5`](Self::Free5) |
+    /// | 6 | [`Free6`](Self::Free6) |
+    /// | 7 | [`Free7`](Self::Free7) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DriveOptionsAbsoluteEncoder {
         /// 0: none.
@@ -9367,6 +12874,12 @@ pub mod types {
         }
     }
     /// RegisterMap.
+    ///
+    /// Values of [`RINDREGSET`](super::objects::RINDREGSET).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Revision1`](Self::Revision1) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum RegisterMap {
         /// 0: revision 1. Manual: Revisione 1.
@@ -9400,6 +12913,16 @@ pub mod types {
         }
     }
     /// ProfibusState.
+    ///
+    /// Values of [`RPROFISTS`](super::objects::RPROFISTS).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Disabled`](Self::Disabled) |
+    /// | 1 | [`Parameterisation`](Self::Parameterisation) |
+    /// | 2 | [`Configuration`](Self::Configuration) |
+    /// | 3 | [`DataExchange`](Self::DataExchange) |
+    /// | 255 | [`FatalError`](Self::FatalError) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ProfibusState {
         /// 0: disabled. Manual: Disabilitato.
@@ -9449,6 +12972,23 @@ pub mod types {
         }
     }
     /// ProfibusBitRate.
+    ///
+    /// Values of [`RPROFIBAUD`](super::objects::RPROFIBAUD).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`Automatic`](Self::Automatic) |  |
+    /// | 1 | [`_9_6KbitS`](Self::_9_6KbitS) | 9\.6 kbit/s. |
+    /// | 2 | [`_19_2KbitS`](Self::_19_2KbitS) | 19\.2 kbit/s. |
+    /// | 3 | [`_31_25KbitS`](Self::_31_25KbitS) | 31\.25 kbit/s. |
+    /// | 4 | [`_45_45KbitS`](Self::_45_45KbitS) | 45\.45 kbit/s. |
+    /// | 5 | [`_93_75KbitS`](Self::_93_75KbitS) | 93\.75 kbit/s. |
+    /// | 6 | [`_187_5KbitS`](Self::_187_5KbitS) | 187\.5 kbit/s. |
+    /// | 7 | [`_500KbitS`](Self::_500KbitS) | 500 kbit/s. |
+    /// | 8 | [`_1500KbitS`](Self::_1500KbitS) | 1500 kbit/s. |
+    /// | 9 | [`_3000KbitS`](Self::_3000KbitS) | 3000 kbit/s. |
+    /// | 10 | [`_6000KbitS`](Self::_6000KbitS) | 6000 kbit/s. |
+    /// | 11 | [`_12000KbitS`](Self::_12000KbitS) | 12000 kbit/s. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ProfibusBitRate {
         /// 0: automatic. Manual: Auto baud-rate.
@@ -9526,6 +13066,19 @@ pub mod types {
         }
     }
     /// CanBaudRate.
+    ///
+    /// Values of [`RCANBAUD`](super::objects::RCANBAUD).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`_10KbitS`](Self::_10KbitS) | 10 kbit/s. |
+    /// | 1 | [`_20KbitS`](Self::_20KbitS) | 20 kbit/s. |
+    /// | 2 | [`_50KbitS`](Self::_50KbitS) | 50 kbit/s. |
+    /// | 3 | [`_125KbitS`](Self::_125KbitS) | 125 kbit/s. |
+    /// | 4 | [`_250KbitS`](Self::_250KbitS) | 250 kbit/s. |
+    /// | 5 | [`_500KbitS`](Self::_500KbitS) | 500 kbit/s. |
+    /// | 6 | [`_800KbitS`](Self::_800KbitS) | 800 kbit/s. |
+    /// | 7 | [`_1MbitS`](Self::_1MbitS) | 1 Mbit/s. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CanBaudRate {
         /// 0: 10 kbit/s. Manual: 10Kb.
@@ -9587,6 +13140,13 @@ pub mod types {
         }
     }
     /// CanObjectCommand.
+    ///
+    /// Values of [`RCANCMD`](super::objects::RCANCMD).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 1 | [`Write`](Self::Write) |
+    /// | 2 | [`Read`](Self::Read) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CanObjectCommand {
         /// 1: write. Manual: Scrivi valore.
@@ -9624,6 +13184,15 @@ pub mod types {
         }
     }
     /// CanopenStatus red LED.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Disabled`](Self::Disabled) |
+    /// | 3 | [`WarningLimitReached`](Self::WarningLimitReached) |
+    /// | 4 | [`ErrorControlEvent`](Self::ErrorControlEvent) |
+    /// | 5 | [`SyncError`](Self::SyncError) |
+    /// | 6 | [`EventTimerError`](Self::EventTimerError) |
+    /// | 7 | [`BusOff`](Self::BusOff) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CanopenStatusRedLed {
         /// 0: disabled.
@@ -9677,6 +13246,12 @@ pub mod types {
         }
     }
     /// CanopenStatus green LED.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 1 | [`PreOperational`](Self::PreOperational) |
+    /// | 2 | [`Stopped`](Self::Stopped) |
+    /// | 5 | [`Operational`](Self::Operational) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CanopenStatusGreenLed {
         /// 1: pre-operational.
@@ -9718,6 +13293,19 @@ pub mod types {
         }
     }
     /// SerialBaudRate.
+    ///
+    /// Values of [`RSERBAUD`](super::objects::RSERBAUD).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`_1200BitS`](Self::_1200BitS) | 1200 bit/s. |
+    /// | 1 | [`_2400BitS`](Self::_2400BitS) | 2400 bit/s. |
+    /// | 2 | [`_4800BitS`](Self::_4800BitS) | 4800 bit/s. |
+    /// | 3 | [`_9600BitS`](Self::_9600BitS) | 9600 bit/s. |
+    /// | 4 | [`_19200BitS`](Self::_19200BitS) | 19200 bit/s. |
+    /// | 5 | [`_38400BitS`](Self::_38400BitS) | 38400 bit/s. |
+    /// | 6 | [`_57600BitS`](Self::_57600BitS) | 57600 bit/s. |
+    /// | 7 | [`_115200BitS`](Self::_115200BitS) | 115200 bit/s. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum SerialBaudRate {
         /// 0: 1200 bit/s.
@@ -9779,6 +13367,17 @@ pub mod types {
         }
     }
     /// SerialFormat.
+    ///
+    /// Values of [`RSERPAR`](super::objects::RSERPAR).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`NoParity1StopBit`](Self::NoParity1StopBit) | no parity, 1 stop bit. |
+    /// | 1 | [`EvenParity1StopBit`](Self::EvenParity1StopBit) | even parity, 1 stop bit. |
+    /// | 2 | [`OddParity1StopBit`](Self::OddParity1StopBit) | odd parity, 1 stop bit. |
+    /// | 3 | [`NoParity2StopBits`](Self::NoParity2StopBits) | no parity, 2 stop bits. |
+    /// | 4 | [`EvenParity2StopBits`](Self::EvenParity2StopBits) | even parity, 2 stop bits. |
+    /// | 5 | [`OddParity2StopBits`](Self::OddParity2StopBits) | odd parity, 2 stop bits. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum SerialFormat {
         /// 0: no parity, 1 stop bit. Manual: NONE, 1.
@@ -9832,6 +13431,13 @@ pub mod types {
         }
     }
     /// WordOrder.
+    ///
+    /// Values of [`RINTMOT`](super::objects::RINTMOT), [`RETHINTMOT`](super::objects::RETHINTMOT).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Intel`](Self::Intel) |
+    /// | 1 | [`Motorola`](Self::Motorola) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum WordOrder {
         /// 0: Intel. Manual: Intel.
@@ -9871,6 +13477,18 @@ pub mod types {
     /// ModesOfOperationI16.
     ///
     /// Manual, line 1461-1469, 1487-1495.
+    ///
+    /// Values of [`RCANMODEOFOPERATION`](super::objects::RCANMODEOFOPERATION), [`RSTRMODEOFOPERATION`](super::objects::RSTRMODEOFOPERATION).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | -1 | [`AecVelocity`](Self::AecVelocity) | Jog at a velocity. |
+    /// | 0 | [`Reserved0`](Self::Reserved0) |  |
+    /// | 1 | [`ProfilePosition`](Self::ProfilePosition) |  |
+    /// | 6 | [`Homing`](Self::Homing) |  |
+    /// | 7 | [`InterpolatedPosition`](Self::InterpolatedPosition) |  |
+    /// | 8 | [`CyclicSynchronousPosition`](Self::CyclicSynchronousPosition) |  |
+    /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModesOfOperationI16 {
         /// -1: AEC velocity. Jog at a velocity. Manual, line 1463, 1489: AEC Velocity mode (JOG).
@@ -9928,6 +13546,13 @@ pub mod types {
         }
     }
     /// SocketProtocol.
+    ///
+    /// Values of [`RETHPROTSOCK1`](super::objects::RETHPROTSOCK1), [`RETHPROTSOCK2`](super::objects::RETHPROTSOCK2), [`RETHPROTSOCK3`](super::objects::RETHPROTSOCK3).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Tcp`](Self::Tcp) |
+    /// | 1 | [`Udp`](Self::Udp) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum SocketProtocol {
         /// 0: TCP.
@@ -9965,6 +13590,11 @@ pub mod types {
         }
     }
     /// TouchProbeControl probe 1 enable.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeControlProbe1Enable {
         /// 0: off.
@@ -9998,6 +13628,11 @@ pub mod types {
         }
     }
     /// TouchProbeControl probe 1 continuous.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`FirstEvent`](Self::FirstEvent) |
+    /// | 1 | [`Continuous`](Self::Continuous) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeControlProbe1Continuous {
         /// 0: first event.
@@ -10031,6 +13666,13 @@ pub mod types {
         }
     }
     /// TouchProbeControl probe 1 trigger.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Input0`](Self::Input0) |
+    /// | 1 | [`EncoderIndex`](Self::EncoderIndex) |
+    /// | 2 | [`ByObject60D0`](Self::ByObject60D0) |
+    /// | 3 | [`Reserved`](Self::Reserved) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeControlProbe1Trigger {
         /// 0: input 0.
@@ -10072,6 +13714,11 @@ pub mod types {
         }
     }
     /// TouchProbeControl probe 1 positive edge.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`Sampled`](Self::Sampled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeControlProbe1PositiveEdge {
         /// 0: off.
@@ -10105,6 +13752,11 @@ pub mod types {
         }
     }
     /// TouchProbeControl probe 1 negative edge.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`Sampled`](Self::Sampled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeControlProbe1NegativeEdge {
         /// 0: off.
@@ -10138,6 +13790,13 @@ pub mod types {
         }
     }
     /// TouchProbeControl probe 1 position.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActualPosition`](Self::ActualPosition) |
+    /// | 1 | [`Encoder1`](Self::Encoder1) |
+    /// | 2 | [`Encoder2`](Self::Encoder2) |
+    /// | 3 | [`AbsoluteEncoder`](Self::AbsoluteEncoder) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeControlProbe1Position {
         /// 0: actual position.
@@ -10179,6 +13838,11 @@ pub mod types {
         }
     }
     /// TouchProbeControl probe 2 enable.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeControlProbe2Enable {
         /// 0: off.
@@ -10212,6 +13876,11 @@ pub mod types {
         }
     }
     /// TouchProbeControl probe 2 continuous.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`FirstEvent`](Self::FirstEvent) |
+    /// | 1 | [`Continuous`](Self::Continuous) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeControlProbe2Continuous {
         /// 0: first event.
@@ -10245,6 +13914,13 @@ pub mod types {
         }
     }
     /// TouchProbeControl probe 2 trigger.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Input1`](Self::Input1) |
+    /// | 1 | [`EncoderIndex`](Self::EncoderIndex) |
+    /// | 2 | [`ByObject60D0`](Self::ByObject60D0) |
+    /// | 3 | [`Reserved`](Self::Reserved) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeControlProbe2Trigger {
         /// 0: input 1.
@@ -10286,6 +13962,11 @@ pub mod types {
         }
     }
     /// TouchProbeControl probe 2 positive edge.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`Sampled`](Self::Sampled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeControlProbe2PositiveEdge {
         /// 0: off.
@@ -10319,6 +14000,11 @@ pub mod types {
         }
     }
     /// TouchProbeControl probe 2 negative edge.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`Sampled`](Self::Sampled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeControlProbe2NegativeEdge {
         /// 0: off.
@@ -10352,6 +14038,13 @@ pub mod types {
         }
     }
     /// TouchProbeControl probe 2 position.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActualPosition`](Self::ActualPosition) |
+    /// | 1 | [`Encoder1`](Self::Encoder1) |
+    /// | 2 | [`Encoder2`](Self::Encoder2) |
+    /// | 3 | [`AbsoluteEncoder`](Self::AbsoluteEncoder) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeControlProbe2Position {
         /// 0: actual position.
@@ -10393,6 +14086,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatusBeforeV6 probe 1 enabled.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`SwitchedOff`](Self::SwitchedOff) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusBeforeV6Probe1Enabled {
         /// 0: switched off.
@@ -10426,6 +14124,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatusBeforeV6 probe 1 value stored.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`NoValue`](Self::NoValue) |
+    /// | 1 | [`Stored`](Self::Stored) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusBeforeV6Probe1ValueStored {
         /// 0: no value.
@@ -10459,6 +14162,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatusBeforeV6 probe 2 enabled.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`SwitchedOff`](Self::SwitchedOff) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusBeforeV6Probe2Enabled {
         /// 0: switched off.
@@ -10492,6 +14200,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatusBeforeV6 probe 2 value stored.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`NoValue`](Self::NoValue) |
+    /// | 1 | [`Stored`](Self::Stored) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusBeforeV6Probe2ValueStored {
         /// 0: no value.
@@ -10525,6 +14238,38 @@ pub mod types {
         }
     }
     /// TouchProbeInput.
+    ///
+    /// Values of [`RTOUCHPROBE1INPDEF`](super::objects::RTOUCHPROBE1INPDEF), [`RTOUCHPROBE2INPDEF`](super::objects::RTOUCHPROBE2INPDEF), [`RTOUCHPROBE1INP`](super::objects::RTOUCHPROBE1INP), [`RTOUCHPROBE2INP`](super::objects::RTOUCHPROBE2INP).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | -20 | [`Encoder2Index`](Self::Encoder2Index) |  |
+    /// | -19 | [`Bls`](Self::Bls) | Backward limit switch. |
+    /// | -18 | [`Fls`](Self::Fls) | Forward limit switch. |
+    /// | -17 | [`Encoder1Index`](Self::Encoder1Index) |  |
+    /// | -16 | [`Input15`](Self::Input15) |  |
+    /// | -15 | [`Input14`](Self::Input14) |  |
+    /// | -14 | [`Input13`](Self::Input13) |  |
+    /// | -13 | [`Input12`](Self::Input12) |  |
+    /// | -12 | [`Input11`](Self::Input11) |  |
+    /// | -11 | [`Input10`](Self::Input10) |  |
+    /// | -10 | [`Input9`](Self::Input9) |  |
+    /// | -9 | [`Input8`](Self::Input8) |  |
+    /// | -8 | [`Input7`](Self::Input7) |  |
+    /// | -7 | [`Input6`](Self::Input6) |  |
+    /// | -6 | [`Input5`](Self::Input5) |  |
+    /// | -5 | [`Input4`](Self::Input4) |  |
+    /// | -4 | [`Input3`](Self::Input3) |  |
+    /// | -3 | [`Input2`](Self::Input2) |  |
+    /// | -2 | [`Input1`](Self::Input1) |  |
+    /// | -1 | [`Input0`](Self::Input0) |  |
+    /// | 0 | [`Reserved`](Self::Reserved) |  |
+    /// | 1 | [`Input0ByCode1`](Self::Input0ByCode1) |  |
+    /// | 2 | [`Input1ByCode2`](Self::Input1ByCode2) |  |
+    /// | 3 | [`Input2ByCode3`](Self::Input2ByCode3) |  |
+    /// | 4 | [`Input3ByCode4`](Self::Input3ByCode4) |  |
+    /// | 5 | [`Encoder1IndexByCode5`](Self::Encoder1IndexByCode5) |  |
+    /// | 6 | [`Encoder1SoftwareZero`](Self::Encoder1SoftwareZero) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeInput {
         /// -20: encoder 2 index. Manual: Trigger da TOP encoder 2.
@@ -10662,6 +14407,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatusV6 probe 1 enabled.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`SwitchedOff`](Self::SwitchedOff) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusV6Probe1Enabled {
         /// 0: switched off.
@@ -10695,6 +14445,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatusV6 probe 1 positive edge stored.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`NoValue`](Self::NoValue) |
+    /// | 1 | [`Stored`](Self::Stored) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusV6Probe1PositiveEdgeStored {
         /// 0: no value.
@@ -10728,6 +14483,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatusV6 probe 1 negative edge stored.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`NoValue`](Self::NoValue) |
+    /// | 1 | [`Stored`](Self::Stored) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusV6Probe1NegativeEdgeStored {
         /// 0: no value.
@@ -10761,6 +14521,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatusV6 probe 2 enabled.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`SwitchedOff`](Self::SwitchedOff) |
+    /// | 1 | [`Enabled`](Self::Enabled) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusV6Probe2Enabled {
         /// 0: switched off.
@@ -10794,6 +14559,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatusV6 probe 2 positive edge stored.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`NoValue`](Self::NoValue) |
+    /// | 1 | [`Stored`](Self::Stored) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusV6Probe2PositiveEdgeStored {
         /// 0: no value.
@@ -10827,6 +14597,11 @@ pub mod types {
         }
     }
     /// TouchProbeStatusV6 probe 2 negative edge stored.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`NoValue`](Self::NoValue) |
+    /// | 1 | [`Stored`](Self::Stored) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeStatusV6Probe2NegativeEdgeStored {
         /// 0: no value.
@@ -10860,6 +14635,16 @@ pub mod types {
         }
     }
     /// TouchProbeSource.
+    ///
+    /// Values of [`RTOUCHPROBE1SOURCE`](super::objects::RTOUCHPROBE1SOURCE), [`RTOUCHPROBE2SOURCE`](super::objects::RTOUCHPROBE2SOURCE).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`ActualPosition`](Self::ActualPosition) |
+    /// | 1 | [`Encoder1`](Self::Encoder1) |
+    /// | 2 | [`Encoder2`](Self::Encoder2) |
+    /// | 3 | [`Encoder3`](Self::Encoder3) |
+    /// | 4 | [`AbsoluteEncoder`](Self::AbsoluteEncoder) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum TouchProbeSource {
         /// 0: actual position. Manual: Rposact.
@@ -10909,6 +14694,11 @@ pub mod types {
         }
     }
     /// CamStartStopControl run.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Stop`](Self::Stop) |
+    /// | 1 | [`Run`](Self::Run) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CamStartStopControlRun {
         /// 0: stop.
@@ -10942,6 +14732,13 @@ pub mod types {
         }
     }
     /// CamMode.
+    ///
+    /// Values of [`RCAMMODESELECT`](super::objects::RCAMMODESELECT).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Type1`](Self::Type1) |
+    /// | 1 | [`Type2`](Self::Type2) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CamMode {
         /// 0: type 1. Manual: Camma Tipo1 (Blk).
@@ -10979,6 +14776,15 @@ pub mod types {
         }
     }
     /// CamFeedback.
+    ///
+    /// Values of [`RENCCAMFBK`](super::objects::RENCCAMFBK).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Encoder1`](Self::Encoder1) |
+    /// | 1 | [`Encoder2`](Self::Encoder2) |
+    /// | 2 | [`Encoder3`](Self::Encoder3) |
+    /// | 3 | [`AbsoluteEncoder`](Self::AbsoluteEncoder) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum CamFeedback {
         /// 0: encoder 1. Manual: Encoder 1.
@@ -11024,6 +14830,11 @@ pub mod types {
         }
     }
     /// UserPidControl run.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Stop`](Self::Stop) |
+    /// | 1 | [`Start`](Self::Start) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum UserPidControlRun {
         /// 0: stop.
@@ -11057,6 +14868,17 @@ pub mod types {
         }
     }
     /// GeneratorTarget.
+    ///
+    /// Values of [`RFGAPPLYTO`](super::objects::RFGAPPLYTO).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`None`](Self::None) |
+    /// | 1 | [`CurrentOfPhaseA`](Self::CurrentOfPhaseA) |
+    /// | 2 | [`CurrentOfPhaseB`](Self::CurrentOfPhaseB) |
+    /// | 3 | [`Speed`](Self::Speed) |
+    /// | 4 | [`Position`](Self::Position) |
+    /// | 5 | [`Profile`](Self::Profile) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum GeneratorTarget {
         /// 0: none. Manual: None.
@@ -11110,6 +14932,13 @@ pub mod types {
         }
     }
     /// GeneratorCommand.
+    ///
+    /// Values of [`RFGCMD`](super::objects::RFGCMD).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Stop`](Self::Stop) |
+    /// | 1 | [`Start`](Self::Start) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum GeneratorCommand {
         /// 0: stop. Manual: FG stop.
@@ -11147,6 +14976,15 @@ pub mod types {
         }
     }
     /// GeneratorMode.
+    ///
+    /// Values of [`RFGMODE`](super::objects::RFGMODE).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Sine`](Self::Sine) |
+    /// | 1 | [`SquareWave`](Self::SquareWave) |
+    /// | 2 | [`Pulse`](Self::Pulse) |
+    /// | 4 | [`Profile`](Self::Profile) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum GeneratorMode {
         /// 0: sine. Manual: sinusoidale.
@@ -11192,6 +15030,11 @@ pub mod types {
         }
     }
     /// ProgramStatus valid.
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Invalid`](Self::Invalid) |
+    /// | 1 | [`Valid`](Self::Valid) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ProgramStatusValid {
         /// 0: invalid.
@@ -11225,6 +15068,14 @@ pub mod types {
         }
     }
     /// ProgramRunMode.
+    ///
+    /// Values of [`RPRGRUNMODE`](super::objects::RPRGRUNMODE).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Stop`](Self::Stop) |
+    /// | 1 | [`SingleStep`](Self::SingleStep) |
+    /// | 2 | [`Run`](Self::Run) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ProgramRunMode {
         /// 0: stop. Manual: Stop.
@@ -11266,6 +15117,24 @@ pub mod types {
         }
     }
     /// ProgramStopEvent.
+    ///
+    /// Values of [`RPRGSTOPEVENT`](super::objects::RPRGSTOPEVENT).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`NoStopRequested`](Self::NoStopRequested) |  |
+    /// | 1 | [`StoppedByHand`](Self::StoppedByHand) |  |
+    /// | 2 | [`InvalidProgram`](Self::InvalidProgram) |  |
+    /// | 3 | [`CounterBeyondProgram`](Self::CounterBeyondProgram) |  |
+    /// | 4 | [`CounterBeyondMemory`](Self::CounterBeyondMemory) |  |
+    /// | 5 | [`InvalidInstruction`](Self::InvalidInstruction) |  |
+    /// | 6 | [`EventStackOverflow`](Self::EventStackOverflow) |  |
+    /// | 7 | [`EndInstruction`](Self::EndInstruction) |  |
+    /// | 8 | [`TooManyNestedJsr`](Self::TooManyNestedJsr) |  |
+    /// | 9 | [`RtsWithoutJsr`](Self::RtsWithoutJsr) | The stack is corrupted. |
+    /// | 10 | [`TooManyOnh`](Self::TooManyOnh) | ONH and ONL together have to be fewer than 10. |
+    /// | 11 | [`TooManyOnl`](Self::TooManyOnl) | ONH and ONL together have to be fewer than 10. |
+    /// | 12 | [`RteWithoutOnhOrOnl`](Self::RteWithoutOnhOrOnl) | The stack is corrupted. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ProgramStopEvent {
         /// 0: no stop requested. Manual: Nessuna richiesta di stop.
@@ -11347,6 +15216,16 @@ pub mod types {
         }
     }
     /// ProgramCommand.
+    ///
+    /// Values of [`RPRGCMD`](super::objects::RPRGCMD).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 1 | [`SaveProgram`](Self::SaveProgram) |  |
+    /// | 2 | [`LoadProgram`](Self::LoadProgram) |  |
+    /// | 129 | [`ErasePassword`](Self::ErasePassword) | Erases the whole program, too. |
+    /// | 130 | [`SetPassword`](Self::SetPassword) | The password is the one in Rprgnewpsw. |
+    /// | 131 | [`EraseProgramInRam`](Self::EraseProgramInRam) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ProgramCommand {
         /// 1: save program. Manual: Salva programma in EEPROM.
@@ -11396,6 +15275,13 @@ pub mod types {
         }
     }
     /// ProgramProtection.
+    ///
+    /// Values of [`RPRGPSWACT`](super::objects::RPRGPSWACT).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Unlocked`](Self::Unlocked) |
+    /// | 1 | [`Protected`](Self::Protected) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ProgramProtection {
         /// 0: unlocked. Manual: Programma sbloccato.
@@ -11433,6 +15319,16 @@ pub mod types {
         }
     }
     /// ProgramBreakpoint.
+    ///
+    /// Values of [`RPRGBPNUM`](super::objects::RPRGBPNUM).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`SingleStepCount`](Self::SingleStepCount) | How many instructions a single step runs. |
+    /// | 1 | [`Breakpoint1`](Self::Breakpoint1) |  |
+    /// | 2 | [`Breakpoint2`](Self::Breakpoint2) |  |
+    /// | 3 | [`Breakpoint3`](Self::Breakpoint3) |  |
+    /// | 4 | [`Breakpoint4`](Self::Breakpoint4) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ProgramBreakpoint {
         /// 0: single step count. How many instructions a single step runs. Manual: Istruzioni da eseguire in passo singolo.
@@ -11484,6 +15380,14 @@ pub mod types {
     /// DeviceType.
     ///
     /// Manual, line 623-628.
+    ///
+    /// Values of [`DEVICE_TYPE`](super::objects::DEVICE_TYPE).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–15 | [`device_profile_number`](Self::device_profile_number) | 402 for DSP-402. |
+    /// | 16–23 | [`drive_type`](Self::drive_type) | One bit per kind of drive. Values: [`DeviceTypeDriveType`]. |
+    /// | 24–31 | [`manufacturer_specific`](Self::manufacturer_specific) | 0 on these drives. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DeviceType(u32);
     impl DeviceType {
@@ -11569,7 +15473,20 @@ pub mod types {
     ///
     /// Manual, line 640-648.
     ///
+    /// Values of [`ERROR_REGISTER`](super::objects::ERROR_REGISTER).
+    ///
     /// Bits 0x40 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`generic_error`](Self::generic_error) |  |
+    /// | 1 | reserved |  |
+    /// | 2 | reserved |  |
+    /// | 3 | reserved |  |
+    /// | 4 | [`communication_error`](Self::communication_error) | Overrun or error state of the bus. |
+    /// | 5 | [`device_profile_error`](Self::device_profile_error) |  |
+    /// | 6 | reserved | Written as 0. |
+    /// | 7 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ErrorRegister(u8);
     impl ErrorRegister {
@@ -11642,6 +15559,16 @@ pub mod types {
     /// CobIdSync.
     ///
     /// Manual, line 717-725.
+    ///
+    /// Values of [`COB_ID_SYNC_MESSAGE`](super::objects::COB_ID_SYNC_MESSAGE).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–10 | [`identifier`](Self::identifier) |  |
+    /// | 11–28 | [`extended_identifier`](Self::extended_identifier) | Upper bits of a 29-bit identifier; ignored while bit 29 is 0. |
+    /// | 29 | [`frame_format`](Self::frame_format) | 11-bit (CAN 2.0A) or 29-bit (CAN 2.0B) identifier; changing it is refused. Values: [`CobIdSyncFrameFormat`]. |
+    /// | 30 | [`sync_production`](Self::sync_production) | Whether the device produces the SYNC message; changing it is refused. Values: [`CobIdSyncSyncProduction`]. |
+    /// | 31 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct CobIdSync(u32);
     impl CobIdSync {
@@ -11741,6 +15668,15 @@ pub mod types {
     /// CobIdEmergency.
     ///
     /// Manual, line 807-813.
+    ///
+    /// Values of [`COB_ID_EMERGENCY_OBJECT`](super::objects::COB_ID_EMERGENCY_OBJECT).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–10 | [`identifier`](Self::identifier) |  |
+    /// | 11–28 | [`extended_identifier`](Self::extended_identifier) | Upper bits of a 29-bit identifier; ignored while bit 29 is 0. |
+    /// | 29 | [`frame_format`](Self::frame_format) | 11-bit (CAN 2.0A) or 29-bit (CAN 2.0B) identifier; changing it is refused. Values: [`CobIdEmergencyFrameFormat`]. |
+    /// | 30–31 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct CobIdEmergency(u32);
     impl CobIdEmergency {
@@ -11826,7 +15762,15 @@ pub mod types {
     ///
     /// Manual, line 855-858.
     ///
+    /// Values of [`consumer_heartbeat_time::CONSUMER_HEARTBEAT_TIME_1`](super::objects::consumer_heartbeat_time::CONSUMER_HEARTBEAT_TIME_1), [`consumer_heartbeat_time::CONSUMER_HEARTBEAT_TIME_2`](super::objects::consumer_heartbeat_time::CONSUMER_HEARTBEAT_TIME_2).
+    ///
     /// Bits 0xFF000000 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–15 | [`heartbeat_time`](Self::heartbeat_time) | In ms; 0 switches it off. |
+    /// | 16–23 | [`node_id`](Self::node_id) |  |
+    /// | 24–31 | reserved | Written as 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ConsumerHeartbeat(u32);
     impl ConsumerHeartbeat {
@@ -11894,6 +15838,13 @@ pub mod types {
     /// RevisionNumber.
     ///
     /// Manual, line 874.
+    ///
+    /// Values of [`identity_object::REVISION_NUMBER`](super::objects::identity_object::REVISION_NUMBER).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–15 | [`minor`](Self::minor) | Changes of the firmware that leave the dictionary alone. |
+    /// | 16–31 | [`major`](Self::major) | Counts up when CANopen functions are added. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct RevisionNumber(u32);
     impl RevisionNumber {
@@ -11953,6 +15904,16 @@ pub mod types {
     /// CobIdPdo.
     ///
     /// Manual, line 976-985, 1086-1095.
+    ///
+    /// Values of [`rx_pdo1_communication_parameters::COB_ID`](super::objects::rx_pdo1_communication_parameters::COB_ID), [`rx_pdo2_communication_parameters::COB_ID`](super::objects::rx_pdo2_communication_parameters::COB_ID), [`rx_pdo3_communication_parameters::COB_ID`](super::objects::rx_pdo3_communication_parameters::COB_ID), [`rx_pdo4_communication_parameters::COB_ID`](super::objects::rx_pdo4_communication_parameters::COB_ID), [`tx_pdo1_communication_parameters::COB_ID`](super::objects::tx_pdo1_communication_parameters::COB_ID), [`tx_pdo2_communication_parameters::COB_ID`](super::objects::tx_pdo2_communication_parameters::COB_ID), [`tx_pdo3_communication_parameters::COB_ID`](super::objects::tx_pdo3_communication_parameters::COB_ID), [`tx_pdo4_communication_parameters::COB_ID`](super::objects::tx_pdo4_communication_parameters::COB_ID).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–10 | [`identifier`](Self::identifier) |  |
+    /// | 11–28 | [`extended_identifier`](Self::extended_identifier) | Upper bits of a 29-bit identifier; 0 while bit 29 is 0. |
+    /// | 29 | [`frame_format`](Self::frame_format) | 11-bit (CAN 2.0A) or 29-bit (CAN 2.0B) identifier. Values: [`CobIdPdoFrameFormat`]. |
+    /// | 30 | [`remote_request`](Self::remote_request) | Values: [`CobIdPdoRemoteRequest`]. |
+    /// | 31 | [`validity`](Self::validity) | Values: [`CobIdPdoValidity`]. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct CobIdPdo(u32);
     impl CobIdPdo {
@@ -12067,6 +16028,14 @@ pub mod types {
     /// PdoMapping.
     ///
     /// Manual, line 1059-1060, 1198-1199.
+    ///
+    /// Values of [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_1`](super::objects::rx_pdo1_mapping_parameters::MAPPED_OBJECT_1), [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_2`](super::objects::rx_pdo1_mapping_parameters::MAPPED_OBJECT_2), [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_3`](super::objects::rx_pdo1_mapping_parameters::MAPPED_OBJECT_3), [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_4`](super::objects::rx_pdo1_mapping_parameters::MAPPED_OBJECT_4), [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_5`](super::objects::rx_pdo1_mapping_parameters::MAPPED_OBJECT_5), [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_6`](super::objects::rx_pdo1_mapping_parameters::MAPPED_OBJECT_6), [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_7`](super::objects::rx_pdo1_mapping_parameters::MAPPED_OBJECT_7), [`rx_pdo1_mapping_parameters::MAPPED_OBJECT_8`](super::objects::rx_pdo1_mapping_parameters::MAPPED_OBJECT_8) and 56 more.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–7 | [`length`](Self::length) | In bits. |
+    /// | 8–15 | [`sub_index`](Self::sub_index) |  |
+    /// | 16–31 | [`index`](Self::index) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct PdoMapping(u32);
     impl PdoMapping {
@@ -12141,6 +16110,13 @@ pub mod types {
     /// ErrorCode.
     ///
     /// Manual, line 1267-1269.
+    ///
+    /// Values of [`ERROR_CODE`](super::objects::ERROR_CODE).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0–7 | [`detail`](Self::detail) |
+    /// | 8–15 | [`error`](Self::error) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ErrorCode(u16);
     impl ErrorCode {
@@ -12200,6 +16176,27 @@ pub mod types {
     /// Controlword.
     ///
     /// Manual, line 1285-1302.
+    ///
+    /// Values of [`CONTROLWORD`](super::objects::CONTROLWORD).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`switch_on`](Self::switch_on) |  |
+    /// | 1 | [`disable_voltage`](Self::disable_voltage) | 0 disables the voltage. Holds while the bit is 0. |
+    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 commands a quick stop. Holds while the bit is 0. |
+    /// | 3 | [`enable_operation`](Self::enable_operation) |  |
+    /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | Acts on the change from 0 to 1. |
+    /// | 4 | [`in_homing().homing_operation_start()`](ControlwordInHoming::homing_operation_start) | Acts on the change from 0 to 1. |
+    /// | 4 | [`in_aec_velocity().jog()`](ControlwordInAecVelocity::jog) | Values: [`ControlwordJog`]. |
+    /// | 5 | [`in_profile_position().change_set_immediately()`](ControlwordInProfilePosition::change_set_immediately) |  |
+    /// | 5 | [`in_aec_velocity().jog_direction()`](ControlwordInAecVelocity::jog_direction) | Values: [`ControlwordJogDirection`]. |
+    /// | 6 | [`in_profile_position().target()`](ControlwordInProfilePosition::target) | Values: [`ControlwordTarget`]. |
+    /// | 6 | [`in_aec_velocity().jog_velocity_update()`](ControlwordInAecVelocity::jog_velocity_update) | Values: [`ControlwordJogVelocityUpdate`]. |
+    /// | 7 | [`fault_reset`](Self::fault_reset) | Acts on the change from 0 to 1. |
+    /// | 8 | reserved |  |
+    /// | 9 | reserved |  |
+    /// | 10 | reserved |  |
+    /// | 11–15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Controlword(u16);
     impl Controlword {
@@ -12260,15 +16257,15 @@ pub mod types {
         pub const fn with_fault_reset(self, value: bool) -> Self {
             Self((self.0 & !0x80) | ((value as u16) << 7))
         }
-        /// The bits that have their meaning while Modes of operation is profile position (1).
+        /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
         pub const fn in_profile_position(self) -> ControlwordInProfilePosition {
             ControlwordInProfilePosition(self.0)
         }
-        /// The bits that have their meaning while Modes of operation is homing (6).
+        /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
         pub const fn in_homing(self) -> ControlwordInHoming {
             ControlwordInHoming(self.0)
         }
-        /// The bits that have their meaning while Modes of operation is AEC velocity (-1).
+        /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is AEC velocity (-1).
         pub const fn in_aec_velocity(self) -> ControlwordInAecVelocity {
             ControlwordInAecVelocity(self.0)
         }
@@ -12298,7 +16295,7 @@ pub mod types {
             bits.finish()
         }
     }
-    /// [`Controlword`] while Modes of operation is profile position (1).
+    /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
     #[derive(Clone, Copy)]
     pub struct ControlwordInProfilePosition(u16);
     impl ControlwordInProfilePosition {
@@ -12334,7 +16331,7 @@ pub mod types {
             Self((self.0 & !0x40) | (((value.raw() as u16) << 6) & 0x40))
         }
     }
-    /// [`Controlword`] while Modes of operation is homing (6).
+    /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
     #[derive(Clone, Copy)]
     pub struct ControlwordInHoming(u16);
     impl ControlwordInHoming {
@@ -12352,7 +16349,7 @@ pub mod types {
             Self((self.0 & !0x10) | ((value as u16) << 4))
         }
     }
-    /// [`Controlword`] while Modes of operation is AEC velocity (-1).
+    /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is AEC velocity (-1).
     #[derive(Clone, Copy)]
     pub struct ControlwordInAecVelocity(u16);
     impl ControlwordInAecVelocity {
@@ -12394,6 +16391,30 @@ pub mod types {
     /// Statusword.
     ///
     /// Manual, line 1328-1344.
+    ///
+    /// Values of [`STATUSWORD`](super::objects::STATUSWORD).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`ready_to_switch_on`](Self::ready_to_switch_on) |  |
+    /// | 1 | [`switched_on`](Self::switched_on) |  |
+    /// | 2 | [`operation_enabled`](Self::operation_enabled) |  |
+    /// | 3 | [`fault`](Self::fault) |  |
+    /// | 4 | [`voltage_disabled`](Self::voltage_disabled) | Not part of the decoding of states. Holds while the bit is 0. |
+    /// | 5 | [`quick_stop`](Self::quick_stop) | 0 while a quick stop is active. Holds while the bit is 0. |
+    /// | 6 | [`switch_on_disabled`](Self::switch_on_disabled) |  |
+    /// | 7 | [`warning`](Self::warning) |  |
+    /// | 8 | [`motor_moving`](Self::motor_moving) |  |
+    /// | 9 | [`remote`](Self::remote) |  |
+    /// | 10 | [`target_reached`](Self::target_reached) |  |
+    /// | 11 | [`internal_limit_active`](Self::internal_limit_active) |  |
+    /// | 12 | [`in_profile_position().set_point_acknowledge()`](StatuswordInProfilePosition::set_point_acknowledge) |  |
+    /// | 12 | [`in_homing().homing_attained()`](StatuswordInHoming::homing_attained) |  |
+    /// | 12 | [`in_aec_velocity().motor_stopped()`](StatuswordInAecVelocity::motor_stopped) |  |
+    /// | 13 | [`in_profile_position().following_error()`](StatuswordInProfilePosition::following_error) |  |
+    /// | 13 | [`in_homing().homing_error()`](StatuswordInHoming::homing_error) |  |
+    /// | 14 | reserved |  |
+    /// | 15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Statusword(u16);
     impl Statusword {
@@ -12517,15 +16538,15 @@ pub mod types {
         pub const fn with_internal_limit_active(self, value: bool) -> Self {
             Self((self.0 & !0x800) | ((value as u16) << 11))
         }
-        /// The bits that have their meaning while Modes of operation display is profile position (1).
+        /// The bits that have their meaning while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile position (1).
         pub const fn in_profile_position(self) -> StatuswordInProfilePosition {
             StatuswordInProfilePosition(self.0)
         }
-        /// The bits that have their meaning while Modes of operation display is homing (6).
+        /// The bits that have their meaning while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
         pub const fn in_homing(self) -> StatuswordInHoming {
             StatuswordInHoming(self.0)
         }
-        /// The bits that have their meaning while Modes of operation display is AEC velocity (-1).
+        /// The bits that have their meaning while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is AEC velocity (-1).
         pub const fn in_aec_velocity(self) -> StatuswordInAecVelocity {
             StatuswordInAecVelocity(self.0)
         }
@@ -12562,7 +16583,7 @@ pub mod types {
             bits.finish()
         }
     }
-    /// [`Statusword`] while Modes of operation display is profile position (1).
+    /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is profile position (1).
     #[derive(Clone, Copy)]
     pub struct StatuswordInProfilePosition(u16);
     impl StatuswordInProfilePosition {
@@ -12589,7 +16610,7 @@ pub mod types {
             Self((self.0 & !0x2000) | ((value as u16) << 13))
         }
     }
-    /// [`Statusword`] while Modes of operation display is homing (6).
+    /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is homing (6).
     #[derive(Clone, Copy)]
     pub struct StatuswordInHoming(u16);
     impl StatuswordInHoming {
@@ -12616,7 +16637,7 @@ pub mod types {
             Self((self.0 & !0x2000) | ((value as u16) << 13))
         }
     }
-    /// [`Statusword`] while Modes of operation display is AEC velocity (-1).
+    /// [`Statusword`] while [Modes of operation display](super::objects::MODES_OF_OPERATION_DISPLAY) is AEC velocity (-1).
     #[derive(Clone, Copy)]
     pub struct StatuswordInAecVelocity(u16);
     impl StatuswordInAecVelocity {
@@ -12637,6 +16658,23 @@ pub mod types {
     /// TouchProbeFunction.
     ///
     /// Manual, line 1698-1726, 2998-3030.
+    ///
+    /// Values of [`TOUCH_PROBE_FUNCTION`](super::objects::TOUCH_PROBE_FUNCTION).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`probe_1_enable`](Self::probe_1_enable) | Values: [`TouchProbeFunctionProbe1Enable`]. |
+    /// | 1 | [`probe_1_continuous`](Self::probe_1_continuous) | Values: [`TouchProbeFunctionProbe1Continuous`]. |
+    /// | 2–3 | [`probe_1_trigger`](Self::probe_1_trigger) | Can't be changed while bit 4 is set (L2996). Values: [`TouchProbeFunctionProbe1Trigger`]. |
+    /// | 4 | [`probe_1_positive_edge`](Self::probe_1_positive_edge) | Values: [`TouchProbeFunctionProbe1PositiveEdge`]. |
+    /// | 5 | [`probe_1_negative_edge`](Self::probe_1_negative_edge) | Values: [`TouchProbeFunctionProbe1NegativeEdge`]. |
+    /// | 6–7 | [`probe_1_position`](Self::probe_1_position) | Position that is sampled. Values: [`TouchProbeFunctionProbe1Position`]. |
+    /// | 8 | [`probe_2_enable`](Self::probe_2_enable) | Values: [`TouchProbeFunctionProbe2Enable`]. |
+    /// | 9 | [`probe_2_continuous`](Self::probe_2_continuous) | Values: [`TouchProbeFunctionProbe2Continuous`]. |
+    /// | 10–11 | [`probe_2_trigger`](Self::probe_2_trigger) | Can't be changed while bit 12 is set (L2996). Values: [`TouchProbeFunctionProbe2Trigger`]. |
+    /// | 12 | [`probe_2_positive_edge`](Self::probe_2_positive_edge) | Values: [`TouchProbeFunctionProbe2PositiveEdge`]. |
+    /// | 13 | [`probe_2_negative_edge`](Self::probe_2_negative_edge) | Values: [`TouchProbeFunctionProbe2NegativeEdge`]. |
+    /// | 14–15 | [`probe_2_position`](Self::probe_2_position) | Position that is sampled. Values: [`TouchProbeFunctionProbe2Position`]. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct TouchProbeFunction(u16);
     impl TouchProbeFunction {
@@ -12900,6 +16938,21 @@ pub mod types {
     /// TouchProbeStatus.
     ///
     /// Manual, line 1738-1754, 3039-3057.
+    ///
+    /// Values of [`TOUCH_PROBE_STATUS`](super::objects::TOUCH_PROBE_STATUS).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`probe_1_enabled`](Self::probe_1_enabled) | Values: [`TouchProbeStatusProbe1Enabled`]. |
+    /// | 1 | [`probe_1_positive_edge_stored`](Self::probe_1_positive_edge_stored) | Values: [`TouchProbeStatusProbe1PositiveEdgeStored`]. |
+    /// | 2 | [`probe_1_negative_edge_stored`](Self::probe_1_negative_edge_stored) | Not supported before. Values: [`TouchProbeStatusProbe1NegativeEdgeStored`]. |
+    /// | 3–6 | reserved |  |
+    /// | 7 | [`probe_1_update`](Self::probe_1_update) | Changes with every value stored while sampling is continuous. Each change of the bit counts. |
+    /// | 8 | [`probe_2_enabled`](Self::probe_2_enabled) | Values: [`TouchProbeStatusProbe2Enabled`]. |
+    /// | 9 | [`probe_2_positive_edge_stored`](Self::probe_2_positive_edge_stored) | Values: [`TouchProbeStatusProbe2PositiveEdgeStored`]. |
+    /// | 10 | [`probe_2_negative_edge_stored`](Self::probe_2_negative_edge_stored) | Not supported before. Values: [`TouchProbeStatusProbe2NegativeEdgeStored`]. |
+    /// | 11–14 | reserved |  |
+    /// | 15 | [`probe_2_update`](Self::probe_2_update) | Changes with every value stored while sampling is continuous. Each change of the bit counts. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct TouchProbeStatus(u16);
     impl TouchProbeStatus {
@@ -13083,6 +17136,31 @@ pub mod types {
     /// ProfileDigitalInputs.
     ///
     /// Manual, line 1955-1960.
+    ///
+    /// Values of [`DIGITAL_INPUTS`](super::objects::DIGITAL_INPUTS).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`negative_limit_switch`](Self::negative_limit_switch) | BLS, active high. |
+    /// | 1 | [`positive_limit_switch`](Self::positive_limit_switch) | FLS, active high. |
+    /// | 2 | [`home_switch`](Self::home_switch) | TOP, active high. |
+    /// | 3–15 | reserved |  |
+    /// | 16 | [`digital_input_0`](Self::digital_input_0) |  |
+    /// | 17 | [`digital_input_1`](Self::digital_input_1) |  |
+    /// | 18 | [`digital_input_2`](Self::digital_input_2) |  |
+    /// | 19 | [`digital_input_3`](Self::digital_input_3) |  |
+    /// | 20 | [`digital_input_4`](Self::digital_input_4) |  |
+    /// | 21 | [`digital_input_5`](Self::digital_input_5) |  |
+    /// | 22 | [`digital_input_6`](Self::digital_input_6) |  |
+    /// | 23 | [`digital_input_7`](Self::digital_input_7) |  |
+    /// | 24 | [`digital_input_8`](Self::digital_input_8) |  |
+    /// | 25 | [`digital_input_9`](Self::digital_input_9) |  |
+    /// | 26 | [`digital_input_10`](Self::digital_input_10) |  |
+    /// | 27 | [`digital_input_11`](Self::digital_input_11) |  |
+    /// | 28 | [`digital_input_12`](Self::digital_input_12) |  |
+    /// | 29 | [`digital_input_13`](Self::digital_input_13) |  |
+    /// | 30 | [`digital_input_14`](Self::digital_input_14) |  |
+    /// | 31 | [`digital_input_15`](Self::digital_input_15) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ProfileDigitalInputs(u32);
     impl ProfileDigitalInputs {
@@ -13312,6 +17390,21 @@ pub mod types {
     /// ProfileDigitalOutputs.
     ///
     /// Manual, line 1992-1995.
+    ///
+    /// Values of [`digital_outputs::PHYSICAL_OUTPUTS`](super::objects::digital_outputs::PHYSICAL_OUTPUTS), [`digital_outputs::BIT_MASK`](super::objects::digital_outputs::BIT_MASK).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0–15 | reserved |
+    /// | 16 | [`digital_output_0`](Self::digital_output_0) |
+    /// | 17 | [`digital_output_1`](Self::digital_output_1) |
+    /// | 18 | [`digital_output_2`](Self::digital_output_2) |
+    /// | 19 | [`digital_output_3`](Self::digital_output_3) |
+    /// | 20 | [`digital_output_4`](Self::digital_output_4) |
+    /// | 21 | [`digital_output_5`](Self::digital_output_5) |
+    /// | 22 | [`digital_output_6`](Self::digital_output_6) |
+    /// | 23 | [`digital_output_7`](Self::digital_output_7) |
+    /// | 24–31 | reserved |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ProfileDigitalOutputs(u32);
     impl ProfileDigitalOutputs {
@@ -13431,6 +17524,21 @@ pub mod types {
     /// SupportedDriveModes.
     ///
     /// Manual, line 2041-2053.
+    ///
+    /// Values of [`SUPPORTED_DRIVE_MODES`](super::objects::SUPPORTED_DRIVE_MODES).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`profile_position`](Self::profile_position) | Supported. |
+    /// | 1 | [`velocity`](Self::velocity) | Not supported. |
+    /// | 2 | [`profile_velocity`](Self::profile_velocity) | Not supported. |
+    /// | 3 | [`profile_torque`](Self::profile_torque) | Not supported. |
+    /// | 4 | reserved |  |
+    /// | 5 | [`homing`](Self::homing) | Supported. |
+    /// | 6 | [`interpolated_position`](Self::interpolated_position) | Marked as supported, though not in the value printed. |
+    /// | 7–15 | reserved |  |
+    /// | 16 | [`aec_velocity`](Self::aec_velocity) | Supported. |
+    /// | 17–31 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct SupportedDriveModes(u32);
     impl SupportedDriveModes {
@@ -13538,6 +17646,12 @@ pub mod types {
         }
     }
     /// SavedPosition.
+    ///
+    /// Values of [`RPOSACTSAVEDFLAG`](super::objects::RPOSACTSAVEDFLAG).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`position_saved`](Self::position_saved) | The position kept at power-off passed the checks and is in Rposactsaved. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct SavedPosition(u16);
     impl SavedPosition {
@@ -13585,6 +17699,27 @@ pub mod types {
         }
     }
     /// Status.
+    ///
+    /// Values of [`RSTSFLG`](super::objects::RSTSFLG).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`enabled`](Self::enabled) |  |
+    /// | 1 | [`alarm_active`](Self::alarm_active) |  |
+    /// | 2 | [`axis_homed`](Self::axis_homed) | Cleared by writing 0 to the register. |
+    /// | 3 | [`theoretical_motion`](Self::theoretical_motion) | The motion profile is running, whatever the motor does. |
+    /// | 4 | [`accelerating`](Self::accelerating) |  |
+    /// | 5 | [`constant_speed`](Self::constant_speed) |  |
+    /// | 6 | [`decelerating`](Self::decelerating) |  |
+    /// | 7 | [`closed_loop_report`](Self::closed_loop_report) | Set by bits 0, 1 and 2 of Rstscllp. |
+    /// | 8 | [`homing_failed`](Self::homing_failed) |  |
+    /// | 9 | [`motor_current`](Self::motor_current) | Values: [`StatusMotorCurrent`]. |
+    /// | 10 | [`in_position`](Self::in_position) |  |
+    /// | 11 | [`following_error`](Self::following_error) |  |
+    /// | 12 | [`moved_while_disabled`](Self::moved_while_disabled) | Only with an encoder; the window is Rdeadpos. |
+    /// | 13 | [`anticlockwise`](Self::anticlockwise) |  |
+    /// | 14 | [`outside_software_limits`](Self::outside_software_limits) |  |
+    /// | 15 | [`homing_in_progress`](Self::homing_in_progress) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Status(u16);
     impl Status {
@@ -13787,6 +17922,27 @@ pub mod types {
         }
     }
     /// Status1.
+    ///
+    /// Values of [`RSTSFLG1`](super::objects::RSTSFLG1).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`alarms_in_buffer`](Self::alarms_in_buffer) |  |
+    /// | 1 | [`warning_present`](Self::warning_present) |  |
+    /// | 2 | [`power_off_signal`](Self::power_off_signal) |  |
+    /// | 3 | [`stop_in_progress`](Self::stop_in_progress) |  |
+    /// | 4 | [`task_in_progress`](Self::task_in_progress) |  |
+    /// | 5 | [`lower_software_limit_hit`](Self::lower_software_limit_hit) |  |
+    /// | 6 | [`upper_software_limit_hit`](Self::upper_software_limit_hit) |  |
+    /// | 7 | [`backward_limit_switch_latched`](Self::backward_limit_switch_latched) | Stays set after the switch BLS was hit. |
+    /// | 8 | [`forward_limit_switch_latched`](Self::forward_limit_switch_latched) | Stays set after the switch FLS was hit. |
+    /// | 9 | [`voltage_limit`](Self::voltage_limit) |  |
+    /// | 10 | [`regulators_saturated`](Self::regulators_saturated) |  |
+    /// | 11 | [`current_limit_active`](Self::current_limit_active) |  |
+    /// | 12 | [`encoder_phasing_in_progress`](Self::encoder_phasing_in_progress) |  |
+    /// | 13 | [`rextencvel_updated`](Self::rextencvel_updated) | The speed of the external encoder has a new value. |
+    /// | 14 | [`rextencotovel_updated`](Self::rextencotovel_updated) | The speed from the index of the external encoder has a new value. |
+    /// | 15 | [`sto_active`](Self::sto_active) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Status1(u16);
     impl Status1 {
@@ -13984,6 +18140,27 @@ pub mod types {
         }
     }
     /// ClosedLoopStatus.
+    ///
+    /// Values of [`RSTSCLLP`](super::objects::RSTSCLLP).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`encoder_phased`](Self::encoder_phased) |  |
+    /// | 1 | [`theoretical_motion`](Self::theoretical_motion) |  |
+    /// | 2 | [`in_position`](Self::in_position) |  |
+    /// | 3 | [`position_alarm`](Self::position_alarm) |  |
+    /// | 4 | [`following_alarm`](Self::following_alarm) |  |
+    /// | 5 | reserved |  |
+    /// | 6 | [`positioning_timeout`](Self::positioning_timeout) |  |
+    /// | 7 | [`real_motion`](Self::real_motion) | The motor is really turning. |
+    /// | 8 | [`current_limit`](Self::current_limit) |  |
+    /// | 9 | [`speed_limit`](Self::speed_limit) |  |
+    /// | 10 | [`acceleration_limit`](Self::acceleration_limit) |  |
+    /// | 11 | reserved |  |
+    /// | 12 | reserved |  |
+    /// | 13 | reserved |  |
+    /// | 14 | reserved |  |
+    /// | 15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ClosedLoopStatus(u16);
     impl ClosedLoopStatus {
@@ -14121,6 +18298,27 @@ pub mod types {
         }
     }
     /// ModeFlags1.
+    ///
+    /// Values of [`RFLAG1`](super::objects::RFLAG1).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`wait_for_end_of_movement`](Self::wait_for_end_of_movement) |  |
+    /// | 1 | [`update_jog_immediately`](Self::update_jog_immediately) |  |
+    /// | 2 | [`cam_table_positioning`](Self::cam_table_positioning) | Positions from the CAM table, started by the master's position, with digital outputs. |
+    /// | 3 | reserved |  |
+    /// | 4 | reserved |  |
+    /// | 5 | reserved |  |
+    /// | 6 | reserved |  |
+    /// | 7 | reserved |  |
+    /// | 8 | reserved |  |
+    /// | 9 | reserved |  |
+    /// | 10 | reserved |  |
+    /// | 11 | reserved |  |
+    /// | 12 | [`clear_closed_loop_deviation`](Self::clear_closed_loop_deviation) | Removes the difference between real and theoretical position; the same as bit 12 of STW1 on Profibus. Acts on the change from 0 to 1. |
+    /// | 13 | reserved |  |
+    /// | 14 | reserved |  |
+    /// | 15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ModeFlags1(u16);
     impl ModeFlags1 {
@@ -14198,6 +18396,31 @@ pub mod types {
         }
     }
     /// ModeFlags.
+    ///
+    /// Values of [`RFLAG`](super::objects::RFLAG).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`wait_for_end_of_movement`](Self::wait_for_end_of_movement) |  |
+    /// | 1 | [`update_jog_velocity_immediately`](Self::update_jog_velocity_immediately) | See also bit 1 of Rflag1. |
+    /// | 2 | [`lower_limit_enabled`](Self::lower_limit_enabled) | Rlowlim holds. |
+    /// | 3 | [`upper_limit_enabled`](Self::upper_limit_enabled) | Rupplim holds. |
+    /// | 4 | [`backward_limit_switch_enabled`](Self::backward_limit_switch_enabled) |  |
+    /// | 5 | [`forward_limit_switch_enabled`](Self::forward_limit_switch_enabled) |  |
+    /// | 6 | [`actual_position_after_homing`](Self::actual_position_after_homing) | Values: [`ModeFlagsActualPositionAfterHoming`]. |
+    /// | 7 | [`motor_encoder_after_homing`](Self::motor_encoder_after_homing) | Values: [`ModeFlagsMotorEncoderAfterHoming`]. |
+    /// | 8 | [`external_encoder_after_homing`](Self::external_encoder_after_homing) | Values: [`ModeFlagsExternalEncoderAfterHoming`]. |
+    /// | 9 | [`actual_position_after_home_offset`](Self::actual_position_after_home_offset) | Values: [`ModeFlagsActualPositionAfterHomeOffset`]. |
+    /// | 10 | [`motor_encoder_after_home_offset`](Self::motor_encoder_after_home_offset) | Values: [`ModeFlagsMotorEncoderAfterHomeOffset`]. |
+    /// | 11 | [`external_encoder_after_home_offset`](Self::external_encoder_after_home_offset) | Values: [`ModeFlagsExternalEncoderAfterHomeOffset`]. |
+    /// | 12 | [`automatic_offset_correction`](Self::automatic_offset_correction) | In closed loop. |
+    /// | 13 | [`automatic_current_pid_correction`](Self::automatic_current_pid_correction) | In closed loop. |
+    /// | 14 | [`unidirectional_gear`](Self::unidirectional_gear) |  |
+    /// | 15 | [`gear_forward_only`](Self::gear_forward_only) |  |
+    /// | 16 | [`gear_backward_only`](Self::gear_backward_only) |  |
+    /// | 17 | [`take_encoder_position_at_current_on`](Self::take_encoder_position_at_current_on) | Smart mode: when current comes on, the requested position becomes the encoder's. |
+    /// | 18 | [`hold_requested_position_at_current_off`](Self::hold_requested_position_at_current_off) | Smart mode: without current the requested position isn't updated from the encoder, so it can be … |
+    /// | 19 | [`usb_port_parameters`](Self::usb_port_parameters) | The USB port has no slave address either way. Values: [`ModeFlagsUsbPortParameters`]. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ModeFlags(u32);
     impl ModeFlags {
@@ -14523,6 +18746,24 @@ pub mod types {
         }
     }
     /// HardwareConfig.
+    ///
+    /// Values of [`RHWCONFIG`](super::objects::RHWCONFIG).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | reserved |  |
+    /// | 1 | [`motor_encoder_direction`](Self::motor_encoder_direction) | Later the forward and backward quadrature of Renc1mode (10031). |
+    /// | 2 | [`motor_direction`](Self::motor_direction) |  |
+    /// | 3 | [`reset_encoder_phased_flag`](Self::reset_encoder_phased_flag) | A request for closed loop: the bit falls once it is carried out. The device clears it by itself. |
+    /// | 4 | [`analog_input_0_bipolar`](Self::analog_input_0_bipolar) | 1: analogue input 0 reads -10 V to +10 V. |
+    /// | 5 | [`motor_encoder_kind`](Self::motor_encoder_kind) | Later the quadrature and step/direction modes of Renc1mode (10031). Values: [`HardwareConfigMotorEncoderKind`]. |
+    /// | 6 | [`ssi_encoder_preset`](Self::ssi_encoder_preset) | Later bit 7 of Rencabsctrl (10035), with bit 7 of Rencabsmode (10034). |
+    /// | 7 | [`ssi_encoder_complement`](Self::ssi_encoder_complement) | Later bit 0 of Rencabsmode (10034). Values: [`HardwareConfigSsiEncoderComplement`]. |
+    /// | 8 | [`ssi_encoder_code`](Self::ssi_encoder_code) | Later bit 1 of Rencabsmode (10034). Values: [`HardwareConfigSsiEncoderCode`]. |
+    /// | 9–10 | [`ssi_encoder_alignment`](Self::ssi_encoder_alignment) | Where the data stand in the frame; later bits 3 and 2 of Rencabsmode (10034). Values: [`HardwareConfigSsiEncoderAlignment`]. |
+    /// | 11 | [`pwm_range`](Self::pwm_range) | Values: [`HardwareConfigPwmRange`]. |
+    /// | 12 | [`realign_entering_interpolation`](Self::realign_entering_interpolation) | A setting, for Nardi CANopen masters: the position is realigned when interpolation begins. |
+    /// | 13 | [`realign_in_interpolation`](Self::realign_in_interpolation) | A setting, for Sipro CANopen masters: realigns Rposact and Rposactreq in interpolation. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct HardwareConfig(u16);
     impl HardwareConfig {
@@ -14716,6 +18957,27 @@ pub mod types {
         }
     }
     /// Command.
+    ///
+    /// Values of [`RCMDWR`](super::objects::RCMDWR).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`disable_drive`](Self::disable_drive) | The device clears it by itself. |
+    /// | 1 | [`enable_drive`](Self::enable_drive) | The device clears it by itself. |
+    /// | 2 | [`abort`](Self::abort) | The device clears it by itself. |
+    /// | 3 | [`stop`](Self::stop) | The device clears it by itself. |
+    /// | 4 | [`estop`](Self::estop) | Stop once a register or variable meets a condition, see Restpflg. The device clears it by itself. |
+    /// | 5 | [`jog_clockwise`](Self::jog_clockwise) | The device clears it by itself. |
+    /// | 6 | [`jog_anticlockwise`](Self::jog_anticlockwise) | The device clears it by itself. |
+    /// | 7 | [`new_set_point_go`](Self::new_set_point_go) | The device clears it by itself. |
+    /// | 8 | [`new_set_point_gor`](Self::new_set_point_gor) | The device clears it by itself. |
+    /// | 9 | [`home`](Self::home) | The device clears it by itself. |
+    /// | 10 | [`gear`](Self::gear) | The device clears it by itself. |
+    /// | 11 | [`cam_start_stop`](Self::cam_start_stop) | The device clears it by itself. |
+    /// | 12 | [`cam`](Self::cam) | The device clears it by itself. |
+    /// | 13 | [`task`](Self::task) | The device clears it by itself. |
+    /// | 14 | [`bestop`](Self::bestop) | Stop once a bit has a state, or on an edge of an index, see Rbestpflg. The device clears it by itself. |
+    /// | 15 | [`shift_stop`](Self::shift_stop) | The device clears it by itself. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Command(u16);
     impl Command {
@@ -14913,6 +19175,27 @@ pub mod types {
         }
     }
     /// Command1.
+    ///
+    /// Values of [`RCMD1WR`](super::objects::RCMD1WR).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`current_step_on_phase_a`](Self::current_step_on_phase_a) |  |
+    /// | 1 | [`test_phases`](Self::test_phases) |  |
+    /// | 2 | [`winding_mode`](Self::winding_mode) |  |
+    /// | 3 | [`smit_mode`](Self::smit_mode) |  |
+    /// | 4 | [`realign_positions_in_smart_mode`](Self::realign_positions_in_smart_mode) | Takes away a thrust that the motor may have. |
+    /// | 5 | reserved |  |
+    /// | 6 | [`step_direction_cam_mode`](Self::step_direction_cam_mode) | Runs as in step/direction mode without a change from Position to Step Dir. |
+    /// | 7 | [`regain_motor_position_in_smart_mode`](Self::regain_motor_position_in_smart_mode) | For a motor that was moved while the drive was disabled. |
+    /// | 8 | reserved |  |
+    /// | 9 | reserved |  |
+    /// | 10 | reserved |  |
+    /// | 11 | reserved |  |
+    /// | 12 | reserved |  |
+    /// | 13 | reserved |  |
+    /// | 14 | reserved |  |
+    /// | 15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Command1(u16);
     impl Command1 {
@@ -15031,6 +19314,27 @@ pub mod types {
         }
     }
     /// CommandState.
+    ///
+    /// Values of [`RCMDRD`](super::objects::RCMDRD).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | reserved |
+    /// | 1 | reserved |
+    /// | 2 | [`positioning_abort`](Self::positioning_abort) |
+    /// | 3 | [`stop_on_ramp`](Self::stop_on_ramp) |
+    /// | 4 | [`estop_active`](Self::estop_active) |
+    /// | 5 | [`jog_positive`](Self::jog_positive) |
+    /// | 6 | [`jog_negative`](Self::jog_negative) |
+    /// | 7 | [`new_set_point_go`](Self::new_set_point_go) |
+    /// | 8 | [`new_set_point_gor`](Self::new_set_point_gor) |
+    /// | 9 | [`home`](Self::home) |
+    /// | 10 | [`gear`](Self::gear) |
+    /// | 11 | [`cam_start_stop_mode`](Self::cam_start_stop_mode) |
+    /// | 12 | [`cam_mode`](Self::cam_mode) |
+    /// | 13 | [`task_mode`](Self::task_mode) |
+    /// | 14 | [`bestop_active`](Self::bestop_active) |
+    /// | 15 | reserved |
     #[derive(Clone, Copy, PartialEq)]
     pub struct CommandState(u16);
     impl CommandState {
@@ -15198,6 +19502,26 @@ pub mod types {
         }
     }
     /// CommandState1.
+    ///
+    /// Values of [`RCMD1RD`](super::objects::RCMD1RD).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`current_step_done`](Self::current_step_done) |  |
+    /// | 1 | [`phase_test_done`](Self::phase_test_done) | Cleared by writing 0 to Rcmd1wr, or when another test starts. |
+    /// | 3 | [`winding_mode_active`](Self::winding_mode_active) |  |
+    /// | 4 | [`smit_mode_active`](Self::smit_mode_active) |  |
+    /// | 5 | [`smart_mode_realignment_done`](Self::smart_mode_realignment_done) |  |
+    /// | 6 | reserved |  |
+    /// | 7 | [`step_direction_cam_mode_active`](Self::step_direction_cam_mode_active) |  |
+    /// | 8 | [`smart_mode_position_regained`](Self::smart_mode_position_regained) |  |
+    /// | 9 | reserved |  |
+    /// | 10 | reserved |  |
+    /// | 11 | reserved |  |
+    /// | 12 | reserved |  |
+    /// | 13 | reserved |  |
+    /// | 14 | reserved |  |
+    /// | 15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct CommandState1(u16);
     impl CommandState1 {
@@ -15305,6 +19629,27 @@ pub mod types {
         }
     }
     /// HomingStatus.
+    ///
+    /// Values of [`RHSTS`](super::objects::RHSTS).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`homing_in_progress`](Self::homing_in_progress) |  |
+    /// | 1 | [`drive_not_enabled`](Self::drive_not_enabled) |  |
+    /// | 2 | [`maximum_distance_reached`](Self::maximum_distance_reached) | Homing has used up the distance of Rhmaxspc. |
+    /// | 3 | [`backward_limit_switch_error`](Self::backward_limit_switch_error) |  |
+    /// | 4 | [`forward_limit_switch_error`](Self::forward_limit_switch_error) |  |
+    /// | 5 | [`interrupted`](Self::interrupted) |  |
+    /// | 6 | [`unknown_error`](Self::unknown_error) |  |
+    /// | 7 | [`mechanical_stop_in_foc_open`](Self::mechanical_stop_in_foc_open) |  |
+    /// | 8 | reserved |  |
+    /// | 9 | reserved |  |
+    /// | 10 | reserved |  |
+    /// | 11 | reserved |  |
+    /// | 12 | reserved |  |
+    /// | 13 | reserved |  |
+    /// | 14 | reserved |  |
+    /// | 15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct HomingStatus(u16);
     impl HomingStatus {
@@ -15422,6 +19767,18 @@ pub mod types {
         }
     }
     /// BestopSetup.
+    ///
+    /// Values of [`RBESTPFLG`](super::objects::RBESTPFLG).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–4 | [`bit_number`](Self::bit_number) |  |
+    /// | 5 | [`condition`](Self::condition) | Values: [`BestopSetupCondition`]. |
+    /// | 6 | [`type`](Self::type) | What the number in Rbestppar is of. Values: [`BestopSetupType`]. |
+    /// | 7 | [`stop_on_rising_motor_index`](Self::stop_on_rising_motor_index) |  |
+    /// | 8 | [`stop_on_falling_motor_index`](Self::stop_on_falling_motor_index) |  |
+    /// | 9 | [`stop_on_rising_external_index`](Self::stop_on_rising_external_index) |  |
+    /// | 10 | [`stop_on_falling_external_index`](Self::stop_on_falling_external_index) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct BestopSetup(u16);
     impl BestopSetup {
@@ -15459,7 +19816,7 @@ pub mod types {
         pub const fn r#type(self) -> BestopSetupType {
             BestopSetupType::from_raw(((self.0 >> 6) & 0x1) as u8)
         }
-        /// The same with another `type`.
+        /// The same with another [`type`](Self::type).
         #[must_use]
         pub const fn with_type(self, value: BestopSetupType) -> Self {
             Self((self.0 & !0x40) | (((value.raw() as u16) << 6) & 0x40))
@@ -15538,6 +19895,15 @@ pub mod types {
         }
     }
     /// EstopSetup.
+    ///
+    /// Values of [`RESTPFLG`](super::objects::RESTPFLG).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | reserved |  |
+    /// | 1–4 | [`condition`](Self::condition) | Values: [`EstopSetupCondition`]. |
+    /// | 5–6 | [`source`](Self::source) | Values: [`EstopSetupSource`]. |
+    /// | 7 | [`destination`](Self::destination) | Values: [`EstopSetupDestination`]. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct EstopSetup(u16);
     impl EstopSetup {
@@ -15610,6 +19976,27 @@ pub mod types {
         }
     }
     /// Alarm.
+    ///
+    /// Values of [`RALARM`](super::objects::RALARM), [`RMASKALM`](super::objects::RMASKALM).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`hardware_overcurrent`](Self::hardware_overcurrent) | Can't be masked. |
+    /// | 1 | [`software_overcurrent`](Self::software_overcurrent) | Can't be masked. |
+    /// | 2 | [`i2_t`](Self::i2_t) |  |
+    /// | 3 | [`position_error`](Self::position_error) | Closed loop: out of the window Rdeadpos for Rposalmtime, with no speed asked for. Off by default. |
+    /// | 4 | [`following_error`](Self::following_error) | Open loop: encoder less motor steps beyond Rflwmax. Closed loop: while a speed is asked for, … |
+    /// | 5 | [`digital_output_overload`](Self::digital_output_overload) | Can't be masked. |
+    /// | 6 | [`overtemperature`](Self::overtemperature) | Can't be masked. |
+    /// | 7 | [`overvoltage`](Self::overvoltage) | Can't be masked. |
+    /// | 8 | [`undervoltage`](Self::undervoltage) |  |
+    /// | 9 | [`motor_encoder_phasing_error`](Self::motor_encoder_phasing_error) | Can't be masked. |
+    /// | 10 | [`phase_a_disconnected`](Self::phase_a_disconnected) | Can't be masked. |
+    /// | 11 | [`phase_b_disconnected`](Self::phase_b_disconnected) | Can't be masked. |
+    /// | 12 | [`positioning_timeout`](Self::positioning_timeout) |  |
+    /// | 13 | [`homing_error`](Self::homing_error) |  |
+    /// | 14 | [`encoder_inverted`](Self::encoder_inverted) | In SmartMode or closed loop. |
+    /// | 15 | [`encoder_fault`](Self::encoder_fault) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Alarm(u16);
     impl Alarm {
@@ -15807,6 +20194,27 @@ pub mod types {
         }
     }
     /// Warning.
+    ///
+    /// Values of [`RWARNING`](super::objects::RWARNING), [`RMASKWRN`](super::objects::RMASKWRN).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`hardware_overcurrent`](Self::hardware_overcurrent) | The same as the alarm; can't be masked. |
+    /// | 1 | [`software_overcurrent`](Self::software_overcurrent) | Can't be masked. |
+    /// | 2 | [`i2_t`](Self::i2_t) |  |
+    /// | 3 | [`position_error`](Self::position_error) | Closed loop: out of the window Rdeadpos for Rposwrtime, with no speed asked for. Off by default. |
+    /// | 4 | [`following_error`](Self::following_error) | Open loop: encoder less motor steps beyond Rflwvrn. Closed loop: beyond Rflwmax for Rposwrtime … |
+    /// | 5 | [`digital_output_overload`](Self::digital_output_overload) | Can't be masked. |
+    /// | 6 | [`overtemperature`](Self::overtemperature) | Can't be masked. |
+    /// | 7 | [`overvoltage`](Self::overvoltage) | Can't be masked. |
+    /// | 8 | [`undervoltage`](Self::undervoltage) |  |
+    /// | 9 | [`current_limited_by_voltage`](Self::current_limited_by_voltage) |  |
+    /// | 10 | [`regulator_saturated`](Self::regulator_saturated) |  |
+    /// | 11 | [`current_limit_active`](Self::current_limit_active) |  |
+    /// | 12 | [`positioning_timeout`](Self::positioning_timeout) |  |
+    /// | 13 | reserved |  |
+    /// | 14 | reserved |  |
+    /// | 15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Warning(u16);
     impl Warning {
@@ -15974,6 +20382,13 @@ pub mod types {
         }
     }
     /// AlarmAcknowledge.
+    ///
+    /// Values of [`RALMACK`](super::objects::RALMACK).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | [`acknowledge`](Self::acknowledge) |
+    /// | 1 | [`reset_alarm_counter`](Self::reset_alarm_counter) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct AlarmAcknowledge(u16);
     impl AlarmAcknowledge {
@@ -16031,6 +20446,35 @@ pub mod types {
         }
     }
     /// Alarm32.
+    ///
+    /// Values of [`RALARM32`](super::objects::RALARM32).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`hardware_overcurrent`](Self::hardware_overcurrent) | Can't be masked. |
+    /// | 1 | [`software_overcurrent`](Self::software_overcurrent) | Can't be masked. |
+    /// | 2 | [`i2_t`](Self::i2_t) |  |
+    /// | 3 | [`position_error`](Self::position_error) | Closed loop: out of the window Rdeadpos for Rposalmtime, with no speed asked for. Off by default. |
+    /// | 4 | [`following_error`](Self::following_error) | Open loop: encoder less motor steps beyond Rflwmax. Closed loop: while a speed is asked for, … |
+    /// | 5 | [`digital_output_overload`](Self::digital_output_overload) | Can't be masked. |
+    /// | 6 | [`overtemperature`](Self::overtemperature) | Can't be masked. |
+    /// | 7 | [`overvoltage`](Self::overvoltage) | Can't be masked. |
+    /// | 8 | [`undervoltage`](Self::undervoltage) |  |
+    /// | 9 | [`motor_encoder_phasing_error`](Self::motor_encoder_phasing_error) | Can't be masked. |
+    /// | 10 | [`phase_a_disconnected`](Self::phase_a_disconnected) | Can't be masked. |
+    /// | 11 | [`phase_b_disconnected`](Self::phase_b_disconnected) | Can't be masked. |
+    /// | 12 | [`positioning_timeout`](Self::positioning_timeout) |  |
+    /// | 13 | [`homing_error`](Self::homing_error) |  |
+    /// | 14 | [`encoder_inverted`](Self::encoder_inverted) | In SmartMode or closed loop. |
+    /// | 15 | [`encoder_fault`](Self::encoder_fault) |  |
+    /// | 16 | reserved |  |
+    /// | 17 | reserved |  |
+    /// | 18 | [`sync_missing`](Self::sync_missing) | CANopen or EtherCAT. |
+    /// | 19 | [`ssp_fault`](Self::ssp_fault) | Inputs that contradict each other. |
+    /// | 20 | [`logic_undervoltage`](Self::logic_undervoltage) |  |
+    /// | 21 | [`sto_a_test_failed`](Self::sto_a_test_failed) |  |
+    /// | 22 | [`sto_b_test_failed`](Self::sto_b_test_failed) |  |
+    /// | 23 | [`safe_state_output_fault`](Self::safe_state_output_fault) | The output pin that says that the drive is in its safe state. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Alarm32(u32);
     impl Alarm32 {
@@ -16288,6 +20732,31 @@ pub mod types {
         }
     }
     /// Warning32.
+    ///
+    /// Values of [`RWARNING32`](super::objects::RWARNING32).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`hardware_overcurrent`](Self::hardware_overcurrent) | The same as the alarm; can't be masked. |
+    /// | 1 | [`software_overcurrent`](Self::software_overcurrent) | Can't be masked. |
+    /// | 2 | [`i2_t`](Self::i2_t) |  |
+    /// | 3 | [`position_error`](Self::position_error) | Closed loop: out of the window Rdeadpos for Rposwrtime, with no speed asked for. Off by default. |
+    /// | 4 | [`following_error`](Self::following_error) | Open loop: encoder less motor steps beyond Rflwvrn. Closed loop: beyond Rflwmax for Rposwrtime … |
+    /// | 5 | [`digital_output_overload`](Self::digital_output_overload) | Can't be masked. |
+    /// | 6 | [`overtemperature`](Self::overtemperature) | Can't be masked. |
+    /// | 7 | [`overvoltage`](Self::overvoltage) | Can't be masked. |
+    /// | 8 | [`undervoltage`](Self::undervoltage) |  |
+    /// | 9 | [`current_limited_by_voltage`](Self::current_limited_by_voltage) |  |
+    /// | 10 | [`regulator_saturated`](Self::regulator_saturated) |  |
+    /// | 11 | [`current_limit_active`](Self::current_limit_active) |  |
+    /// | 12 | [`positioning_timeout`](Self::positioning_timeout) |  |
+    /// | 13 | reserved |  |
+    /// | 14 | reserved |  |
+    /// | 15 | reserved |  |
+    /// | 16 | reserved |  |
+    /// | 17 | reserved |  |
+    /// | 18 | [`sync_missing`](Self::sync_missing) | CANopen or EtherCAT. |
+    /// | 19 | [`sto_fault`](Self::sto_fault) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Warning32(u32);
     impl Warning32 {
@@ -16475,6 +20944,19 @@ pub mod types {
         }
     }
     /// LimitSwitches.
+    ///
+    /// Values of [`RHSLSI`](super::objects::RHSLSI), [`RLSI`](super::objects::RLSI).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | [`forward_limit_switch`](Self::forward_limit_switch) |
+    /// | 1 | [`backward_limit_switch`](Self::backward_limit_switch) |
+    /// | 2 | [`motor_encoder_index`](Self::motor_encoder_index) |
+    /// | 3 | [`motor_encoder_channel_a`](Self::motor_encoder_channel_a) |
+    /// | 4 | [`motor_encoder_channel_b`](Self::motor_encoder_channel_b) |
+    /// | 5 | [`external_encoder_index`](Self::external_encoder_index) |
+    /// | 6 | [`external_encoder_channel_a`](Self::external_encoder_channel_a) |
+    /// | 7 | [`external_encoder_channel_b`](Self::external_encoder_channel_b) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct LimitSwitches(u16);
     impl LimitSwitches {
@@ -16592,6 +21074,27 @@ pub mod types {
         }
     }
     /// DigitalInputs.
+    ///
+    /// Values of [`RHSINP`](super::objects::RHSINP), [`RINP`](super::objects::RINP), [`RENFINP`](super::objects::RENFINP), [`RMEMINP`](super::objects::RMEMINP).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | [`input_0`](Self::input_0) |
+    /// | 1 | [`input_1`](Self::input_1) |
+    /// | 2 | [`input_2`](Self::input_2) |
+    /// | 3 | [`input_3`](Self::input_3) |
+    /// | 4 | [`input_4`](Self::input_4) |
+    /// | 5 | [`input_5`](Self::input_5) |
+    /// | 6 | [`input_6`](Self::input_6) |
+    /// | 7 | [`input_7`](Self::input_7) |
+    /// | 8 | [`input_8`](Self::input_8) |
+    /// | 9 | [`input_9`](Self::input_9) |
+    /// | 10 | [`input_10`](Self::input_10) |
+    /// | 11 | [`input_11`](Self::input_11) |
+    /// | 12 | [`input_12`](Self::input_12) |
+    /// | 13 | [`input_13`](Self::input_13) |
+    /// | 14 | [`input_14`](Self::input_14) |
+    /// | 15 | [`input_15`](Self::input_15) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DigitalInputs(u16);
     impl DigitalInputs {
@@ -16789,6 +21292,19 @@ pub mod types {
         }
     }
     /// LimitSwitchPolarity.
+    ///
+    /// Values of [`RDEFLSI`](super::objects::RDEFLSI).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`forward_limit_switch`](Self::forward_limit_switch) | Values: [`LimitSwitchPolarityForwardLimitSwitch`]. |
+    /// | 1 | [`backward_limit_switch`](Self::backward_limit_switch) | Values: [`LimitSwitchPolarityBackwardLimitSwitch`]. |
+    /// | 2 | [`motor_encoder_index`](Self::motor_encoder_index) | Where HOME and ESTOP use this input, its rising edge counts always. Values: [`LimitSwitchPolarityMotorEncoderIndex`]. |
+    /// | 3 | [`motor_encoder_channel_a`](Self::motor_encoder_channel_a) | Values: [`LimitSwitchPolarityMotorEncoderChannelA`]. |
+    /// | 4 | [`motor_encoder_channel_b`](Self::motor_encoder_channel_b) | Values: [`LimitSwitchPolarityMotorEncoderChannelB`]. |
+    /// | 5 | [`external_encoder_index`](Self::external_encoder_index) | Values: [`LimitSwitchPolarityExternalEncoderIndex`]. |
+    /// | 6 | [`external_encoder_channel_a`](Self::external_encoder_channel_a) | Values: [`LimitSwitchPolarityExternalEncoderChannelA`]. |
+    /// | 7 | [`external_encoder_channel_b`](Self::external_encoder_channel_b) | Values: [`LimitSwitchPolarityExternalEncoderChannelB`]. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct LimitSwitchPolarity(u16);
     impl LimitSwitchPolarity {
@@ -16994,6 +21510,27 @@ pub mod types {
         }
     }
     /// DigitalInputPolarity.
+    ///
+    /// Values of [`RDEFINP`](super::objects::RDEFINP).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`input_0`](Self::input_0) | Values: [`DigitalInputPolarityInput0`]. |
+    /// | 1 | [`input_1`](Self::input_1) | Values: [`DigitalInputPolarityInput1`]. |
+    /// | 2 | [`input_2`](Self::input_2) | Values: [`DigitalInputPolarityInput2`]. |
+    /// | 3 | [`input_3`](Self::input_3) | Values: [`DigitalInputPolarityInput3`]. |
+    /// | 4 | [`input_4`](Self::input_4) | Values: [`DigitalInputPolarityInput4`]. |
+    /// | 5 | [`input_5`](Self::input_5) | Values: [`DigitalInputPolarityInput5`]. |
+    /// | 6 | [`input_6`](Self::input_6) | Values: [`DigitalInputPolarityInput6`]. |
+    /// | 7 | [`input_7`](Self::input_7) | Values: [`DigitalInputPolarityInput7`]. |
+    /// | 8 | [`input_8`](Self::input_8) | Values: [`DigitalInputPolarityInput8`]. |
+    /// | 9 | [`input_9`](Self::input_9) | Values: [`DigitalInputPolarityInput9`]. |
+    /// | 10 | [`input_10`](Self::input_10) | Values: [`DigitalInputPolarityInput10`]. |
+    /// | 11 | [`input_11`](Self::input_11) | Values: [`DigitalInputPolarityInput11`]. |
+    /// | 12 | [`input_12`](Self::input_12) | Values: [`DigitalInputPolarityInput12`]. |
+    /// | 13 | [`input_13`](Self::input_13) | Values: [`DigitalInputPolarityInput13`]. |
+    /// | 14 | [`input_14`](Self::input_14) | Values: [`DigitalInputPolarityInput14`]. |
+    /// | 15 | [`input_15`](Self::input_15) | Values: [`DigitalInputPolarityInput15`]. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DigitalInputPolarity(u16);
     impl DigitalInputPolarity {
@@ -17191,6 +21728,19 @@ pub mod types {
         }
     }
     /// DigitalOutputs.
+    ///
+    /// Values of [`ROUT`](super::objects::ROUT).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | [`output_0`](Self::output_0) |
+    /// | 1 | [`output_1`](Self::output_1) |
+    /// | 2 | [`output_2`](Self::output_2) |
+    /// | 3 | [`output_3`](Self::output_3) |
+    /// | 4 | [`output_4`](Self::output_4) |
+    /// | 5 | [`output_5`](Self::output_5) |
+    /// | 6 | [`output_6`](Self::output_6) |
+    /// | 7 | [`output_7`](Self::output_7) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DigitalOutputs(u16);
     impl DigitalOutputs {
@@ -17308,6 +21858,19 @@ pub mod types {
         }
     }
     /// DigitalOutputPolarity.
+    ///
+    /// Values of [`RDEFOUT`](super::objects::RDEFOUT).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`output_0`](Self::output_0) | Values: [`DigitalOutputPolarityOutput0`]. |
+    /// | 1 | [`output_1`](Self::output_1) | Values: [`DigitalOutputPolarityOutput1`]. |
+    /// | 2 | [`output_2`](Self::output_2) | Values: [`DigitalOutputPolarityOutput2`]. |
+    /// | 3 | [`output_3`](Self::output_3) | Values: [`DigitalOutputPolarityOutput3`]. |
+    /// | 4 | [`output_4`](Self::output_4) | Values: [`DigitalOutputPolarityOutput4`]. |
+    /// | 5 | [`output_5`](Self::output_5) | Values: [`DigitalOutputPolarityOutput5`]. |
+    /// | 6 | [`output_6`](Self::output_6) | Values: [`DigitalOutputPolarityOutput6`]. |
+    /// | 7 | [`output_7`](Self::output_7) | Values: [`DigitalOutputPolarityOutput7`]. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DigitalOutputPolarity(u16);
     impl DigitalOutputPolarity {
@@ -17425,6 +21988,20 @@ pub mod types {
         }
     }
     /// DigitalOutputEnable.
+    ///
+    /// Values of [`ROUTENABLE`](super::objects::ROUTENABLE).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`output_0`](Self::output_0) | Values: [`DigitalOutputEnableOutput0`]. |
+    /// | 1 | [`output_1`](Self::output_1) | Values: [`DigitalOutputEnableOutput1`]. |
+    /// | 2 | [`output_2`](Self::output_2) | Values: [`DigitalOutputEnableOutput2`]. |
+    /// | 3 | [`output_3`](Self::output_3) | Values: [`DigitalOutputEnableOutput3`]. |
+    /// | 4 | [`output_4`](Self::output_4) | Values: [`DigitalOutputEnableOutput4`]. |
+    /// | 5 | [`output_5`](Self::output_5) | Values: [`DigitalOutputEnableOutput5`]. |
+    /// | 6 | [`output_6`](Self::output_6) | Values: [`DigitalOutputEnableOutput6`]. |
+    /// | 7 | [`output_7`](Self::output_7) | Values: [`DigitalOutputEnableOutput7`]. |
+    /// | 8 | [`output_8`](Self::output_8) | Values: [`DigitalOutputEnableOutput8`]. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DigitalOutputEnable(u16);
     impl DigitalOutputEnable {
@@ -17552,6 +22129,14 @@ pub mod types {
         }
     }
     /// AnalogueInputDisable.
+    ///
+    /// Values of [`RANAINPDISABLE`](super::objects::RANAINPDISABLE).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | [`disable_input_0`](Self::disable_input_0) |
+    /// | 1 | [`disable_input_1`](Self::disable_input_1) |
+    /// | 2 | [`disable_input_2`](Self::disable_input_2) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct AnalogueInputDisable(u16);
     impl AnalogueInputDisable {
@@ -17619,6 +22204,14 @@ pub mod types {
         }
     }
     /// EncoderPeriods.
+    ///
+    /// Values of [`RENCNEWPERIOD`](super::objects::RENCNEWPERIOD).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | [`encoder_1_has_new_period`](Self::encoder_1_has_new_period) |
+    /// | 1 | [`encoder_2_has_new_period`](Self::encoder_2_has_new_period) |
+    /// | 2 | [`encoder_3_has_new_period`](Self::encoder_3_has_new_period) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct EncoderPeriods(u16);
     impl EncoderPeriods {
@@ -17686,6 +22279,13 @@ pub mod types {
         }
     }
     /// OldEncoderPeriods.
+    ///
+    /// Values of [`RNEWENCPER`](super::objects::RNEWENCPER).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | [`motor_encoder_has_new_period`](Self::motor_encoder_has_new_period) |
+    /// | 1 | [`external_encoder_has_new_period`](Self::external_encoder_has_new_period) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct OldEncoderPeriods(u16);
     impl OldEncoderPeriods {
@@ -17743,6 +22343,19 @@ pub mod types {
         }
     }
     /// AbsoluteEncoderMode.
+    ///
+    /// Values of [`RENCABSMODE`](super::objects::RENCABSMODE).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`complement`](Self::complement) | Values: [`AbsoluteEncoderModeComplement`]. |
+    /// | 1 | [`code`](Self::code) | Values: [`AbsoluteEncoderModeCode`]. |
+    /// | 2–3 | [`alignment`](Self::alignment) | Values: [`AbsoluteEncoderModeAlignment`]. |
+    /// | 4 | [`enable_reading`](Self::enable_reading) |  |
+    /// | 5 | [`check_presence_at_start`](Self::check_presence_at_start) |  |
+    /// | 6 | [`phase_without_moving`](Self::phase_without_moving) | The motor's phase is found without moving it. |
+    /// | 7 | [`hardware_preset`](Self::hardware_preset) | Which preset bit 7 of Rencabsctrl commands: 0 = by software, 1 = by hardware. |
+    /// | 8 | [`hardware_complement`](Self::hardware_complement) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct AbsoluteEncoderMode(u16);
     impl AbsoluteEncoderMode {
@@ -17863,6 +22476,19 @@ pub mod types {
         }
     }
     /// AbsoluteEncoderControl.
+    ///
+    /// Values of [`RENCABSCTRL`](super::objects::RENCABSCTRL).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`reset_phasing_valid`](Self::reset_phasing_valid) | 1 clears the flag in the EEPROM that says that the phasing is valid. |
+    /// | 1 | [`reset_zero_offset`](Self::reset_zero_offset) | 1 clears the offset of position 0 in the EEPROM. |
+    /// | 2 | reserved |  |
+    /// | 3 | reserved |  |
+    /// | 4 | reserved |  |
+    /// | 5 | reserved |  |
+    /// | 6 | reserved |  |
+    /// | 7 | [`preset`](Self::preset) | 1 presets the absolute encoder, by hardware or software as bit 7 of Rencabsmode says. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct AbsoluteEncoderControl(u16);
     impl AbsoluteEncoderControl {
@@ -17930,6 +22556,13 @@ pub mod types {
         }
     }
     /// VariableCommand.
+    ///
+    /// Values of [`RMEMVAR`](super::objects::RMEMVAR).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–7 | [`variable`](Self::variable) | 1 to 128. |
+    /// | 15 | [`action`](Self::action) | Values: [`VariableCommandAction`]. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct VariableCommand(u16);
     impl VariableCommand {
@@ -17987,6 +22620,27 @@ pub mod types {
         }
     }
     /// EepromStatus.
+    ///
+    /// Values of [`REEPSTS`](super::objects::REEPSTS).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | [`busy`](Self::busy) |
+    /// | 1 | [`invalid_command`](Self::invalid_command) |
+    /// | 2 | [`reading_registers_failed`](Self::reading_registers_failed) |
+    /// | 3 | [`writing_registers_failed`](Self::writing_registers_failed) |
+    /// | 4 | [`reading_variables_failed`](Self::reading_variables_failed) |
+    /// | 5 | [`writing_variables_failed`](Self::writing_variables_failed) |
+    /// | 6 | [`reading_program_failed`](Self::reading_program_failed) |
+    /// | 7 | [`writing_program_failed`](Self::writing_program_failed) |
+    /// | 8 | [`reading_password_failed`](Self::reading_password_failed) |
+    /// | 9 | [`writing_password_failed`](Self::writing_password_failed) |
+    /// | 10 | [`reading_task_failed`](Self::reading_task_failed) |
+    /// | 11 | [`writing_task_failed`](Self::writing_task_failed) |
+    /// | 12 | [`reading_alarm_buffer_failed`](Self::reading_alarm_buffer_failed) |
+    /// | 13 | [`writing_alarm_buffer_failed`](Self::writing_alarm_buffer_failed) |
+    /// | 14 | [`reading_current_sensor_offsets_failed`](Self::reading_current_sensor_offsets_failed) |
+    /// | 15 | [`writing_current_sensor_offsets_failed`](Self::writing_current_sensor_offsets_failed) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct EepromStatus(u16);
     impl EepromStatus {
@@ -18198,6 +22852,27 @@ pub mod types {
         }
     }
     /// EepromStatus32.
+    ///
+    /// Values of [`REEPSTS32`](super::objects::REEPSTS32).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | [`busy`](Self::busy) |
+    /// | 1 | [`invalid_command`](Self::invalid_command) |
+    /// | 2 | [`reading_registers_failed`](Self::reading_registers_failed) |
+    /// | 3 | [`writing_registers_failed`](Self::writing_registers_failed) |
+    /// | 4 | [`reading_variables_failed`](Self::reading_variables_failed) |
+    /// | 5 | [`writing_variables_failed`](Self::writing_variables_failed) |
+    /// | 6 | [`reading_program_failed`](Self::reading_program_failed) |
+    /// | 7 | [`writing_program_failed`](Self::writing_program_failed) |
+    /// | 8 | [`reading_password_failed`](Self::reading_password_failed) |
+    /// | 9 | [`writing_password_failed`](Self::writing_password_failed) |
+    /// | 10 | [`reading_task_failed`](Self::reading_task_failed) |
+    /// | 11 | [`writing_task_failed`](Self::writing_task_failed) |
+    /// | 12 | [`reading_alarm_buffer_failed`](Self::reading_alarm_buffer_failed) |
+    /// | 13 | [`writing_alarm_buffer_failed`](Self::writing_alarm_buffer_failed) |
+    /// | 14 | [`reading_current_sensor_offsets_failed`](Self::reading_current_sensor_offsets_failed) |
+    /// | 15 | [`writing_current_sensor_offsets_failed`](Self::writing_current_sensor_offsets_failed) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct EepromStatus32(u32);
     impl EepromStatus32 {
@@ -18409,6 +23084,17 @@ pub mod types {
         }
     }
     /// EnableMask.
+    ///
+    /// Values of [`RENMASK`](super::objects::RENMASK).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`configuration_set`](Self::configuration_set) | Rconfig has been set. |
+    /// | 1 | reserved |  |
+    /// | 2 | reserved |  |
+    /// | 3 | reserved |  |
+    /// | 4 | reserved |  |
+    /// | 15 | [`mask_error`](Self::mask_error) | The check of the mask failed. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct EnableMask(u16);
     impl EnableMask {
@@ -18466,6 +23152,12 @@ pub mod types {
         }
     }
     /// HardwareOptions.
+    ///
+    /// Values of [`RHWOPTIONS`](super::objects::RHWOPTIONS).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`sto_present`](Self::sto_present) | Safe torque off is fitted. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct HardwareOptions(u16);
     impl HardwareOptions {
@@ -18513,6 +23205,15 @@ pub mod types {
         }
     }
     /// ModelDefinition.
+    ///
+    /// Values of [`RINDMODEL`](super::objects::RINDMODEL).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–2 | [`voltage`](Self::voltage) | Values: [`ModelDefinitionVoltage`]. |
+    /// | 3–5 | [`application`](Self::application) | The manual calls the third one etichettatrice. Values: [`ModelDefinitionApplication`]. |
+    /// | 6–8 | [`platform`](Self::platform) | Values: [`ModelDefinitionPlatform`]. |
+    /// | 9–11 | [`communication_chip`](Self::communication_chip) | Values: [`ModelDefinitionCommunicationChip`]. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ModelDefinition(u16);
     impl ModelDefinition {
@@ -18603,6 +23304,12 @@ pub mod types {
         }
     }
     /// DriveOptions.
+    ///
+    /// Values of [`RINDOPTIONS`](super::objects::RINDOPTIONS).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–2 | [`absolute_encoder`](Self::absolute_encoder) | Values: [`DriveOptionsAbsoluteEncoder`]. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct DriveOptions(u16);
     impl DriveOptions {
@@ -18658,6 +23365,13 @@ pub mod types {
         }
     }
     /// CanopenStatus.
+    ///
+    /// Values of [`RCANSTS`](super::objects::RCANSTS).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–3 | [`red_led`](Self::red_led) | Values: [`CanopenStatusRedLed`]. |
+    /// | 4–7 | [`green_led`](Self::green_led) | Values: [`CanopenStatusGreenLed`]. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct CanopenStatus(u16);
     impl CanopenStatus {
@@ -18715,6 +23429,13 @@ pub mod types {
         }
     }
     /// Ds402Compatibility.
+    ///
+    /// Values of [`RDS402COMPATIBILITY`](super::objects::RDS402COMPATIBILITY).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`current_off_on_controlword_xxx7`](Self::current_off_on_controlword_xxx7) | For Omron motion blocks. |
+    /// | 1 | [`csp_and_csv_on_controlword_xxx_f`](Self::csp_and_csv_on_controlword_xxx_f) | For Omron motion blocks: cyclic position and speed are active with this controlword. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Ds402Compatibility(u16);
     impl Ds402Compatibility {
@@ -18776,6 +23497,18 @@ pub mod types {
         }
     }
     /// ModuloCommand.
+    ///
+    /// Values of [`RMODULCMD`](super::objects::RMODULCMD).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`always_forward`](Self::always_forward) | Every target is reached turning forward, over the roll-over where necessary. |
+    /// | 1 | [`always_backward`](Self::always_backward) | Every target is reached turning backward, over the roll-over where necessary. |
+    /// | 2 | [`shortest_way`](Self::shortest_way) | The drive chooses the shorter direction before each movement. |
+    /// | 3 | [`encoder_1_wraps`](Self::encoder_1_wraps) |  |
+    /// | 4 | [`encoder_2_wraps`](Self::encoder_2_wraps) |  |
+    /// | 5 | [`encoder_3_wraps`](Self::encoder_3_wraps) |  |
+    /// | 6 | [`absolute_encoder_wraps`](Self::absolute_encoder_wraps) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ModuloCommand(u16);
     impl ModuloCommand {
@@ -18883,6 +23616,16 @@ pub mod types {
         }
     }
     /// LineUpCommand.
+    ///
+    /// Values of [`RLINEUPCMD`](super::objects::RLINEUPCMD).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`positioner`](Self::positioner) | Rposactreq takes the value of Rlineuppos. The device clears it by itself. |
+    /// | 1 | [`encoder_1`](Self::encoder_1) | Rmotenc takes the value of Rlineupmotenc. The device clears it by itself. |
+    /// | 2 | [`encoder_2`](Self::encoder_2) | Rextenc takes the value of Rlineupextenc. The device clears it by itself. |
+    /// | 3 | [`encoder_3`](Self::encoder_3) | The device clears it by itself. |
+    /// | 4 | [`absolute_encoder`](Self::absolute_encoder) | The device clears it by itself. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct LineUpCommand(u16);
     impl LineUpCommand {
@@ -18970,6 +23713,14 @@ pub mod types {
         }
     }
     /// LineUpDefinition.
+    ///
+    /// Values of [`RLINEUPDEF`](super::objects::RLINEUPDEF).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | [`axis_position`](Self::axis_position) |
+    /// | 1 | [`motor_encoder`](Self::motor_encoder) |
+    /// | 2 | [`external_encoder`](Self::external_encoder) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct LineUpDefinition(u16);
     impl LineUpDefinition {
@@ -19037,6 +23788,23 @@ pub mod types {
         }
     }
     /// TouchProbeControl.
+    ///
+    /// Values of [`RTOUCHPROBEFUNC`](super::objects::RTOUCHPROBEFUNC), [`RTOUCHPROBEFUNC_V6`](super::objects::RTOUCHPROBEFUNC_V6).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`probe_1_enable`](Self::probe_1_enable) | Values: [`TouchProbeControlProbe1Enable`]. |
+    /// | 1 | [`probe_1_continuous`](Self::probe_1_continuous) | Values: [`TouchProbeControlProbe1Continuous`]. |
+    /// | 2–3 | [`probe_1_trigger`](Self::probe_1_trigger) | Locked once bit 4 is set. Values: [`TouchProbeControlProbe1Trigger`]. |
+    /// | 4 | [`probe_1_positive_edge`](Self::probe_1_positive_edge) | Values: [`TouchProbeControlProbe1PositiveEdge`]. |
+    /// | 5 | [`probe_1_negative_edge`](Self::probe_1_negative_edge) | Values: [`TouchProbeControlProbe1NegativeEdge`]. |
+    /// | 6–7 | [`probe_1_position`](Self::probe_1_position) | Values: [`TouchProbeControlProbe1Position`]. |
+    /// | 8 | [`probe_2_enable`](Self::probe_2_enable) | Values: [`TouchProbeControlProbe2Enable`]. |
+    /// | 9 | [`probe_2_continuous`](Self::probe_2_continuous) | Values: [`TouchProbeControlProbe2Continuous`]. |
+    /// | 10–11 | [`probe_2_trigger`](Self::probe_2_trigger) | Locked once bit 12 is set. Values: [`TouchProbeControlProbe2Trigger`]. |
+    /// | 12 | [`probe_2_positive_edge`](Self::probe_2_positive_edge) | Values: [`TouchProbeControlProbe2PositiveEdge`]. |
+    /// | 13 | [`probe_2_negative_edge`](Self::probe_2_negative_edge) | Values: [`TouchProbeControlProbe2NegativeEdge`]. |
+    /// | 14–15 | [`probe_2_position`](Self::probe_2_position) | Values: [`TouchProbeControlProbe2Position`]. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct TouchProbeControl(u16);
     impl TouchProbeControl {
@@ -19290,6 +24058,27 @@ pub mod types {
         }
     }
     /// TouchProbeStatusBeforeV6.
+    ///
+    /// Values of [`RTOUCHPROBESTATUS`](super::objects::RTOUCHPROBESTATUS).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`probe_1_enabled`](Self::probe_1_enabled) | Values: [`TouchProbeStatusBeforeV6Probe1Enabled`]. |
+    /// | 1 | [`probe_1_value_stored`](Self::probe_1_value_stored) | Values: [`TouchProbeStatusBeforeV6Probe1ValueStored`]. |
+    /// | 2 | reserved |  |
+    /// | 3 | reserved |  |
+    /// | 4 | reserved |  |
+    /// | 5 | reserved |  |
+    /// | 6 | reserved |  |
+    /// | 7 | [`probe_1_update`](Self::probe_1_update) | Changes with each value stored while the probe works continuously. Each change of the bit counts. |
+    /// | 8 | [`probe_2_enabled`](Self::probe_2_enabled) | Values: [`TouchProbeStatusBeforeV6Probe2Enabled`]. |
+    /// | 9 | [`probe_2_value_stored`](Self::probe_2_value_stored) | Values: [`TouchProbeStatusBeforeV6Probe2ValueStored`]. |
+    /// | 10 | reserved |  |
+    /// | 11 | reserved |  |
+    /// | 12 | reserved |  |
+    /// | 13 | reserved |  |
+    /// | 14 | reserved |  |
+    /// | 15 | [`probe_2_update`](Self::probe_2_update) | Changes with each value stored while the probe works continuously. Each change of the bit counts. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct TouchProbeStatusBeforeV6(u16);
     impl TouchProbeStatusBeforeV6 {
@@ -19427,6 +24216,27 @@ pub mod types {
         }
     }
     /// TouchProbeStatusV6.
+    ///
+    /// Values of [`RTOUCHPROBESTATUS_V6`](super::objects::RTOUCHPROBESTATUS_V6).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`probe_1_enabled`](Self::probe_1_enabled) | Values: [`TouchProbeStatusV6Probe1Enabled`]. |
+    /// | 1 | [`probe_1_positive_edge_stored`](Self::probe_1_positive_edge_stored) | Values: [`TouchProbeStatusV6Probe1PositiveEdgeStored`]. |
+    /// | 2 | [`probe_1_negative_edge_stored`](Self::probe_1_negative_edge_stored) | Values: [`TouchProbeStatusV6Probe1NegativeEdgeStored`]. |
+    /// | 3 | reserved |  |
+    /// | 4 | reserved |  |
+    /// | 5 | reserved |  |
+    /// | 6 | reserved |  |
+    /// | 7 | [`probe_1_update`](Self::probe_1_update) | Changes with each value stored while the probe works continuously. Each change of the bit counts. |
+    /// | 8 | [`probe_2_enabled`](Self::probe_2_enabled) | Values: [`TouchProbeStatusV6Probe2Enabled`]. |
+    /// | 9 | [`probe_2_positive_edge_stored`](Self::probe_2_positive_edge_stored) | Values: [`TouchProbeStatusV6Probe2PositiveEdgeStored`]. |
+    /// | 10 | [`probe_2_negative_edge_stored`](Self::probe_2_negative_edge_stored) | Values: [`TouchProbeStatusV6Probe2NegativeEdgeStored`]. |
+    /// | 11 | reserved |  |
+    /// | 12 | reserved |  |
+    /// | 13 | reserved |  |
+    /// | 14 | reserved |  |
+    /// | 15 | [`probe_2_update`](Self::probe_2_update) | Changes with each value stored while the probe works continuously. Each change of the bit counts. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct TouchProbeStatusV6(u16);
     impl TouchProbeStatusV6 {
@@ -19608,6 +24418,27 @@ pub mod types {
         }
     }
     /// CamControl.
+    ///
+    /// Values of [`RCAMFLGWR`](super::objects::RCAMFLGWR).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`reset`](Self::reset) |  |
+    /// | 1 | [`single_turn`](Self::single_turn) | The cam runs one turn and then stays at its highest value. |
+    /// | 2 | reserved |  |
+    /// | 3 | reserved |  |
+    /// | 4 | reserved |  |
+    /// | 5 | reserved |  |
+    /// | 6 | reserved |  |
+    /// | 7 | reserved |  |
+    /// | 8 | reserved |  |
+    /// | 9 | reserved |  |
+    /// | 10 | reserved |  |
+    /// | 11 | reserved |  |
+    /// | 12 | reserved |  |
+    /// | 13 | reserved |  |
+    /// | 14 | reserved |  |
+    /// | 15 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct CamControl(u16);
     impl CamControl {
@@ -19665,6 +24496,27 @@ pub mod types {
         }
     }
     /// CamStatus.
+    ///
+    /// Values of [`RCAMFLGRD`](super::objects::RCAMFLGRD).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | [`reset_done`](Self::reset_done) |
+    /// | 1 | [`moving`](Self::moving) |
+    /// | 2 | [`accelerating`](Self::accelerating) |
+    /// | 3 | [`constant_speed`](Self::constant_speed) |
+    /// | 4 | [`decelerating`](Self::decelerating) |
+    /// | 5 | reserved |
+    /// | 6 | reserved |
+    /// | 7 | reserved |
+    /// | 8 | reserved |
+    /// | 9 | reserved |
+    /// | 10 | reserved |
+    /// | 11 | reserved |
+    /// | 12 | reserved |
+    /// | 13 | reserved |
+    /// | 14 | reserved |
+    /// | 15 | reserved |
     #[derive(Clone, Copy, PartialEq)]
     pub struct CamStatus(u16);
     impl CamStatus {
@@ -19752,6 +24604,19 @@ pub mod types {
         }
     }
     /// CamStartStopControl.
+    ///
+    /// Values of [`RCAMSTSPCTRL`](super::objects::RCAMSTSPCTRL).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`run`](Self::run) | Values: [`CamStartStopControlRun`]. |
+    /// | 1 | [`disable_start_delay`](Self::disable_start_delay) |  |
+    /// | 2 | [`disable_stop_delay`](Self::disable_stop_delay) |  |
+    /// | 3 | [`simulated_encoder`](Self::simulated_encoder) |  |
+    /// | 4 | reserved |  |
+    /// | 5 | reserved |  |
+    /// | 6 | reserved |  |
+    /// | 7 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct CamStartStopControl(u16);
     impl CamStartStopControl {
@@ -19829,6 +24694,19 @@ pub mod types {
         }
     }
     /// CamStartStopStatus.
+    ///
+    /// Values of [`RCAMSTSPSTATUS`](super::objects::RCAMSTSPSTATUS).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0 | [`enabled`](Self::enabled) |
+    /// | 1 | [`running`](Self::running) |
+    /// | 2 | [`accelerating`](Self::accelerating) |
+    /// | 3 | [`constant_speed`](Self::constant_speed) |
+    /// | 4 | [`decelerating`](Self::decelerating) |
+    /// | 5 | reserved |
+    /// | 6 | reserved |
+    /// | 7 | reserved |
     #[derive(Clone, Copy, PartialEq)]
     pub struct CamStartStopStatus(u16);
     impl CamStartStopStatus {
@@ -19916,6 +24794,17 @@ pub mod types {
         }
     }
     /// WindingControl.
+    ///
+    /// Values of [`RWINDCTRL`](super::objects::RWINDCTRL).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`enable_winding_cam`](Self::enable_winding_cam) |  |
+    /// | 1 | [`enable_stop_sequence`](Self::enable_stop_sequence) |  |
+    /// | 2 | [`enable_tying_sequence`](Self::enable_tying_sequence) |  |
+    /// | 3 | [`disable_encoder_reading`](Self::disable_encoder_reading) |  |
+    /// | 4 | [`reset_error`](Self::reset_error) |  |
+    /// | 5 | [`start_direction`](Self::start_direction) | Direction in which laying begins; which value is which isn't said. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct WindingControl(u16);
     impl WindingControl {
@@ -20013,6 +24902,27 @@ pub mod types {
         }
     }
     /// WindingStatus.
+    ///
+    /// Values of [`RWINDSTATUS`](super::objects::RWINDSTATUS).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`winding_cam_enabled`](Self::winding_cam_enabled) |  |
+    /// | 1 | [`stop_sequence_requested`](Self::stop_sequence_requested) |  |
+    /// | 2 | [`tying_sequence_requested`](Self::tying_sequence_requested) |  |
+    /// | 3 | [`encoder_disabled`](Self::encoder_disabled) |  |
+    /// | 4 | [`motor_direction`](Self::motor_direction) | Direction of the stepper motor in the cam; used to count the passes. |
+    /// | 5 | [`sequence_finished`](Self::sequence_finished) |  |
+    /// | 6 | [`error`](Self::error) |  |
+    /// | 7 | [`tying_sequence_done`](Self::tying_sequence_done) |  |
+    /// | 8 | reserved |  |
+    /// | 9 | reserved |  |
+    /// | 10 | reserved |  |
+    /// | 11 | reserved |  |
+    /// | 12 | reserved |  |
+    /// | 13 | [`accelerating`](Self::accelerating) |  |
+    /// | 14 | [`constant_speed`](Self::constant_speed) |  |
+    /// | 15 | [`decelerating`](Self::decelerating) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct WindingStatus(u16);
     impl WindingStatus {
@@ -20160,6 +25070,17 @@ pub mod types {
         }
     }
     /// UserPidControl.
+    ///
+    /// Values of [`RUSRPIDFLAG`](super::objects::RUSRPIDFLAG).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`run`](Self::run) | Values: [`UserPidControlRun`]. |
+    /// | 1 | [`reset`](Self::reset) |  |
+    /// | 2 | reserved |  |
+    /// | 3 | reserved |  |
+    /// | 4 | reserved |  |
+    /// | 5 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct UserPidControl(u16);
     impl UserPidControl {
@@ -20217,6 +25138,20 @@ pub mod types {
         }
     }
     /// ProgramStatus.
+    ///
+    /// Values of [`RSTSPRG`](super::objects::RSTSPRG).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`running`](Self::running) |  |
+    /// | 1 | [`valid`](Self::valid) | Values: [`ProgramStatusValid`]. |
+    /// | 2 | reserved |  |
+    /// | 3 | reserved |  |
+    /// | 4 | reserved |  |
+    /// | 5 | reserved |  |
+    /// | 6 | reserved |  |
+    /// | 7 | reserved |  |
+    /// | 8 | reserved |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ProgramStatus(u16);
     impl ProgramStatus {
@@ -20274,6 +25209,16 @@ pub mod types {
         }
     }
     /// ProgramConditionCodes.
+    ///
+    /// Values of [`RPRGCCFLAG`](super::objects::RPRGCCFLAG).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`carry`](Self::carry) |  |
+    /// | 1 | [`overflow`](Self::overflow) |  |
+    /// | 2 | [`zero`](Self::zero) |  |
+    /// | 3 | [`negative`](Self::negative) |  |
+    /// | 4 | [`interrupts_masked`](Self::interrupts_masked) | While it is 1, the instructions ONH and ONL are masked. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ProgramConditionCodes(u16);
     impl ProgramConditionCodes {
@@ -20361,6 +25306,13 @@ pub mod types {
         }
     }
     /// ErrorFieldEntry.
+    ///
+    /// Values of [`pre_defined_error_field::STANDARD_ERROR_FIELD_1`](super::objects::pre_defined_error_field::STANDARD_ERROR_FIELD_1), [`pre_defined_error_field::STANDARD_ERROR_FIELD_2`](super::objects::pre_defined_error_field::STANDARD_ERROR_FIELD_2).
+    ///
+    /// | Bits | Name |
+    /// |---|---|
+    /// | 0–15 | [`error_code`](Self::error_code) |
+    /// | 16–31 | [`additional_information`](Self::additional_information) |
     #[derive(Clone, Copy, PartialEq)]
     pub struct ErrorFieldEntry(u32);
     impl ErrorFieldEntry {
@@ -20428,6 +25380,15 @@ pub mod types {
         }
     }
     /// SdoIdentifier.
+    ///
+    /// Values of [`sdo1_parameter::COB_ID_CLIENT_TO_SERVER`](super::objects::sdo1_parameter::COB_ID_CLIENT_TO_SERVER), [`sdo1_parameter::COB_ID_SERVER_TO_CLIENT`](super::objects::sdo1_parameter::COB_ID_SERVER_TO_CLIENT).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0–28 | [`identifier`](Self::identifier) |  |
+    /// | 29 | [`extended`](Self::extended) | The identifier has 29 bits. |
+    /// | 30 | [`dynamic`](Self::dynamic) | It was assigned at run time. |
+    /// | 31 | [`valid`](Self::valid) | 0 where it is in use. Holds while the bit is 0. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct SdoIdentifier(u32);
     impl SdoIdentifier {
@@ -20509,7 +25470,22 @@ pub mod types {
             bits.finish()
         }
     }
-    /// States of drive, as Statusword tells them.
+    /// States of drive, as [Statusword](super::objects::STATUSWORD) tells them.
+    ///
+    /// The mandatory states of the drive profile's state machine. Switch on and disable operation have the same value: the state decides. A fault is reset by the change of bit 7 from 0 to 1.
+    ///
+    /// Manual, line 1304-1312, 1346-1356, 2075-2108.
+    ///
+    /// | State | Mask | Value |
+    /// |---|---|---|
+    /// | [`NotReadyToSwitchOn`](Self::NotReadyToSwitchOn) | 0x4F | 0 |
+    /// | [`SwitchOnDisabled`](Self::SwitchOnDisabled) | 0x4F | 0x40 |
+    /// | [`ReadyToSwitchOn`](Self::ReadyToSwitchOn) | 0x6F | 0x21 |
+    /// | [`SwitchedOn`](Self::SwitchedOn) | 0x6F | 0x23 |
+    /// | [`OperationEnabled`](Self::OperationEnabled) | 0x6F | 0x27 |
+    /// | [`Fault`](Self::Fault) | 0x4F | 0x8 |
+    /// | [`FaultReactionActive`](Self::FaultReactionActive) | 0x4F | 0xF |
+    /// | [`QuickStopActive`](Self::QuickStopActive) | 0x6F | 0x7 |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum State {
         /// not ready to switch on: 0 of the bits 0x4F.
@@ -20648,26 +25624,42 @@ pub mod types {
             rt::Step::toward(Self::TRANSITIONS, self as u8, target as u8)
         }
     }
-    /// Commands of drive, as Controlword takes them.
+    /// Commands of drive, as [Controlword](super::objects::CONTROLWORD) takes them.
+    ///
+    /// The mandatory states of the drive profile's state machine. Switch on and disable operation have the same value: the state decides. A fault is reset by the change of bit 7 from 0 to 1.
+    ///
+    /// Manual, line 1304-1312, 1346-1356, 2075-2108.
+    ///
+    /// | Command | Mask | Value | Meaning |
+    /// |---|---|---|---|
+    /// | [`Shutdown`](Self::Shutdown) | 0x87 | 0x6 |  |
+    /// | [`SwitchOn`](Self::SwitchOn) | 0x87 | 0x7 |  |
+    /// | [`DisableVoltage`](Self::DisableVoltage) | 0x82 | 0 |  |
+    /// | [`QuickStop`](Self::QuickStop) | 0x86 | 0x2 |  |
+    /// | [`DisableOperation`](Self::DisableOperation) | 0x8F | 0x7 |  |
+    /// | [`EnableOperation`](Self::EnableOperation) | 0x8F | 0xF |  |
+    /// | [`FaultReset`](Self::FaultReset) | 0x80 | 0x80 | Acts on the change of bit 7 from 0 to 1. |
     ///
     /// Transitions:
     ///
-    /// - 1: not\_ready\_to\_switch\_on to switch\_on\_disabled, by itself. The device does it by itself after its start.
-    /// - 2: switch\_on\_disabled to ready\_to\_switch\_on, on shutdown
-    /// - 3: ready\_to\_switch\_on to switched\_on, on switch\_on
-    /// - 4: switched\_on to operation\_enabled, on enable\_operation
-    /// - 5: operation\_enabled to switched\_on, on disable\_operation. As the disable operation option code says.
-    /// - 6: switched\_on to ready\_to\_switch\_on, on shutdown
-    /// - 7: ready\_to\_switch\_on to switch\_on\_disabled, on disable\_voltage
-    /// - 8: operation\_enabled to ready\_to\_switch\_on, on shutdown. As the shutdown option code says.
-    /// - 9: operation\_enabled to switch\_on\_disabled, on disable\_voltage
-    /// - 10: switched\_on to switch\_on\_disabled, on disable\_voltage
-    /// - 11: operation\_enabled to quick\_stop\_active, on quick\_stop. As the quick stop option code says.
-    /// - 12: quick\_stop\_active to switch\_on\_disabled, on disable\_voltage. The device does it by itself with quick stop option codes 1 and 2.
-    /// - 13: any state to fault\_reaction\_active, by itself. On a fault, from any state.
-    /// - 14: fault\_reaction\_active to fault, by itself. The device does it by itself when its reaction to the fault is done.
-    /// - 15: fault to switch\_on\_disabled, on fault\_reset
-    /// - 16: quick\_stop\_active to operation\_enabled, on enable\_operation
+    /// | No. | From | To | By | Meaning |
+    /// |---|---|---|---|---|
+    /// | 1 | [`NotReadyToSwitchOn`](State::NotReadyToSwitchOn) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | itself | The device does it by itself after its start. |
+    /// | 2 | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`Shutdown`](DriveCommand::Shutdown) |  |
+    /// | 3 | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`SwitchedOn`](State::SwitchedOn) | [`SwitchOn`](DriveCommand::SwitchOn) |  |
+    /// | 4 | [`SwitchedOn`](State::SwitchedOn) | [`OperationEnabled`](State::OperationEnabled) | [`EnableOperation`](DriveCommand::EnableOperation) |  |
+    /// | 5 | [`OperationEnabled`](State::OperationEnabled) | [`SwitchedOn`](State::SwitchedOn) | [`DisableOperation`](DriveCommand::DisableOperation) | As the disable operation option code says. |
+    /// | 6 | [`SwitchedOn`](State::SwitchedOn) | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`Shutdown`](DriveCommand::Shutdown) |  |
+    /// | 7 | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](DriveCommand::DisableVoltage) |  |
+    /// | 8 | [`OperationEnabled`](State::OperationEnabled) | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`Shutdown`](DriveCommand::Shutdown) | As the shutdown option code says. |
+    /// | 9 | [`OperationEnabled`](State::OperationEnabled) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](DriveCommand::DisableVoltage) |  |
+    /// | 10 | [`SwitchedOn`](State::SwitchedOn) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](DriveCommand::DisableVoltage) |  |
+    /// | 11 | [`OperationEnabled`](State::OperationEnabled) | [`QuickStopActive`](State::QuickStopActive) | [`QuickStop`](DriveCommand::QuickStop) | As the quick stop option code says. |
+    /// | 12 | [`QuickStopActive`](State::QuickStopActive) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](DriveCommand::DisableVoltage) | The device does it by itself with quick stop option codes 1 and 2. |
+    /// | 13 | any state | [`FaultReactionActive`](State::FaultReactionActive) | itself | On a fault, from any state. |
+    /// | 14 | [`FaultReactionActive`](State::FaultReactionActive) | [`Fault`](State::Fault) | itself | The device does it by itself when its reaction to the fault is done. |
+    /// | 15 | [`Fault`](State::Fault) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`FaultReset`](DriveCommand::FaultReset) |  |
+    /// | 16 | [`QuickStopActive`](State::QuickStopActive) | [`OperationEnabled`](State::OperationEnabled) | [`EnableOperation`](DriveCommand::EnableOperation) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DriveCommand {
         /// shutdown: 0x6 of the bits 0x87.
@@ -20729,6 +25721,8 @@ pub mod codes {
     /// Manual, line 680-701.
     ///
     /// Further columns: axis, vendor data.
+    ///
+    /// As a type: [`Emergency`].
     pub static EMERGENCY: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             0,
@@ -20877,6 +25871,28 @@ pub mod codes {
         ),
     ];
     /// A code of [`EMERGENCY`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`GenericError`](Self::GenericError) |  |
+    /// | 0x5400 | [`PowerStageError`](Self::PowerStageError) | The power stage of the drive has an error. |
+    /// | 0x8110 | [`CanOverrun`](Self::CanOverrun) | A message was lost. |
+    /// | 0x8120 | [`CanErrorPassive`](Self::CanErrorPassive) | The CAN controller is in the error passive state, disabled in the manual's words. |
+    /// | 0x8130 | [`ErrorControlEvent`](Self::ErrorControlEvent) | An error in the check of a message, by the manual's words; taken as guarding or heartbeat that … |
+    /// | 0x8140 | [`RecoveredFromBusOff`](Self::RecoveredFromBusOff) |  |
+    /// | 0x8150 | [`CobIdCollision`](Self::CobIdCollision) |  |
+    /// | 0x8210 | [`PdoLongerThanMapped`](Self::PdoLongerThanMapped) |  |
+    /// | 0x8220 | [`PdoShorterThanMapped`](Self::PdoShorterThanMapped) |  |
+    /// | 0xFF01 | [`NvramError`](Self::NvramError) | Reading or writing the non-volatile memory failed; the vendor data hold the error code of Reepsts. |
+    /// | 0xFF02 | [`HomingErrorAxis1`](Self::HomingErrorAxis1) | The homing command failed; on drives with one axis this is their axis. |
+    /// | 0xFF06 | [`HomingErrorAxis2`](Self::HomingErrorAxis2) | The homing command of axis 2 failed, if the drive has it. |
+    /// | 0xFF07 | [`HomingErrorAxis3`](Self::HomingErrorAxis3) | The homing command of axis 3 failed, if the drive has it. |
+    /// | 0xFF03 | [`InterpolationDataMissing`](Self::InterpolationDataMissing) | Interpolated mode ran out of data. |
+    /// | 0xFF04 | [`InterpolationSyncTooEarly`](Self::InterpolationSyncTooEarly) |  |
+    /// | 0xFF05 | [`InterpolationSyncTooLate`](Self::InterpolationSyncTooLate) |  |
+    /// | 0xFF13 | [`PowerStageErrorAxis1`](Self::PowerStageErrorAxis1) | Sent beside 0x5400 for the axis whose power stage has an error. |
+    /// | 0xFF14 | [`PowerStageErrorAxis2`](Self::PowerStageErrorAxis2) | Sent beside 0x5400 for the axis whose power stage has an error. |
+    /// | 0xFF15 | [`PowerStageErrorAxis3`](Self::PowerStageErrorAxis3) | Sent beside 0x5400 for the axis whose power stage has an error. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Emergency {
         /// 0: generic error. Manual, line 683.
@@ -20977,6 +25993,8 @@ pub mod codes {
     /// sdo\_abort.
     ///
     /// Further columns: objects.
+    ///
+    /// As a type: [`SdoAbort`].
     pub static SDO_ABORT: &[rt::codes::Code] = &[
         rt::codes::Code::new(
             0x6090030,
@@ -21015,6 +26033,14 @@ pub mod codes {
         ),
     ];
     /// A code of [`SDO_ABORT`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0x6090030 | [`ValueRangeExceeded`](Self::ValueRangeExceeded) | Bits 29 and 30 of the COB-ID of SYNC or EMCY can't be changed. |
+    /// | 0x6040043 | [`GeneralParameterIncompatibility`](Self::GeneralParameterIncompatibility) | Another consumer heartbeat time other than 0 exists for the same node. |
+    /// | 0x6020000 | [`ObjectDoesNotExist`](Self::ObjectDoesNotExist) | The mapped object doesn't exist, or the mapping is longer than 64 bits. |
+    /// | 0x6040041 | [`ObjectCannotBeMapped`](Self::ObjectCannotBeMapped) | The mapped object doesn't exist, or the mapping is longer than 64 bits. |
+    /// | 0x6040042 | [`MappingExceedsPdoLength`](Self::MappingExceedsPdoLength) | The mapping is longer than 64 bits. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum SdoAbort {
         /// 0x6090030: value range exceeded. Bits 29 and 30 of the COB-ID of SYNC or EMCY can't be changed. Manual, line 727, 815.
@@ -21057,6 +26083,8 @@ pub mod codes {
         }
     }
     /// drive errors.
+    ///
+    /// As a type: [`DriveErrors`].
     pub static DRIVE_ERRORS: &[rt::codes::Code] = &[
         rt::codes::Code::new(0x2310, 0x2310, "continuous over-current", "", &[]),
         rt::codes::Code::new(0x2320, 0x2320, "short circuit or earth leakage", "", &[]),
@@ -21093,6 +26121,42 @@ pub mod codes {
         rt::codes::Code::new(0xF004, 0xF004, "control", "", &[]),
     ];
     /// A code of [`DRIVE_ERRORS`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0x2310 | [`ContinuousOverCurrent`](Self::ContinuousOverCurrent) |  |
+    /// | 0x2320 | [`ShortCircuitOrEarthLeakage`](Self::ShortCircuitOrEarthLeakage) |  |
+    /// | 0x2330 | [`EarthLeakage`](Self::EarthLeakage) |  |
+    /// | 0x3110 | [`MainsOverVoltage`](Self::MainsOverVoltage) |  |
+    /// | 0x3120 | [`MainsUnderVoltage`](Self::MainsUnderVoltage) |  |
+    /// | 0x3130 | [`PhaseFailure`](Self::PhaseFailure) |  |
+    /// | 0x3210 | [`DcLinkOverVoltage`](Self::DcLinkOverVoltage) |  |
+    /// | 0x3220 | [`DcLinkUnderVoltage`](Self::DcLinkUnderVoltage) |  |
+    /// | 0x4110 | [`AmbientTemperatureTooHigh`](Self::AmbientTemperatureTooHigh) |  |
+    /// | 0x4210 | [`DeviceTemperatureTooHigh`](Self::DeviceTemperatureTooHigh) |  |
+    /// | 0x4310 | [`DriveTemperatureTooHigh`](Self::DriveTemperatureTooHigh) |  |
+    /// | 0x5530 | [`NonVolatileMemory`](Self::NonVolatileMemory) |  |
+    /// | 0x6010 | [`SoftwareResetByTheWatchdog`](Self::SoftwareResetByTheWatchdog) |  |
+    /// | 0x6310 | [`LossOfParameters`](Self::LossOfParameters) |  |
+    /// | 0x6320 | [`ParameterError`](Self::ParameterError) |  |
+    /// | 0x7110 | [`BrakeChopper`](Self::BrakeChopper) |  |
+    /// | 0x7121 | [`MotorBlocked`](Self::MotorBlocked) |  |
+    /// | 0x7122 | [`MotorErrorOrCommutation`](Self::MotorErrorOrCommutation) | motor error, or commutation. |
+    /// | 0x7305 | [`IncrementalSensor1`](Self::IncrementalSensor1) |  |
+    /// | 0x7306 | [`IncrementalSensor2`](Self::IncrementalSensor2) |  |
+    /// | 0x7310 | [`SpeedSensor`](Self::SpeedSensor) |  |
+    /// | 0x7320 | [`PositionSensor`](Self::PositionSensor) |  |
+    /// | 0x8311 | [`TorqueTooHigh`](Self::TorqueTooHigh) |  |
+    /// | 0x8331 | [`TorqueFault`](Self::TorqueFault) |  |
+    /// | 0x8400 | [`VelocityController`](Self::VelocityController) |  |
+    /// | 0x8500 | [`PositionController`](Self::PositionController) |  |
+    /// | 0x8600 | [`PositioningController`](Self::PositioningController) |  |
+    /// | 0x8611 | [`FollowingError`](Self::FollowingError) |  |
+    /// | 0x8612 | [`ReferenceLimit`](Self::ReferenceLimit) |  |
+    /// | 0xF001 | [`Deceleration`](Self::Deceleration) |  |
+    /// | 0xF002 | [`SubSynchronousRun`](Self::SubSynchronousRun) |  |
+    /// | 0xF003 | [`StrokeOperation`](Self::StrokeOperation) |  |
+    /// | 0xF004 | [`Control`](Self::Control) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DriveErrors {
         /// 0x2310: continuous over-current.
@@ -21253,6 +26317,11 @@ pub mod procedures {
     /// Restarts the drive. The two commands have to follow each other directly.
     ///
     /// Manual, line 2597.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [Rloadsav](super::objects::RLOADSAV) | 142 |
+    /// | [Rloadsav](super::objects::RLOADSAV) | 143 |
     pub const RESTART: [rt::SdoWrite; 2] = [
         rt::SdoWrite::new_u16(0x20C2, 0x01, 0x008E),
         rt::SdoWrite::new_u16(0x20C2, 0x01, 0x008F),
@@ -21260,6 +26329,12 @@ pub mod procedures {
     /// Puts the Antaios chip into boot mode. Modbus communication is off from then on, until the drive is switched off.
     ///
     /// Manual, line 2597.
+    ///
+    /// | Item | Value |
+    /// |---|---|
+    /// | [Rloadsav](super::objects::RLOADSAV) | 147 |
+    /// | [Rloadsav](super::objects::RLOADSAV) | 148 |
+    /// | [Rloadsav](super::objects::RLOADSAV) | 147 |
     pub const ENTER_ANTAIOS_BOOT_MODE: [rt::SdoWrite; 3] = [
         rt::SdoWrite::new_u16(0x20C2, 0x01, 0x0093),
         rt::SdoWrite::new_u16(0x20C2, 0x01, 0x0094),
@@ -21638,6 +26713,7 @@ pub mod objects {
     /// Rposact.
     ///
     /// 0x2000:01, holding registers 0 to 1, low word first, INTEGER32, rw, mappable into TPDOs, range \-2147483648 to 2147483647, in step.
+    /// Accessor: [`rposact`](super::VectorStep::rposact).
     ///
     /// Where the axis really is; a position kept over power-off may be written back here
     ///
@@ -21658,6 +26734,7 @@ pub mod objects {
     /// Rposactreq.
     ///
     /// 0x2004:01, holding registers 4 to 5, low word first, INTEGER32, rw, mappable into TPDOs, range \-2147483648 to 2147483647, in step.
+    /// Accessor: [`rposactreq`](super::VectorStep::rposactreq).
     ///
     /// Where the motion profile wants the axis to be now
     ///
@@ -21674,6 +26751,7 @@ pub mod objects {
     /// Rpostarg.
     ///
     /// 0x2008:01, holding registers 8 to 9, low word first, INTEGER32, rw, mappable into RPDOs, range \-2147483648 to 2147483647, in step.
+    /// Accessor: [`rpostarg`](super::VectorStep::rpostarg).
     ///
     /// Target of the GO and GOR positioning commands; carries the mark ANA\_T
     ///
@@ -21692,6 +26770,7 @@ pub mod objects {
     /// Rupplim.
     ///
     /// 0x200C:01, holding registers 12 to 13, low word first, INTEGER32, rw, mappable into RPDOs, range \-2147483648 to 2147483647, in step.
+    /// Accessor: [`rupplim`](super::VectorStep::rupplim).
     ///
     /// Upper software limit of the travel; Rflag bit 3 enables it, homing methods -8 and -7 rewrite it
     ///
@@ -21710,6 +26789,7 @@ pub mod objects {
     /// Rlowlim.
     ///
     /// 0x2010:01, holding registers 16 to 17, low word first, INTEGER32, rw, mappable into RPDOs, range \-2147483648 to 2147483647, in step.
+    /// Accessor: [`rlowlim`](super::VectorStep::rlowlim).
     ///
     /// Lower software limit of the travel; Rflag bit 2 enables it, homing methods -8 and -7 rewrite it
     ///
@@ -21728,6 +26808,7 @@ pub mod objects {
     /// Rposactsaved.
     ///
     /// 0x2037:01, holding registers 55 to 56, low word first, INTEGER32, ro, in step.
+    /// Accessor: [`rposactsaved`](super::VectorStep::rposactsaved).
     ///
     /// Position that the drive kept at the last power-off, 0 where it isn't valid
     ///
@@ -21748,6 +26829,7 @@ pub mod objects {
     /// Rposactsavedflag.
     ///
     /// 0x2039:01, holding register 57, UNSIGNED16, ro.
+    /// Accessor: [`rposactsavedflag`](super::VectorStep::rposactsavedflag). Values: [`SavedPosition`](super::types::SavedPosition).
     ///
     /// Tells after power-on whether Rposactsaved holds a valid position; 0 otherwise
     ///
@@ -21762,6 +26844,7 @@ pub mod objects {
     /// Rstsflg.
     ///
     /// 0x20C7:01, holding register 199, UNSIGNED16, rw, mappable into TPDOs.
+    /// Accessor: [`rstsflg`](super::VectorStep::rstsflg). Values: [`Status`](super::types::Status).
     ///
     /// Main status word of the drive
     ///
@@ -21784,6 +26867,7 @@ pub mod objects {
     /// Rstsflg1.
     ///
     /// 0x20C8:01, holding register 200, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`rstsflg1`](super::VectorStep::rstsflg1). Values: [`Status1`](super::types::Status1).
     ///
     /// Second status word: stored alarms, tasks, limits, regulators, STO
     ///
@@ -21798,6 +26882,7 @@ pub mod objects {
     /// Rstscllp.
     ///
     /// 0x20CB:01, holding register 203, UNSIGNED16, ro.
+    /// Accessor: [`rstscllp`](super::VectorStep::rstscllp). Values: [`ClosedLoopStatus`](super::types::ClosedLoopStatus).
     ///
     /// Status word of closed-loop control; bits 0 to 2 feed bit 7 of Rstsflg
     ///
@@ -21812,6 +26897,7 @@ pub mod objects {
     /// Rflag1.
     ///
     /// 0x203A:01, holding register 58, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rflag1`](super::VectorStep::rflag1). Values: [`ModeFlags1`](super::types::ModeFlags1).
     ///
     /// Flags of the operating mode that can't be kept over power-off
     ///
@@ -21828,6 +26914,7 @@ pub mod objects {
     /// Rflag.
     ///
     /// 0x2066:01, holding registers 102 to 103, low word first, UNSIGNED32, rw, range 0 to 2147483647.
+    /// Accessor: [`rflag`](super::VectorStep::rflag). Values: [`ModeFlags`](super::types::ModeFlags).
     ///
     /// Flags of the operating mode: limits, resets after homing, corrections, gear directions, USB
     ///
@@ -21846,6 +26933,7 @@ pub mod objects {
     /// Rhwconfig.
     ///
     /// 0x2116:01, holding register 278, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rhwconfig`](super::VectorStep::rhwconfig). Values: [`HardwareConfig`](super::types::HardwareConfig).
     ///
     /// Hardware configuration: directions, encoder kinds, PWM range, realignment for two CANopen masters
     ///
@@ -21866,6 +26954,7 @@ pub mod objects {
     /// Rvel.
     ///
     /// 0x203F:01, holding registers 63 to 64, low word first, INTEGER32, rw, mappable into RPDOs, range \-10000 to 10000 (-100 to 100 rev/s), in 0.01 rev/s.
+    /// Accessor: [`rvel`](super::VectorStep::rvel).
     ///
     /// Highest speed of a movement; carries the mark ANA
     ///
@@ -21884,6 +26973,7 @@ pub mod objects {
     /// Rvss.
     ///
     /// 0x2041:01, holding registers 65 to 66, low word first, INTEGER32, rw, mappable into RPDOs, range 0 to 10000 (0 to 100 rev/s), in 0.01 rev/s.
+    /// Accessor: [`rvss`](super::VectorStep::rvss).
     ///
     /// Speed at which movements start and end
     ///
@@ -21902,6 +26992,7 @@ pub mod objects {
     /// Racc.
     ///
     /// 0x2043:01, holding registers 67 to 68, low word first, UNSIGNED32, rw, mappable into RPDOs, range 0 to 200000 (0 to 20000 rev/s²), in 0.1 rev/s².
+    /// Accessor: [`racc`](super::VectorStep::racc).
     ///
     /// Acceleration ramp, 0 switches it off; carries the mark ANA
     ///
@@ -21922,6 +27013,7 @@ pub mod objects {
     /// Raccpro.
     ///
     /// 0x2045:01, holding register 69, UNSIGNED16, rw, range 0 to 10.
+    /// Accessor: [`raccpro`](super::VectorStep::raccpro). Values: [`RampProfile`](super::types::RampProfile).
     ///
     /// Shape of the acceleration ramp
     ///
@@ -21942,6 +27034,7 @@ pub mod objects {
     /// Rdec.
     ///
     /// 0x2046:01, holding registers 70 to 71, low word first, UNSIGNED32, rw, mappable into RPDOs, range 0 to 200000 (0 to 20000 rev/s²), in 0.1 rev/s².
+    /// Accessor: [`rdec`](super::VectorStep::rdec).
     ///
     /// Deceleration ramp, 0 switches it off; carries the mark ANA
     ///
@@ -21962,6 +27055,7 @@ pub mod objects {
     /// Rdecpro.
     ///
     /// 0x2048:01, holding register 72, UNSIGNED16, rw, range 0 to 10.
+    /// Accessor: [`rdecpro`](super::VectorStep::rdecpro). Values: [`RampProfile`](super::types::RampProfile).
     ///
     /// Shape of the deceleration ramp
     ///
@@ -21980,6 +27074,7 @@ pub mod objects {
     /// Rdeceme.
     ///
     /// 0x2049:01, holding registers 73 to 74, low word first, UNSIGNED32, rw, mappable into RPDOs, range 0 to 200000 (0 to 20000 rev/s²), in 0.1 rev/s².
+    /// Accessor: [`rdeceme`](super::VectorStep::rdeceme).
     ///
     /// Deceleration ramp of emergency stops
     ///
@@ -21998,6 +27093,7 @@ pub mod objects {
     /// Rvelact.
     ///
     /// 0x204B:01, holding registers 75 to 76, low word first, INTEGER32, ro, mappable into TPDOs, in 0.01 rev/s.
+    /// Accessor: [`rvelact`](super::VectorStep::rvelact).
     ///
     /// Speed that the motor has now
     ///
@@ -22014,6 +27110,7 @@ pub mod objects {
     /// Rvelactreq.
     ///
     /// 0x204D:01, holding registers 77 to 78, low word first, INTEGER32, ro, mappable into TPDOs, in 0.01 rev/s.
+    /// Accessor: [`rvelactreq`](super::VectorStep::rvelactreq).
     ///
     /// Speed that is asked of the motor now
     ///
@@ -22030,6 +27127,7 @@ pub mod objects {
     /// Rvelmax.
     ///
     /// 0x204F:01, holding registers 79 to 80, low word first, INTEGER32, rw, range 0 to 10000 (0 to 100 rev/s), in 0.01 rev/s.
+    /// Accessor: [`rvelmax`](super::VectorStep::rvelmax).
     ///
     /// Highest speed while a lost position is regained
     ///
@@ -22048,6 +27146,7 @@ pub mod objects {
     /// Rdefum.
     ///
     /// 0x2064:01, holding register 100, UNSIGNED16, rw, one of 1, 10, 100.
+    /// Accessor: [`rdefum`](super::VectorStep::rdefum). Values: [`SpeedDivisor`](super::types::SpeedDivisor).
     ///
     /// Divisor of speeds and accelerations: the ratio of the set value to the real one
     ///
@@ -22083,6 +27182,7 @@ pub mod objects {
     /// Rpwmacc.
     ///
     /// 0x2147:01, holding register 327, UNSIGNED16, rw, in bit/s².
+    /// Accessor: [`rpwmacc`](super::VectorStep::rpwmacc).
     ///
     /// Acceleration ramp in PWM mode
     ///
@@ -22101,6 +27201,7 @@ pub mod objects {
     /// Rpwm.
     ///
     /// 0x2148:01, holding register 328, UNSIGNED16, rw, range 0 to 1250 (0 to 100 %), in 0.08 %.
+    /// Accessor: [`rpwm`](super::VectorStep::rpwm).
     ///
     /// How far the PWM opens in PWM mode: 1250 is 100 %
     ///
@@ -22121,6 +27222,7 @@ pub mod objects {
     /// Rveladjpicur.
     ///
     /// 0x216E:01, holding register 366, UNSIGNED16, rw, range 0 to 32767.
+    /// Accessor: [`rveladjpicur`](super::VectorStep::rveladjpicur).
     ///
     /// Speed up to which the current regulator's PI is reduced, for low speeds
     ///
@@ -22141,6 +27243,7 @@ pub mod objects {
     /// Rdlyadjpicur.
     ///
     /// 0x2196:01, holding register 406, UNSIGNED16, rw, range 0 to 32767, in ms.
+    /// Accessor: [`rdlyadjpicur`](super::VectorStep::rdlyadjpicur).
     ///
     /// Delay before the correction of the current regulator's PI sets in
     ///
@@ -22161,6 +27264,7 @@ pub mod objects {
     /// Rzerovellim.
     ///
     /// 0x219A:01, holding register 410, UNSIGNED16, rw, range 0 to 65535, in count.
+    /// Accessor: [`rzerovellim`](super::VectorStep::rzerovellim).
     ///
     /// Motor encoder counts from which the axis is taken for moving; detects standstill when homing on a mechanical stop in SmartMode
     ///
@@ -22179,6 +27283,7 @@ pub mod objects {
     /// Rzeroveltim.
     ///
     /// 0x219B:01, holding register 411, UNSIGNED16, rw, range 0 to 65535, in ms.
+    /// Accessor: [`rzeroveltim`](super::VectorStep::rzeroveltim).
     ///
     /// Sampling time of the motor encoder for that standstill detection
     ///
@@ -22197,6 +27302,7 @@ pub mod objects {
     /// Rcurlimtim.
     ///
     /// 0x219C:01, holding register 412, UNSIGNED16, rw, range 0 to 65535, in ms.
+    /// Accessor: [`rcurlimtim`](super::VectorStep::rcurlimtim).
     ///
     /// Filter time before the motor is reported at its current limit in FOC\_CLOSE
     ///
@@ -22215,6 +27321,7 @@ pub mod objects {
     /// Rveltarg.
     ///
     /// 0x21ED:01, INTEGER32, rw, mappable into RPDOs, range \-20000 to 20000.
+    /// Accessor: [`rveltarg`](super::VectorStep::rveltarg).
     ///
     /// Target speed of operating mode 9, cyclic synchronous velocity
     ///
@@ -22234,6 +27341,7 @@ pub mod objects {
     /// Rcmdwr.
     ///
     /// 0x203B:01, holding register 59, UNSIGNED16, wo, mappable into RPDOs, range 0 to 65535.
+    /// Accessor: [`rcmdwr`](super::VectorStep::rcmdwr). Values: [`Command`](super::types::Command).
     ///
     /// Commands to the drive, raised one at a time; each bit falls when its command is done
     ///
@@ -22250,6 +27358,7 @@ pub mod objects {
     /// Rcmd1wr.
     ///
     /// 0x203C:01, holding register 60, UNSIGNED16, wo, mappable into RPDOs, range 0 to 65535.
+    /// Accessor: [`rcmd1wr`](super::VectorStep::rcmd1wr). Values: [`Command1`](super::types::Command1).
     ///
     /// Further commands: phase tests, winding and Smit modes, SmartMode positions; Rcmd1rd answers
     ///
@@ -22270,6 +27379,7 @@ pub mod objects {
     /// Rcmdrd.
     ///
     /// 0x203D:01, holding register 61, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`rcmdrd`](super::VectorStep::rcmdrd). Values: [`CommandState`](super::types::CommandState).
     ///
     /// Which commands the drive is carrying out
     ///
@@ -22284,6 +27394,7 @@ pub mod objects {
     /// Rcmd1rd.
     ///
     /// 0x203E:01, holding register 62, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`rcmd1rd`](super::VectorStep::rcmd1rd). Values: [`CommandState1`](super::types::CommandState1).
     ///
     /// Answers to the commands of Rcmd1wr
     ///
@@ -22300,6 +27411,7 @@ pub mod objects {
     /// Rtasknum.
     ///
     /// 0x206A:01, holding register 106, UNSIGNED16, rw, range 0 to 63.
+    /// Accessor: [`rtasknum`](super::VectorStep::rtasknum).
     ///
     /// Number of the task that a command over the serial line runs
     ///
@@ -22316,6 +27428,7 @@ pub mod objects {
     /// Rptroldcmd.
     ///
     /// 0x21C2:01, holding register 450, UNSIGNED16, rw, range 0 to 7.
+    /// Accessor: [`rptroldcmd`](super::VectorStep::rptroldcmd).
     ///
     /// Which of the last eight commands Rbufcmdstatus, Rbufcmdcommand and Rbufcmdparameter show: 0 the latest, 7 the oldest
     ///
@@ -22334,6 +27447,7 @@ pub mod objects {
     /// Rbufcmdstatus.
     ///
     /// 0x21C3:01, holding register 451, UNSIGNED16, ro.
+    /// Accessor: [`rbufcmdstatus`](super::VectorStep::rbufcmdstatus).
     ///
     /// Where the command came from: user program, serial line or fieldbus
     ///
@@ -22350,6 +27464,7 @@ pub mod objects {
     /// Rbufcmdcommand.
     ///
     /// 0x21C4:01, holding registers 452 to 453, UNSIGNED32, ro.
+    /// Accessor: [`rbufcmdcommand`](super::VectorStep::rbufcmdcommand).
     ///
     /// The command that was carried out
     ///
@@ -22364,6 +27479,7 @@ pub mod objects {
     /// Rbufcmdparameter.
     ///
     /// 0x21C6:01, holding registers 454 to 455, INTEGER32, ro.
+    /// Accessor: [`rbufcmdparameter`](super::VectorStep::rbufcmdparameter).
     ///
     /// Parameter of the command that was carried out
     ///
@@ -22378,6 +27494,7 @@ pub mod objects {
     /// Rhmaxspc.
     ///
     /// 0x2020:01, holding registers 32 to 33, low word first, UNSIGNED32, rw, range 0 to 2147483647, in step.
+    /// Accessor: [`rhmaxspc`](super::VectorStep::rhmaxspc).
     ///
     /// Greatest distance that homing may travel
     ///
@@ -22396,6 +27513,7 @@ pub mod objects {
     /// Rdefinpbls.
     ///
     /// 0x2022:01, holding register 34, UNSIGNED16, rw, range 0 to 255.
+    /// Accessor: [`rdefinpbls`](super::VectorStep::rdefinpbls). Values: [`LimitSwitchInput`](super::types::LimitSwitchInput).
     ///
     /// Input that works as backward limit switch BLS; a digital one must have no other function
     ///
@@ -22414,6 +27532,7 @@ pub mod objects {
     /// Rdefinpfls.
     ///
     /// 0x2023:01, holding register 35, UNSIGNED16, rw, range 0 to 255.
+    /// Accessor: [`rdefinpfls`](super::VectorStep::rdefinpfls). Values: [`LimitSwitchInput`](super::types::LimitSwitchInput).
     ///
     /// Input that works as forward limit switch FLS; a digital one must have no other function
     ///
@@ -22432,6 +27551,7 @@ pub mod objects {
     /// Rhofs.
     ///
     /// 0x2024:01, holding registers 36 to 37, low word first, INTEGER32, rw, range \-2147483648 to 2147483647, in step.
+    /// Accessor: [`rhofs`](super::VectorStep::rhofs).
     ///
     /// How far the axis moves once the homing routine is over
     ///
@@ -22450,6 +27570,7 @@ pub mod objects {
     /// Rhpos.
     ///
     /// 0x2026:01, holding registers 38 to 39, low word first, INTEGER32, rw, range \-2147483648 to 2147483647, in step.
+    /// Accessor: [`rhpos`](super::VectorStep::rhpos).
     ///
     /// Position that the axis is given after homing
     ///
@@ -22470,6 +27591,7 @@ pub mod objects {
     /// Rhcurcoll.
     ///
     /// 0x2028:01, holding register 40, UNSIGNED16, rw, mappable into RPDOs, range 1 to 100, in %.
+    /// Accessor: [`rhcurcoll`](super::VectorStep::rhcurcoll).
     ///
     /// Share of the nominal current at which homing takes a mechanical stop for reached (FOC\_CLOSE)
     ///
@@ -22488,6 +27610,7 @@ pub mod objects {
     /// Rhtimcoll.
     ///
     /// 0x2029:01, holding register 41, UNSIGNED16, rw, range 0 to 10000, in ms.
+    /// Accessor: [`rhtimcoll`](super::VectorStep::rhtimcoll).
     ///
     /// Filter time of that detection of the mechanical stop (FOC\_CLOSE)
     ///
@@ -22506,6 +27629,7 @@ pub mod objects {
     /// Rhtinv.
     ///
     /// 0x2051:01, holding register 81, UNSIGNED16, rw, default 512, range 0 to 32767, in ms.
+    /// Accessor: [`rhtinv`](super::VectorStep::rhtinv).
     ///
     /// How long homing rests the axis before it turns round
     ///
@@ -22523,6 +27647,7 @@ pub mod objects {
     /// Rhmode.
     ///
     /// 0x2052:01, holding register 82, INTEGER16, rw, mappable into RPDOs, range \-16 to 37.
+    /// Accessor: [`rhmode`](super::VectorStep::rhmode). Values: [`HomingMethodI16`](super::types::HomingMethodI16).
     ///
     /// Homing method; the table at 0x6098 (L1625) has every method reset the position and set the synchronised flag
     ///
@@ -22546,6 +27671,7 @@ pub mod objects {
     /// Rhvh.
     ///
     /// 0x2053:01, holding registers 83 to 84, low word first, INTEGER32, rw, mappable into RPDOs, range 0 to 10000 (0 to 100 rev/s), in 0.01 rev/s.
+    /// Accessor: [`rhvh`](super::VectorStep::rhvh).
     ///
     /// Speed of homing while it looks for the limit switch
     ///
@@ -22564,6 +27690,7 @@ pub mod objects {
     /// Rhvl.
     ///
     /// 0x2055:01, holding registers 85 to 86, low word first, INTEGER32, rw, mappable into RPDOs, range 0 to 10000 (0 to 100 rev/s), in 0.01 rev/s.
+    /// Accessor: [`rhvl`](super::VectorStep::rhvl).
     ///
     /// Speed of homing while it looks for the zero point; has to lie within the start/stop range
     ///
@@ -22582,6 +27709,7 @@ pub mod objects {
     /// Rhacc.
     ///
     /// 0x2057:01, holding registers 87 to 88, low word first, UNSIGNED32, rw, mappable into RPDOs, range 0 to 200000 (0 to 20000 rev/s²), in 0.1 rev/s².
+    /// Accessor: [`rhacc`](super::VectorStep::rhacc).
     ///
     /// Acceleration and deceleration of homing
     ///
@@ -22600,6 +27728,7 @@ pub mod objects {
     /// Rhsts.
     ///
     /// 0x20CA:01, holding register 202, UNSIGNED16, ro.
+    /// Accessor: [`rhsts`](super::VectorStep::rhsts). Values: [`HomingStatus`](super::types::HomingStatus).
     ///
     /// State and errors of homing; the emergencies FF02, FF06 and FF07 carry its low byte
     ///
@@ -22614,6 +27743,7 @@ pub mod objects {
     /// Rhindexpc.
     ///
     /// 0x223F:01, holding registers 575 to 576, low word first, INTEGER32, rw, in step.
+    /// Accessor: [`rhindexpc`](super::VectorStep::rhindexpc).
     ///
     /// Not described; by its name a distance or position of the index in homing
     ///
@@ -22632,6 +27762,7 @@ pub mod objects {
     /// Rshstop.
     ///
     /// 0x2018:01, holding registers 24 to 25, low word first, UNSIGNED32, rw, range 0 to 2147483647, in step.
+    /// Accessor: [`rshstop`](super::VectorStep::rshstop).
     ///
     /// Shift distance of the STOP instruction
     ///
@@ -22650,6 +27781,7 @@ pub mod objects {
     /// Rspcstop.
     ///
     /// 0x201C:01, holding registers 28 to 29, low word first, UNSIGNED32, rw, range 0 to 2147483647, in step.
+    /// Accessor: [`rspcstop`](super::VectorStep::rspcstop).
     ///
     /// Fixed distance in which the axis stops
     ///
@@ -22668,6 +27800,7 @@ pub mod objects {
     /// Rspcstopcalc.
     ///
     /// 0x201E:01, holding registers 30 to 31, low word first, UNSIGNED32, rw, in step.
+    /// Accessor: [`rspcstopcalc`](super::VectorStep::rspcstopcalc).
     ///
     /// Distance that the last stop took
     ///
@@ -22684,6 +27817,7 @@ pub mod objects {
     /// Rbestpflg.
     ///
     /// 0x2031:01, holding register 49, UNSIGNED16, rw, mappable into RPDOs.
+    /// Accessor: [`rbestpflg`](super::VectorStep::rbestpflg). Values: [`BestopSetup`](super::types::BestopSetup).
     ///
     /// What BESTOP waits for: the state of a bit, or an edge of an encoder's index
     ///
@@ -22698,6 +27832,7 @@ pub mod objects {
     /// Rbestppar.
     ///
     /// 0x2032:01, holding register 50, UNSIGNED16, rw, mappable into RPDOs.
+    /// Accessor: [`rbestppar`](super::VectorStep::rbestppar).
     ///
     /// Number of the register or variable whose bit stops the axis; bit 6 of Rbestpflg says which
     ///
@@ -22714,6 +27849,7 @@ pub mod objects {
     /// Rshestop.
     ///
     /// 0x2014:01, holding registers 20 to 21, low word first, UNSIGNED32, rw, range 0 to 2147483647, in step.
+    /// Accessor: [`rshestop`](super::VectorStep::rshestop).
     ///
     /// Shift distance of the ESTOP instruction; carries the mark ANA\_T
     ///
@@ -22734,6 +27870,7 @@ pub mod objects {
     /// Restpflg.
     ///
     /// 0x202D:01, holding register 45, UNSIGNED16, rw, mappable into RPDOs.
+    /// Accessor: [`restpflg`](super::VectorStep::restpflg). Values: [`EstopSetup`](super::types::EstopSetup).
     ///
     /// What ESTOP compares and how
     ///
@@ -22750,6 +27887,7 @@ pub mod objects {
     /// Restppar1.
     ///
     /// 0x202E:01, holding registers 46 to 47, low word first, UNSIGNED32, rw, mappable into RPDOs.
+    /// Accessor: [`restppar1`](super::VectorStep::restppar1).
     ///
     /// First parameter of the comparison: a number, or the number of a register or variable, as Restpflg says
     ///
@@ -22766,6 +27904,7 @@ pub mod objects {
     /// Restppar2.
     ///
     /// 0x2030:01, holding register 48, UNSIGNED16, rw, mappable into RPDOs.
+    /// Accessor: [`restppar2`](super::VectorStep::restppar2).
     ///
     /// Second parameter of the comparison, as Restpflg says
     ///
@@ -22780,6 +27919,7 @@ pub mod objects {
     /// Rgearmul.
     ///
     /// 0x2068:01, holding register 104, UNSIGNED16, rw, range 1 to 32767.
+    /// Accessor: [`rgearmul`](super::VectorStep::rgearmul).
     ///
     /// Multiplier of the gear ratio
     ///
@@ -22798,6 +27938,7 @@ pub mod objects {
     /// Rgeardiv.
     ///
     /// 0x2069:01, holding register 105, UNSIGNED16, rw, range 1 to 32767.
+    /// Accessor: [`rgeardiv`](super::VectorStep::rgeardiv).
     ///
     /// Divisor of the gear ratio
     ///
@@ -22816,6 +27957,7 @@ pub mod objects {
     /// Rpostimeout.
     ///
     /// 0x20E0:01, holding register 224, UNSIGNED16, rw, range 0 to 65535, in ms.
+    /// Accessor: [`rpostimeout`](super::VectorStep::rpostimeout).
     ///
     /// Time after which a positioning that isn't done is an alarm
     ///
@@ -22834,6 +27976,7 @@ pub mod objects {
     /// Rdeadpos.
     ///
     /// 0x20E1:01, holding register 225, UNSIGNED16, rw, range 0 to 32767, in step.
+    /// Accessor: [`rdeadpos`](super::VectorStep::rdeadpos).
     ///
     /// Window around the target, in motor steps, within which the motor is in position
     ///
@@ -22852,6 +27995,7 @@ pub mod objects {
     /// Rsettim.
     ///
     /// 0x20E2:01, holding register 226, UNSIGNED16, rw, range 0 to 1000, in ms.
+    /// Accessor: [`rsettim`](super::VectorStep::rsettim).
     ///
     /// How long the motor has to stay in the window, with no speed asked for, before it is reported in position (closed loop)
     ///
@@ -22870,6 +28014,7 @@ pub mod objects {
     /// Ralarm.
     ///
     /// 0x20E3:01, holding register 227, UNSIGNED16, rw, mappable into TPDOs, range 0 to 65535.
+    /// Accessor: [`ralarm`](super::VectorStep::ralarm). Values: [`Alarm`](super::types::Alarm).
     ///
     /// Alarms of the drive; Ralarm32 has more of them
     ///
@@ -22894,6 +28039,7 @@ pub mod objects {
     /// Rwarning.
     ///
     /// 0x20E4:01, holding register 228, UNSIGNED16, ro, mappable into TPDOs, range 0 to 65535.
+    /// Accessor: [`rwarning`](super::VectorStep::rwarning). Values: [`Warning`](super::types::Warning).
     ///
     /// Warnings, which come before alarms and have no effect on the drive
     ///
@@ -22912,6 +28058,7 @@ pub mod objects {
     /// Rbufalm0.
     ///
     /// 0x20E5:01, holding register 229, UNSIGNED16, ro.
+    /// Accessor: [`rbufalm0`](super::VectorStep::rbufalm0).
     ///
     /// Stored alarm 0
     ///
@@ -22928,6 +28075,7 @@ pub mod objects {
     /// Rbufalm1.
     ///
     /// 0x20E6:01, holding register 230, UNSIGNED16, ro.
+    /// Accessor: [`rbufalm1`](super::VectorStep::rbufalm1).
     ///
     /// Stored alarm 1
     ///
@@ -22942,6 +28090,7 @@ pub mod objects {
     /// Rbufalm2.
     ///
     /// 0x20E7:01, holding register 231, UNSIGNED16, ro.
+    /// Accessor: [`rbufalm2`](super::VectorStep::rbufalm2).
     ///
     /// Stored alarm 2
     ///
@@ -22956,6 +28105,7 @@ pub mod objects {
     /// Rbufalm3.
     ///
     /// 0x20E8:01, holding register 232, UNSIGNED16, ro.
+    /// Accessor: [`rbufalm3`](super::VectorStep::rbufalm3).
     ///
     /// Stored alarm 3
     ///
@@ -22970,6 +28120,7 @@ pub mod objects {
     /// Rbufalm4.
     ///
     /// 0x20E9:01, holding register 233, UNSIGNED16, ro.
+    /// Accessor: [`rbufalm4`](super::VectorStep::rbufalm4).
     ///
     /// Stored alarm 4
     ///
@@ -22984,6 +28135,7 @@ pub mod objects {
     /// Rbufalm5.
     ///
     /// 0x20EA:01, holding register 234, UNSIGNED16, ro.
+    /// Accessor: [`rbufalm5`](super::VectorStep::rbufalm5).
     ///
     /// Stored alarm 5
     ///
@@ -22998,6 +28150,7 @@ pub mod objects {
     /// Rbufalm6.
     ///
     /// 0x20EB:01, holding register 235, UNSIGNED16, ro.
+    /// Accessor: [`rbufalm6`](super::VectorStep::rbufalm6).
     ///
     /// Stored alarm 6
     ///
@@ -23012,6 +28165,7 @@ pub mod objects {
     /// Rbufalm7.
     ///
     /// 0x20EC:01, holding register 236, UNSIGNED16, ro.
+    /// Accessor: [`rbufalm7`](super::VectorStep::rbufalm7).
     ///
     /// Stored alarm 7
     ///
@@ -23026,6 +28180,7 @@ pub mod objects {
     /// Ralmcnt.
     ///
     /// 0x20ED:01, holding register 237, UNSIGNED16, ro, range 0 to 65535.
+    /// Accessor: [`ralmcnt`](super::VectorStep::ralmcnt).
     ///
     /// How many faults there have been; bit 1 of Ralmack resets it
     ///
@@ -23040,6 +28195,7 @@ pub mod objects {
     /// Ralmack.
     ///
     /// 0x20EE:01, holding register 238, UNSIGNED16, rw, range 0 to 3.
+    /// Accessor: [`ralmack`](super::VectorStep::ralmack). Values: [`AlarmAcknowledge`](super::types::AlarmAcknowledge).
     ///
     /// Acknowledges the last alarm and resets the count
     ///
@@ -23056,6 +28212,7 @@ pub mod objects {
     /// Rtempalm.
     ///
     /// 0x20EF:01, holding register 239, UNSIGNED16, rw, range 0 to 150, in °C.
+    /// Accessor: [`rtempalm`](super::VectorStep::rtempalm).
     ///
     /// Temperature above which there is an alarm
     ///
@@ -23074,6 +28231,7 @@ pub mod objects {
     /// Rtensmax.
     ///
     /// 0x20F0:01, holding register 240, UNSIGNED16, rw, range 0 to 200, in V.
+    /// Accessor: [`rtensmax`](super::VectorStep::rtensmax).
     ///
     /// Voltage above which there is an alarm
     ///
@@ -23092,6 +28250,7 @@ pub mod objects {
     /// Rtensmin.
     ///
     /// 0x20F1:01, holding register 241, UNSIGNED16, rw, range 0 to 200, in V.
+    /// Accessor: [`rtensmin`](super::VectorStep::rtensmin).
     ///
     /// Voltage below which there is an alarm
     ///
@@ -23110,6 +28269,7 @@ pub mod objects {
     /// Rcurmax.
     ///
     /// 0x20F2:01, holding register 242, UNSIGNED16, rw, range 0 to 20000, in mA.
+    /// Accessor: [`rcurmax`](super::VectorStep::rcurmax).
     ///
     /// Limit that the current may not pass
     ///
@@ -23128,6 +28288,7 @@ pub mod objects {
     /// Rflwmax.
     ///
     /// 0x20F3:01, holding registers 243 to 244, low word first, UNSIGNED32, rw, range 0 to 32000, in count.
+    /// Accessor: [`rflwmax`](super::VectorStep::rflwmax).
     ///
     /// Following error, whichever its sign, beyond which there is an alarm after a filter time; 0 switches the check off
     ///
@@ -23148,6 +28309,7 @@ pub mod objects {
     /// Ri2tmax.
     ///
     /// 0x20F5:01, holding registers 245 to 246, low word first, UNSIGNED32, rw, range 0 to 9999999.
+    /// Accessor: [`ri2tmax`](super::VectorStep::ri2tmax).
     ///
     /// I2t from which there is an alarm
     ///
@@ -23166,6 +28328,7 @@ pub mod objects {
     /// Rmaskalm.
     ///
     /// 0x20F7:01, holding register 247, UNSIGNED16, rw.
+    /// Accessor: [`rmaskalm`](super::VectorStep::rmaskalm). Values: [`Alarm`](super::types::Alarm).
     ///
     /// Which alarms are masked: 1 masks the alarm of the same bit in Ralarm
     ///
@@ -23188,6 +28351,7 @@ pub mod objects {
     /// Rposalmtime.
     ///
     /// 0x20F8:01, holding register 248, UNSIGNED16, rw, range 0 to 32000, in ms.
+    /// Accessor: [`rposalmtime`](super::VectorStep::rposalmtime).
     ///
     /// How long the standing motor may be out of position before the position alarm (closed loop); 0 switches the check off
     ///
@@ -23208,6 +28372,7 @@ pub mod objects {
     /// Rtempwrn.
     ///
     /// 0x20F9:01, holding register 249, UNSIGNED16, rw, range 0 to 150, in °C.
+    /// Accessor: [`rtempwrn`](super::VectorStep::rtempwrn).
     ///
     /// Temperature from which there is a warning
     ///
@@ -23226,6 +28391,7 @@ pub mod objects {
     /// Rovvwrn.
     ///
     /// 0x20FA:01, holding register 250, UNSIGNED16, rw, range 0 to 200, in V.
+    /// Accessor: [`rovvwrn`](super::VectorStep::rovvwrn).
     ///
     /// Overvoltage from which there is a warning
     ///
@@ -23244,6 +28410,7 @@ pub mod objects {
     /// Runvwrn.
     ///
     /// 0x20FB:01, holding register 251, UNSIGNED16, rw, range 0 to 200, in V.
+    /// Accessor: [`runvwrn`](super::VectorStep::runvwrn).
     ///
     /// Undervoltage from which there is a warning
     ///
@@ -23262,6 +28429,7 @@ pub mod objects {
     /// Rovcwrn.
     ///
     /// 0x20FC:01, holding register 252, UNSIGNED16, rw, range 0 to 20000, in mA.
+    /// Accessor: [`rovcwrn`](super::VectorStep::rovcwrn).
     ///
     /// Current from which there is a warning
     ///
@@ -23280,6 +28448,7 @@ pub mod objects {
     /// Rflwvrn.
     ///
     /// 0x20FD:01, holding registers 253 to 254, low word first, UNSIGNED32, rw, range 0 to 32000, in count.
+    /// Accessor: [`rflwvrn`](super::VectorStep::rflwvrn).
     ///
     /// Following error, whichever its sign, from which there is a warning at once; 0 switches the check off
     ///
@@ -23304,6 +28473,7 @@ pub mod objects {
     /// Ri2twrn.
     ///
     /// 0x20FF:01, holding registers 255 to 256, low word first, UNSIGNED32, rw, range 0 to 9999999.
+    /// Accessor: [`ri2twrn`](super::VectorStep::ri2twrn).
     ///
     /// I2t from which there is a warning
     ///
@@ -23322,6 +28492,7 @@ pub mod objects {
     /// Rmaskwrn.
     ///
     /// 0x2101:01, holding register 257, UNSIGNED16, rw.
+    /// Accessor: [`rmaskwrn`](super::VectorStep::rmaskwrn). Values: [`Warning`](super::types::Warning).
     ///
     /// Which warnings are masked: 1 masks the warning of the same bit in Rwarning
     ///
@@ -23342,6 +28513,7 @@ pub mod objects {
     /// Rposwrtime.
     ///
     /// 0x2102:01, holding register 258, UNSIGNED16, rw, range 0 to 32000, in ms.
+    /// Accessor: [`rposwrtime`](super::VectorStep::rposwrtime).
     ///
     /// How long the standing motor may be out of position before the position warning (closed loop); 0 switches the check off
     ///
@@ -23364,6 +28536,7 @@ pub mod objects {
     /// Rflwdisp.
     ///
     /// 0x2103:01, holding registers 259 to 260, low word first, INTEGER32, rw, mappable into TPDOs, in count.
+    /// Accessor: [`rflwdisp`](super::VectorStep::rflwdisp).
     ///
     /// Following error now
     ///
@@ -23386,6 +28559,7 @@ pub mod objects {
     /// Rflwmem.
     ///
     /// 0x2105:01, holding registers 261 to 262, low word first, INTEGER32, rw, in count.
+    /// Accessor: [`rflwmem`](super::VectorStep::rflwmem).
     ///
     /// Greatest following error since it was cleared, without its sign
     ///
@@ -23408,6 +28582,7 @@ pub mod objects {
     /// Rflwtim.
     ///
     /// 0x2107:01, holding register 263, UNSIGNED16, rw, range 0 to 32000, in ms.
+    /// Accessor: [`rflwtim`](super::VectorStep::rflwtim).
     ///
     /// How long the following error has to be out of its range before the alarm; warnings aren't filtered
     ///
@@ -23428,6 +28603,7 @@ pub mod objects {
     /// Rflwmemp.
     ///
     /// 0x210A:01, holding register 266, UNSIGNED16, rw, range 0 to 65535, in count.
+    /// Accessor: [`rflwmemp`](super::VectorStep::rflwmemp).
     ///
     /// Greatest positive following error since it was cleared
     ///
@@ -23450,6 +28626,7 @@ pub mod objects {
     /// Rflwmemn.
     ///
     /// 0x210B:01, holding register 267, UNSIGNED16, rw, range 0 to 65535, in count.
+    /// Accessor: [`rflwmemn`](super::VectorStep::rflwmemn).
     ///
     /// Greatest negative following error since it was cleared, shown as a positive number
     ///
@@ -23470,6 +28647,7 @@ pub mod objects {
     /// Rflwencerr.
     ///
     /// 0x2197:01, holding registers 407 to 408, low word first, UNSIGNED32, rw, range 0 to 2147483647, in count.
+    /// Accessor: [`rflwencerr`](super::VectorStep::rflwencerr).
     ///
     /// Difference of encoder and motor steps that is an alarm at once, to notice a missing encoder; where used, one or two revolutions
     ///
@@ -23488,6 +28666,7 @@ pub mod objects {
     /// Rpostimeoutwrn.
     ///
     /// 0x2199:01, holding register 409, UNSIGNED16, rw, range 0 to 65535, in ms.
+    /// Accessor: [`rpostimeoutwrn`](super::VectorStep::rpostimeoutwrn).
     ///
     /// Time after which a positioning that isn't done is a warning
     ///
@@ -23506,6 +28685,7 @@ pub mod objects {
     /// Ralarm32.
     ///
     /// 0x222F:01, holding registers 559 to 560, low word first, UNSIGNED32, rw, mappable into TPDOs, range 0 to 65536.
+    /// Accessor: [`ralarm32`](super::VectorStep::ralarm32). Values: [`Alarm32`](super::types::Alarm32).
     ///
     /// All alarms of the drive; the lower half is Ralarm
     ///
@@ -23534,6 +28714,7 @@ pub mod objects {
     /// Rwarning32.
     ///
     /// 0x2231:01, holding registers 561 to 562, low word first, UNSIGNED32, rw, mappable into TPDOs, range 0 to 65536.
+    /// Accessor: [`rwarning32`](super::VectorStep::rwarning32). Values: [`Warning32`](super::types::Warning32).
     ///
     /// All warnings of the drive; the lower half is Rwarning
     ///
@@ -23558,6 +28739,7 @@ pub mod objects {
     /// Ralarmreact.
     ///
     /// 0x471E:01, holding register 10014, INTEGER16, rw, default -4, range \-4 to 2.
+    /// Accessor: [`ralarmreact`](super::VectorStep::ralarmreact). Values: [`AlarmReaction`](super::types::AlarmReaction).
     ///
     /// What the drive does when there is an alarm
     ///
@@ -23582,6 +28764,7 @@ pub mod objects {
     /// Ralmbuffres.
     ///
     /// 0x47A0:01, holding register 10144, UNSIGNED16, rw.
+    /// Accessor: [`ralmbuffres`](super::VectorStep::ralmbuffres).
     ///
     /// Clears the alarm history
     ///
@@ -23602,6 +28785,7 @@ pub mod objects {
     /// Ralmbuffptr.
     ///
     /// 0x47A1:01, holding register 10145, UNSIGNED16, rw, range 0 to 15.
+    /// Accessor: [`ralmbuffptr`](super::VectorStep::ralmbuffptr).
     ///
     /// Which entry of the alarm history Ralmbufftime and Ralmbuffcode show
     ///
@@ -23624,6 +28808,7 @@ pub mod objects {
     /// Ralmbufftime.
     ///
     /// 0x47A2:01, holding registers 10146 to 10147, low word first, UNSIGNED32, ro.
+    /// Accessor: [`ralmbufftime`](super::VectorStep::ralmbufftime).
     ///
     /// When the alarm pointed to happened
     ///
@@ -23642,6 +28827,7 @@ pub mod objects {
     /// Ralmbuffcode.
     ///
     /// 0x47A4:01, holding registers 10148 to 10149, low word first, UNSIGNED32, ro.
+    /// Accessor: [`ralmbuffcode`](super::VectorStep::ralmbuffcode).
     ///
     /// Code of the alarm pointed to
     ///
@@ -23660,6 +28846,7 @@ pub mod objects {
     /// Rhslsi.
     ///
     /// 0x206B:01, holding register 107, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`rhslsi`](super::VectorStep::rhslsi). Values: [`LimitSwitches`](super::types::LimitSwitches).
     ///
     /// Limit switches and encoder lines, sampled every 50 µs
     ///
@@ -23676,6 +28863,7 @@ pub mod objects {
     /// Rhsinp.
     ///
     /// 0x206C:01, holding register 108, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`rhsinp`](super::VectorStep::rhsinp). Values: [`DigitalInputs`](super::types::DigitalInputs).
     ///
     /// Digital inputs, sampled every 50 µs
     ///
@@ -23692,6 +28880,7 @@ pub mod objects {
     /// Rlsi.
     ///
     /// 0x206D:01, holding register 109, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`rlsi`](super::VectorStep::rlsi). Values: [`LimitSwitches`](super::types::LimitSwitches).
     ///
     /// Limit switches and encoder lines
     ///
@@ -23706,6 +28895,7 @@ pub mod objects {
     /// Rdeflsi.
     ///
     /// 0x206E:01, holding register 110, UNSIGNED16, rw.
+    /// Accessor: [`rdeflsi`](super::VectorStep::rdeflsi). Values: [`LimitSwitchPolarity`](super::types::LimitSwitchPolarity).
     ///
     /// Which level counts as active, for each limit switch and encoder line
     ///
@@ -23722,6 +28912,7 @@ pub mod objects {
     /// Rfillsi.
     ///
     /// 0x206F:01, holding register 111, UNSIGNED16, rw, range 1 to 16, in ms.
+    /// Accessor: [`rfillsi`](super::VectorStep::rfillsi).
     ///
     /// Time of the digital filter of the limit switch inputs
     ///
@@ -23740,6 +28931,7 @@ pub mod objects {
     /// Renflsi.
     ///
     /// 0x2070:01, holding register 112, UNSIGNED16, rw.
+    /// Accessor: [`renflsi`](super::VectorStep::renflsi).
     ///
     /// Turns the filter of the limit switch inputs on
     ///
@@ -23758,6 +28950,7 @@ pub mod objects {
     /// Rmemlsi.
     ///
     /// 0x2071:01, holding register 113, UNSIGNED16, rw.
+    /// Accessor: [`rmemlsi`](super::VectorStep::rmemlsi).
     ///
     /// Memory of the limit switch inputs
     ///
@@ -23774,6 +28967,7 @@ pub mod objects {
     /// Rinp.
     ///
     /// 0x2072:01, holding register 114, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`rinp`](super::VectorStep::rinp). Values: [`DigitalInputs`](super::types::DigitalInputs).
     ///
     /// State of the digital inputs
     ///
@@ -23788,6 +28982,7 @@ pub mod objects {
     /// Rdefinp.
     ///
     /// 0x2073:01, holding register 115, UNSIGNED16, rw.
+    /// Accessor: [`rdefinp`](super::VectorStep::rdefinp). Values: [`DigitalInputPolarity`](super::types::DigitalInputPolarity).
     ///
     /// Which level counts as active, for each digital input
     ///
@@ -23804,6 +28999,7 @@ pub mod objects {
     /// Rfillnp.
     ///
     /// 0x2074:01, holding register 116, UNSIGNED16, rw, range 1 to 16, in ms.
+    /// Accessor: [`rfillnp`](super::VectorStep::rfillnp).
     ///
     /// Time of the digital filter of the digital inputs
     ///
@@ -23824,6 +29020,7 @@ pub mod objects {
     /// Renfinp.
     ///
     /// 0x2075:01, holding register 117, UNSIGNED16, rw.
+    /// Accessor: [`renfinp`](super::VectorStep::renfinp). Values: [`DigitalInputs`](super::types::DigitalInputs).
     ///
     /// Turns the filter on for each digital input
     ///
@@ -23842,6 +29039,7 @@ pub mod objects {
     /// Rmeminp.
     ///
     /// 0x2076:01, holding register 118, UNSIGNED16, rw.
+    /// Accessor: [`rmeminp`](super::VectorStep::rmeminp). Values: [`DigitalInputs`](super::types::DigitalInputs).
     ///
     /// Memory of the digital inputs
     ///
@@ -23858,6 +29056,7 @@ pub mod objects {
     /// Rout.
     ///
     /// 0x2077:01, holding register 119, UNSIGNED16, rw, mappable into RPDOs.
+    /// Accessor: [`rout`](super::VectorStep::rout). Values: [`DigitalOutputs`](super::types::DigitalOutputs).
     ///
     /// Switches the digital outputs, a bit each
     ///
@@ -23872,6 +29071,7 @@ pub mod objects {
     /// Rdefout.
     ///
     /// 0x2078:01, holding register 120, UNSIGNED16, rw.
+    /// Accessor: [`rdefout`](super::VectorStep::rdefout). Values: [`DigitalOutputPolarity`](super::types::DigitalOutputPolarity).
     ///
     /// Which level counts as active, for each digital output
     ///
@@ -23888,6 +29088,7 @@ pub mod objects {
     /// Rfuno0.
     ///
     /// 0x2079:01, holding register 121, UNSIGNED16, rw, range 0 to 14.
+    /// Accessor: [`rfuno0`](super::VectorStep::rfuno0). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
     /// What digital output 0 shows
     ///
@@ -23908,6 +29109,7 @@ pub mod objects {
     /// Rfuno1.
     ///
     /// 0x207A:01, holding register 122, UNSIGNED16, rw, range 0 to 14.
+    /// Accessor: [`rfuno1`](super::VectorStep::rfuno1). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
     /// What digital output 1 shows
     ///
@@ -23928,6 +29130,7 @@ pub mod objects {
     /// Rfuno2.
     ///
     /// 0x207B:01, holding register 123, UNSIGNED16, rw, range 0 to 14.
+    /// Accessor: [`rfuno2`](super::VectorStep::rfuno2). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
     /// What digital output 2 shows
     ///
@@ -23948,6 +29151,7 @@ pub mod objects {
     /// Rfuno3.
     ///
     /// 0x207C:01, holding register 124, UNSIGNED16, rw, range 0 to 14.
+    /// Accessor: [`rfuno3`](super::VectorStep::rfuno3). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
     /// What digital output 3 shows
     ///
@@ -23968,6 +29172,7 @@ pub mod objects {
     /// Rfuno4.
     ///
     /// 0x207D:01, holding register 125, UNSIGNED16, rw, range 0 to 14.
+    /// Accessor: [`rfuno4`](super::VectorStep::rfuno4). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
     /// What digital output 4 shows
     ///
@@ -23988,6 +29193,7 @@ pub mod objects {
     /// Rfuno5.
     ///
     /// 0x207E:01, holding register 126, UNSIGNED16, rw, range 0 to 14.
+    /// Accessor: [`rfuno5`](super::VectorStep::rfuno5). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
     /// What digital output 5 shows
     ///
@@ -24008,6 +29214,7 @@ pub mod objects {
     /// Rfuno6.
     ///
     /// 0x207F:01, holding register 127, UNSIGNED16, rw, range 0 to 14.
+    /// Accessor: [`rfuno6`](super::VectorStep::rfuno6). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
     /// What digital output 6 shows
     ///
@@ -24028,6 +29235,7 @@ pub mod objects {
     /// Rfuno7.
     ///
     /// 0x2080:01, holding register 128, UNSIGNED16, rw, range 0 to 14.
+    /// Accessor: [`rfuno7`](super::VectorStep::rfuno7). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
     /// What digital output 7 shows
     ///
@@ -24048,6 +29256,7 @@ pub mod objects {
     /// Rfuni0.
     ///
     /// 0x2081:01, holding register 129, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni0`](super::VectorStep::rfuni0). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 0 does
     ///
@@ -24066,6 +29275,7 @@ pub mod objects {
     /// Rfuni1.
     ///
     /// 0x2082:01, holding register 130, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni1`](super::VectorStep::rfuni1). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 1 does
     ///
@@ -24084,6 +29294,7 @@ pub mod objects {
     /// Rfuni2.
     ///
     /// 0x2083:01, holding register 131, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni2`](super::VectorStep::rfuni2). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 2 does
     ///
@@ -24102,6 +29313,7 @@ pub mod objects {
     /// Rfuni3.
     ///
     /// 0x2084:01, holding register 132, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni3`](super::VectorStep::rfuni3). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 3 does
     ///
@@ -24120,6 +29332,7 @@ pub mod objects {
     /// Rfuni4.
     ///
     /// 0x2085:01, holding register 133, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni4`](super::VectorStep::rfuni4). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 4 does
     ///
@@ -24138,6 +29351,7 @@ pub mod objects {
     /// Rfuni5.
     ///
     /// 0x2086:01, holding register 134, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni5`](super::VectorStep::rfuni5). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 5 does
     ///
@@ -24156,6 +29370,7 @@ pub mod objects {
     /// Rfuni6.
     ///
     /// 0x2087:01, holding register 135, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni6`](super::VectorStep::rfuni6). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 6 does
     ///
@@ -24174,6 +29389,7 @@ pub mod objects {
     /// Rfuni7.
     ///
     /// 0x2088:01, holding register 136, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni7`](super::VectorStep::rfuni7). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 7 does
     ///
@@ -24192,6 +29408,7 @@ pub mod objects {
     /// Rdiginplev.
     ///
     /// 0x2129:01, holding register 297, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rdiginplev`](super::VectorStep::rdiginplev). Values: [`DigitalInputLevel`](super::types::DigitalInputLevel).
     ///
     /// Which threshold the digital inputs use; the voltages are in Rtrginp24v and Rtrginp5v
     ///
@@ -24208,6 +29425,7 @@ pub mod objects {
     /// Rstpoutmaxfreq.
     ///
     /// 0x212A:01, holding register 298, UNSIGNED16, rw, range 0 to 10000, in Hz.
+    /// Accessor: [`rstpoutmaxfreq`](super::VectorStep::rstpoutmaxfreq).
     ///
     /// Highest frequency of a digital output with the step function; steps above it come out later, once the motor slows down or stands
     ///
@@ -24226,6 +29444,7 @@ pub mod objects {
     /// Rtrginp5v.
     ///
     /// 0x2132:01, holding register 306, UNSIGNED16, rw, range 0 to 1755 (0 to 17.55 V), in 0.01 V.
+    /// Accessor: [`rtrginp5v`](super::VectorStep::rtrginp5v).
     ///
     /// Threshold of the inputs where they are set to 5 V
     ///
@@ -24248,6 +29467,7 @@ pub mod objects {
     /// Rtrginp24v.
     ///
     /// 0x2133:01, holding register 307, UNSIGNED16, rw, range 0 to 1755 (0 to 17.55 V), in 0.01 V.
+    /// Accessor: [`rtrginp24v`](super::VectorStep::rtrginp24v).
     ///
     /// Threshold of the inputs where they are set to 24 V
     ///
@@ -24270,6 +29490,7 @@ pub mod objects {
     /// Routenable.
     ///
     /// 0x21AC:01, holding register 428, UNSIGNED16, rw, default 65535.
+    /// Accessor: [`routenable`](super::VectorStep::routenable). Values: [`DigitalOutputEnable`](super::types::DigitalOutputEnable).
     ///
     /// Which digital outputs are enabled
     ///
@@ -24291,6 +29512,7 @@ pub mod objects {
     /// Rfuni8.
     ///
     /// 0x21BA:01, holding register 442, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni8`](super::VectorStep::rfuni8). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 8 does
     ///
@@ -24311,6 +29533,7 @@ pub mod objects {
     /// Rfuni9.
     ///
     /// 0x21BB:01, holding register 443, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni9`](super::VectorStep::rfuni9). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 9 does
     ///
@@ -24331,6 +29554,7 @@ pub mod objects {
     /// Rfuni10.
     ///
     /// 0x21BC:01, holding register 444, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni10`](super::VectorStep::rfuni10). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 10 does
     ///
@@ -24351,6 +29575,7 @@ pub mod objects {
     /// Rfuni11.
     ///
     /// 0x21BD:01, holding register 445, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni11`](super::VectorStep::rfuni11). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 11 does
     ///
@@ -24371,6 +29596,7 @@ pub mod objects {
     /// Rfuni12.
     ///
     /// 0x21BE:01, holding register 446, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni12`](super::VectorStep::rfuni12). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 12 does
     ///
@@ -24391,6 +29617,7 @@ pub mod objects {
     /// Rfuni13.
     ///
     /// 0x21BF:01, holding register 447, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni13`](super::VectorStep::rfuni13). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 13 does
     ///
@@ -24411,6 +29638,7 @@ pub mod objects {
     /// Rfuni14.
     ///
     /// 0x21C0:01, holding register 448, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni14`](super::VectorStep::rfuni14). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 14 does
     ///
@@ -24431,6 +29659,7 @@ pub mod objects {
     /// Rfuni15.
     ///
     /// 0x21C1:01, holding register 449, UNSIGNED16, rw, range 0 to 22.
+    /// Accessor: [`rfuni15`](super::VectorStep::rfuni15). Values: [`InputFunction`](super::types::InputFunction).
     ///
     /// What digital input 15 does
     ///
@@ -24451,6 +29680,7 @@ pub mod objects {
     /// Rstepouttime.
     ///
     /// 0x47A7:01, holding register 10151, UNSIGNED16, rw, range 0 to 65535 (0 to 3276750 us), in 50 us.
+    /// Accessor: [`rstepouttime`](super::VectorStep::rstepouttime).
     ///
     /// How long the step output stays active
     ///
@@ -24473,6 +29703,7 @@ pub mod objects {
     /// Rstepoutcount.
     ///
     /// 0x47A8:01, holding registers 10152 to 10153, low word first, UNSIGNED32, rw, range 1 to 4294967295.
+    /// Accessor: [`rstepoutcount`](super::VectorStep::rstepoutcount).
     ///
     /// Number of steps to count before the step output becomes active
     ///
@@ -24495,6 +29726,7 @@ pub mod objects {
     /// Ranainp.
     ///
     /// 0x2089:01, holding register 137, INTEGER16, ro, mappable into TPDOs.
+    /// Accessor: [`ranainp`](super::VectorStep::ranainp).
     ///
     /// Value of the analogue input, 12 bits
     ///
@@ -24509,6 +29741,7 @@ pub mod objects {
     /// Rdefanainp.
     ///
     /// 0x208A:01, holding register 138, UNSIGNED16, rw, range 0 to 558.
+    /// Accessor: [`rdefanainp`](super::VectorStep::rdefanainp).
     ///
     /// What the analogue input is used for, probably the number of the register that it sets
     ///
@@ -24529,6 +29762,7 @@ pub mod objects {
     /// Rmulanainp.
     ///
     /// 0x208B:01, holding register 139, UNSIGNED16, rw, range 1 to 32767.
+    /// Accessor: [`rmulanainp`](super::VectorStep::rmulanainp).
     ///
     /// Multiplier of the analogue input
     ///
@@ -24547,6 +29781,7 @@ pub mod objects {
     /// Rdivanainp.
     ///
     /// 0x208C:01, holding register 140, UNSIGNED16, rw, range 1 to 32767.
+    /// Accessor: [`rdivanainp`](super::VectorStep::rdivanainp).
     ///
     /// Divisor of the analogue input
     ///
@@ -24565,6 +29800,7 @@ pub mod objects {
     /// Roffsanainp.
     ///
     /// 0x208D:01, holding register 141, INTEGER16, rw, range \-32768 to 32767.
+    /// Accessor: [`roffsanainp`](super::VectorStep::roffsanainp).
     ///
     /// Offset of the analogue input
     ///
@@ -24581,6 +29817,7 @@ pub mod objects {
     /// Rdeadainp.
     ///
     /// 0x208E:01, holding register 142, UNSIGNED16, rw, range 0 to 4095, in bit.
+    /// Accessor: [`rdeadainp`](super::VectorStep::rdeadainp).
     ///
     /// Dead band of the analogue input, in counts of the converter
     ///
@@ -24599,6 +29836,7 @@ pub mod objects {
     /// Ranaout.
     ///
     /// 0x208F:01, holding register 143, UNSIGNED16, rw, mappable into RPDOs, range 0 to 1023, in bit.
+    /// Accessor: [`ranaout`](super::VectorStep::ranaout).
     ///
     /// Value of the analogue output, 10 bits, in counts of the converter
     ///
@@ -24615,6 +29853,7 @@ pub mod objects {
     /// Rdefanaout.
     ///
     /// 0x2090:01, holding register 144, UNSIGNED16, rw, range 0 to 558.
+    /// Accessor: [`rdefanaout`](super::VectorStep::rdefanaout).
     ///
     /// Which parameter goes to Ranaout, probably the number of its register
     ///
@@ -24635,6 +29874,7 @@ pub mod objects {
     /// Rmulanaout.
     ///
     /// 0x2091:01, holding register 145, UNSIGNED16, rw, range 1 to 32767.
+    /// Accessor: [`rmulanaout`](super::VectorStep::rmulanaout).
     ///
     /// Multiplier of the value for the analogue output
     ///
@@ -24653,6 +29893,7 @@ pub mod objects {
     /// Rdivanaout.
     ///
     /// 0x2092:01, holding register 146, UNSIGNED16, rw, range 1 to 32767.
+    /// Accessor: [`rdivanaout`](super::VectorStep::rdivanaout).
     ///
     /// Divisor of the value for the analogue output
     ///
@@ -24671,6 +29912,7 @@ pub mod objects {
     /// Roffsananaout.
     ///
     /// 0x2093:01, holding register 147, INTEGER16, rw, range \-32768 to 32767.
+    /// Accessor: [`roffsananaout`](super::VectorStep::roffsananaout).
     ///
     /// Offset added to the value for the analogue output
     ///
@@ -24689,6 +29931,7 @@ pub mod objects {
     /// Rfloatingrollerperc.
     ///
     /// 0x2139:01, holding register 313, INTEGER16, rw, range \-100 to 100, in %.
+    /// Accessor: [`rfloatingrollerperc`](super::VectorStep::rfloatingrollerperc).
     ///
     /// Percentage of the dancer roller
     ///
@@ -24709,6 +29952,7 @@ pub mod objects {
     /// Ranainpdisable.
     ///
     /// 0x21AD:01, holding register 429, UNSIGNED16, rw.
+    /// Accessor: [`ranainpdisable`](super::VectorStep::ranainpdisable). Values: [`AnalogueInputDisable`](super::types::AnalogueInputDisable).
     ///
     /// Turns analogue inputs off, each with its bit
     ///
@@ -24725,6 +29969,7 @@ pub mod objects {
     /// Ranainp1.
     ///
     /// 0x21AE:01, holding register 430, INTEGER16, ro, mappable into TPDOs.
+    /// Accessor: [`ranainp1`](super::VectorStep::ranainp1).
     ///
     /// Value of analogue input 1, 12 bits
     ///
@@ -24741,6 +29986,7 @@ pub mod objects {
     /// Rdefanainp1.
     ///
     /// 0x21AF:01, holding register 431, UNSIGNED16, rw, range 0 to 558.
+    /// Accessor: [`rdefanainp1`](super::VectorStep::rdefanainp1).
     ///
     /// What analogue input 1 is used for, as Rdefanainp
     ///
@@ -24763,6 +30009,7 @@ pub mod objects {
     /// Rmulanainp1.
     ///
     /// 0x21B0:01, holding register 432, UNSIGNED16, rw, range 1 to 32767.
+    /// Accessor: [`rmulanainp1`](super::VectorStep::rmulanainp1).
     ///
     /// Multiplier of analogue input 1
     ///
@@ -24783,6 +30030,7 @@ pub mod objects {
     /// Rdivanainp1.
     ///
     /// 0x21B1:01, holding register 433, UNSIGNED16, rw, range 1 to 32767.
+    /// Accessor: [`rdivanainp1`](super::VectorStep::rdivanainp1).
     ///
     /// Divisor of analogue input 1
     ///
@@ -24803,6 +30051,7 @@ pub mod objects {
     /// Roffsanainp1.
     ///
     /// 0x21B2:01, holding register 434, INTEGER16, rw, range \-32768 to 32767.
+    /// Accessor: [`roffsanainp1`](super::VectorStep::roffsanainp1).
     ///
     /// Offset of analogue input 1
     ///
@@ -24821,6 +30070,7 @@ pub mod objects {
     /// Rdeadainp1.
     ///
     /// 0x21B3:01, holding register 435, UNSIGNED16, rw, range 0 to 4095, in bit.
+    /// Accessor: [`rdeadainp1`](super::VectorStep::rdeadainp1).
     ///
     /// Dead band of analogue input 1, in counts of the converter
     ///
@@ -24841,6 +30091,7 @@ pub mod objects {
     /// Ranainp2.
     ///
     /// 0x21B4:01, holding register 436, INTEGER16, ro, mappable into TPDOs.
+    /// Accessor: [`ranainp2`](super::VectorStep::ranainp2).
     ///
     /// Value of analogue input 2, 12 bits
     ///
@@ -24857,6 +30108,7 @@ pub mod objects {
     /// Rdefanainp2.
     ///
     /// 0x21B5:01, holding register 437, UNSIGNED16, rw, range 0 to 558.
+    /// Accessor: [`rdefanainp2`](super::VectorStep::rdefanainp2).
     ///
     /// What analogue input 2 is used for, as Rdefanainp
     ///
@@ -24879,6 +30131,7 @@ pub mod objects {
     /// Rmulanainp2.
     ///
     /// 0x21B6:01, holding register 438, UNSIGNED16, rw, range 1 to 32767.
+    /// Accessor: [`rmulanainp2`](super::VectorStep::rmulanainp2).
     ///
     /// Multiplier of analogue input 2
     ///
@@ -24899,6 +30152,7 @@ pub mod objects {
     /// Rdivanainp2.
     ///
     /// 0x21B7:01, holding register 439, UNSIGNED16, rw, range 1 to 32767.
+    /// Accessor: [`rdivanainp2`](super::VectorStep::rdivanainp2).
     ///
     /// Divisor of analogue input 2
     ///
@@ -24919,6 +30173,7 @@ pub mod objects {
     /// Roffsnainp2.
     ///
     /// 0x21B8:01, holding register 440, INTEGER16, rw, range \-32768 to 32767.
+    /// Accessor: [`roffsnainp2`](super::VectorStep::roffsnainp2).
     ///
     /// Offset of analogue input 2
     ///
@@ -24939,6 +30194,7 @@ pub mod objects {
     /// Rdeadainp2.
     ///
     /// 0x21B9:01, holding register 441, UNSIGNED16, rw, range 0 to 4095, in bit.
+    /// Accessor: [`rdeadainp2`](super::VectorStep::rdeadainp2).
     ///
     /// Dead band of analogue input 2, in counts of the converter
     ///
@@ -24961,6 +30217,7 @@ pub mod objects {
     /// Rencalignsteps.
     ///
     /// 0x2241:01, holding register 577, UNSIGNED16, rw, default 4, in step.
+    /// Accessor: [`rencalignsteps`](super::VectorStep::rencalignsteps).
     ///
     /// Number of steps made while the encoder is aligned
     ///
@@ -24980,6 +30237,7 @@ pub mod objects {
     /// Rencmotfbk.
     ///
     /// 0x471A:01, holding register 10010, UNSIGNED16, rw, default 0.
+    /// Accessor: [`rencmotfbk`](super::VectorStep::rencmotfbk). Values: [`FeedbackEncoder`](super::types::FeedbackEncoder).
     ///
     /// Which encoder closes the loop of the motor
     ///
@@ -24999,6 +30257,7 @@ pub mod objects {
     /// Rencnewperiod.
     ///
     /// 0x473B:01, holding register 10043, UNSIGNED16, rw.
+    /// Accessor: [`rencnewperiod`](super::VectorStep::rencnewperiod). Values: [`EncoderPeriods`](super::types::EncoderPeriods).
     ///
     /// Tells for each encoder that a new period of its pulses was read; was register 165 before
     ///
@@ -25013,6 +30272,7 @@ pub mod objects {
     /// Rmotcode.
     ///
     /// 0x479A:01, holding registers 10138 to 10139, low word first, UNSIGNED32, rw.
+    /// Accessor: [`rmotcode`](super::VectorStep::rmotcode).
     ///
     /// Code of the motor that the drive is set to
     ///
@@ -25031,10 +30291,11 @@ pub mod objects {
     /// Rmotenc.
     ///
     /// 0x2097:01, holding registers 151 to 152, low word first, INTEGER32, rw, mappable into TPDOs, in count.
+    /// Accessor: [`rmotenc`](super::VectorStep::rmotenc).
     ///
     /// Position of the motor's encoder
     ///
-    /// Before firmware 6. Replaced by Renc1pos.
+    /// Before firmware 6. Replaced by [Renc1pos](RENC1POS).
     ///
     /// Chapter Encoder 1. Manual, line 2503: Registro quota encoder motore.
     ///
@@ -25051,10 +30312,11 @@ pub mod objects {
     /// Rmotencper.
     ///
     /// 0x20A3:01, holding register 163, UNSIGNED16, rw.
+    /// Accessor: [`rmotencper`](super::VectorStep::rmotencper).
     ///
     /// Period measured between pulses of the motor's encoder
     ///
-    /// Before firmware 6. Replaced by Renc1period.
+    /// Before firmware 6. Replaced by [Renc1period](RENC1PERIOD).
     ///
     /// Chapter Encoder 1. Manual, line 2504: Periodo letto dagli impulsi encoder motore.
     pub const RMOTENCPER: ReadWrite<u16> = ReadWriteU16::register(
@@ -25067,12 +30329,13 @@ pub mod objects {
     /// Rmotencpuls.
     ///
     /// 0x210D:01, holding register 269, UNSIGNED16, rw, range 1 to 32767, in count.
+    /// Accessor: [`rmotencpuls`](super::VectorStep::rmotencpuls).
     ///
     /// Pulses per revolution of the motor's encoder
     ///
     /// Kept over power-off once 129 was given.
     ///
-    /// Before firmware 6. Replaced by Renc1pulse.
+    /// Before firmware 6. Replaced by [Renc1pulse](RENC1PULSE).
     ///
     /// Chapter Encoder 1. Manual, line 2505: Impulsi giro encoder motore.
     pub const RMOTENCPULS: ReadWrite<u16> = ReadWriteU16::register_within(
@@ -25087,6 +30350,7 @@ pub mod objects {
     /// Renc1pos.
     ///
     /// 0x471F:01, holding registers 10015 to 10016, low word first, INTEGER32, rw, mappable into any PDO, in count.
+    /// Accessor: [`renc1pos`](super::VectorStep::renc1pos).
     ///
     /// Position of encoder 1
     ///
@@ -25103,6 +30367,7 @@ pub mod objects {
     /// Renc1pulse.
     ///
     /// 0x4729:01, holding register 10025, UNSIGNED16, rw, in count.
+    /// Accessor: [`renc1pulse`](super::VectorStep::renc1pulse).
     ///
     /// Pulses per revolution of encoder 1
     ///
@@ -25121,6 +30386,7 @@ pub mod objects {
     /// Renc1period.
     ///
     /// 0x4738:01, holding register 10040, UNSIGNED16, ro.
+    /// Accessor: [`renc1period`](super::VectorStep::renc1period).
     ///
     /// Period measured between pulses of encoder 1
     ///
@@ -25135,6 +30401,7 @@ pub mod objects {
     /// Renc1vel.
     ///
     /// 0x473C:01, holding register 10044, INTEGER16, ro.
+    /// Accessor: [`renc1vel`](super::VectorStep::renc1vel).
     ///
     /// Present speed of encoder 1
     ///
@@ -25149,6 +30416,7 @@ pub mod objects {
     /// Renc1sample.
     ///
     /// 0x473D:01, holding register 10045, UNSIGNED16, rw, in ms.
+    /// Accessor: [`renc1sample`](super::VectorStep::renc1sample).
     ///
     /// Sampling time of encoder 1
     ///
@@ -25167,6 +30435,7 @@ pub mod objects {
     /// Renc1velmul.
     ///
     /// 0x473E:01, holding register 10046, UNSIGNED16, rw.
+    /// Accessor: [`renc1velmul`](super::VectorStep::renc1velmul).
     ///
     /// Multiplier of the speed of encoder 1
     ///
@@ -25183,6 +30452,7 @@ pub mod objects {
     /// Renc1veldiv.
     ///
     /// 0x473F:01, holding register 10047, UNSIGNED16, rw.
+    /// Accessor: [`renc1veldiv`](super::VectorStep::renc1veldiv).
     ///
     /// Divisor of the speed of encoder 1
     ///
@@ -25199,6 +30469,7 @@ pub mod objects {
     /// Renc1topcnt.
     ///
     /// 0x4740:01, holding registers 10048 to 10049, low word first, UNSIGNED32, rw.
+    /// Accessor: [`renc1topcnt`](super::VectorStep::renc1topcnt).
     ///
     /// Number of pulses that came on the index input of encoder 1
     ///
@@ -25213,6 +30484,7 @@ pub mod objects {
     /// Renc1topvel.
     ///
     /// 0x4742:01, holding register 10050, UNSIGNED16, ro.
+    /// Accessor: [`renc1topvel`](super::VectorStep::renc1topvel).
     ///
     /// Speed measured on the index input of encoder 1
     ///
@@ -25227,6 +30499,7 @@ pub mod objects {
     /// Renc1topsample.
     ///
     /// 0x4743:01, holding register 10051, UNSIGNED16, rw, in ms.
+    /// Accessor: [`renc1topsample`](super::VectorStep::renc1topsample).
     ///
     /// Sampling time of the index input of encoder 1
     ///
@@ -25245,6 +30518,7 @@ pub mod objects {
     /// Renc1topvelmul.
     ///
     /// 0x4744:01, holding register 10052, UNSIGNED16, rw.
+    /// Accessor: [`renc1topvelmul`](super::VectorStep::renc1topvelmul).
     ///
     /// Multiplier of the speed on the index input of encoder 1
     ///
@@ -25261,6 +30535,7 @@ pub mod objects {
     /// Renc1topveldiv.
     ///
     /// 0x4745:01, holding register 10053, UNSIGNED16, rw.
+    /// Accessor: [`renc1topveldiv`](super::VectorStep::renc1topveldiv).
     ///
     /// Divisor of the speed on the index input of encoder 1
     ///
@@ -25277,6 +30552,7 @@ pub mod objects {
     /// Renc1code.
     ///
     /// 0x475A:01, holding register 10074, UNSIGNED16, rw.
+    /// Accessor: [`renc1code`](super::VectorStep::renc1code). Values: [`EncoderModel`](super::types::EncoderModel).
     ///
     /// Model of encoder 1
     ///
@@ -25293,10 +30569,11 @@ pub mod objects {
     /// Rextencvel.
     ///
     /// 0x2033:01, holding register 51, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`rextencvel`](super::VectorStep::rextencvel).
     ///
     /// Present speed of the external encoder; bit 13 of Rstsflg1 tells that it was updated
     ///
-    /// Before firmware 6. Replaced by Renc2vel.
+    /// Before firmware 6. Replaced by [Renc2vel](RENC2VEL).
     ///
     /// Chapter Encoder 2. Manual, line 2525: Velocita' attuale encoder esterno.
     ///
@@ -25311,12 +30588,13 @@ pub mod objects {
     /// Rextencsmp.
     ///
     /// 0x2034:01, holding register 52, UNSIGNED16, rw, mappable into RPDOs, range 0 to 10000, in ms.
+    /// Accessor: [`rextencsmp`](super::VectorStep::rextencsmp).
     ///
     /// Sampling time of the external encoder, and of its index input
     ///
     /// Kept over power-off once 129 was given.
     ///
-    /// Before firmware 6. Replaced by Renc2sample.
+    /// Before firmware 6. Replaced by [Renc2sample](RENC2SAMPLE).
     ///
     /// Chapter Encoder 2. Manual, line 2526: Tempo di campionamento encoder esterno.
     ///
@@ -25333,12 +30611,13 @@ pub mod objects {
     /// Rextencvelmul.
     ///
     /// 0x2035:01, holding register 53, UNSIGNED16, rw, mappable into RPDOs, range 0 to 32767.
+    /// Accessor: [`rextencvelmul`](super::VectorStep::rextencvelmul).
     ///
     /// Multiplier of the speed of the external encoder
     ///
     /// Kept over power-off once 129 was given.
     ///
-    /// Before firmware 6. Replaced by Renc2velmul.
+    /// Before firmware 6. Replaced by [Renc2velmul](RENC2VELMUL).
     ///
     /// Chapter Encoder 2. Manual, line 2527: Moltiplicatore velocita' encoder esterno.
     pub const REXTENCVELMUL: ReadWrite<u16> = ReadWriteU16::register_within(
@@ -25353,12 +30632,13 @@ pub mod objects {
     /// Rextencveldiv.
     ///
     /// 0x2036:01, holding register 54, UNSIGNED16, rw, mappable into RPDOs, range 1 to 32767.
+    /// Accessor: [`rextencveldiv`](super::VectorStep::rextencveldiv).
     ///
     /// Divisor of the speed of the external encoder
     ///
     /// Kept over power-off once 129 was given.
     ///
-    /// Before firmware 6. Replaced by Renc2veldiv.
+    /// Before firmware 6. Replaced by [Renc2veldiv](RENC2VELDIV).
     ///
     /// Chapter Encoder 2. Manual, line 2528: Divisore velocita' encoder esterno.
     pub const REXTENCVELDIV: ReadWrite<u16> = ReadWriteU16::register_within(
@@ -25373,10 +30653,11 @@ pub mod objects {
     /// Rextencotovel.
     ///
     /// 0x2059:01, holding register 89, UNSIGNED16, rw.
+    /// Accessor: [`rextencotovel`](super::VectorStep::rextencotovel).
     ///
     /// Speed measured on the external encoder's index input, with the sampling time of Rextencsmp
     ///
-    /// Before firmware 6. Replaced by Renc2topvel.
+    /// Before firmware 6. Replaced by [Renc2topvel](RENC2TOPVEL).
     ///
     /// Chapter Encoder 2. Manual, line 2529: Velocita' da ingresso TOP encoder esterno.
     ///
@@ -25391,10 +30672,11 @@ pub mod objects {
     /// Rextencotovelmul.
     ///
     /// 0x205A:01, holding register 90, UNSIGNED16, rw.
+    /// Accessor: [`rextencotovelmul`](super::VectorStep::rextencotovelmul).
     ///
     /// Multiplier of the speed on the external encoder's index input
     ///
-    /// Before firmware 6. Replaced by Renc2topvelmul.
+    /// Before firmware 6. Replaced by [Renc2topvelmul](RENC2TOPVELMUL).
     ///
     /// Chapter Encoder 2. Manual, line 2530: Moltiplicatore velocita' da TOP encoder esterno.
     pub const REXTENCOTOVELMUL: ReadWrite<u16> = ReadWriteU16::register(
@@ -25407,10 +30689,11 @@ pub mod objects {
     /// Rextencotoveldiv.
     ///
     /// 0x205B:01, holding register 91, UNSIGNED16, rw.
+    /// Accessor: [`rextencotoveldiv`](super::VectorStep::rextencotoveldiv).
     ///
     /// Divisor of the speed on the external encoder's index input
     ///
-    /// Before firmware 6. Replaced by Renc2topveldiv.
+    /// Before firmware 6. Replaced by [Renc2topveldiv](RENC2TOPVELDIV).
     ///
     /// Chapter Encoder 2. Manual, line 2531: Divisore velocita' da TOP encoder esterno.
     pub const REXTENCOTOVELDIV: ReadWrite<u16> = ReadWriteU16::register(
@@ -25423,10 +30706,11 @@ pub mod objects {
     /// Rextencotopcncnt.
     ///
     /// 0x205C:01, holding registers 92 to 93, low word first, UNSIGNED32, rw.
+    /// Accessor: [`rextencotopcncnt`](super::VectorStep::rextencotopcncnt).
     ///
     /// Number of pulses that came on the external encoder's index input
     ///
-    /// Before firmware 6. Replaced by Renc2topcnt.
+    /// Before firmware 6. Replaced by [Renc2topcnt](RENC2TOPCNT).
     ///
     /// Chapter Encoder 2. Manual, line 2532: Contatore impulsi su TOP encoder esterno.
     ///
@@ -25443,12 +30727,13 @@ pub mod objects {
     /// Rextencmode.
     ///
     /// 0x2065:01, holding register 101, UNSIGNED16, rw, range 0 to 3.
+    /// Accessor: [`rextencmode`](super::VectorStep::rextencmode). Values: [`EncoderMode`](super::types::EncoderMode).
     ///
     /// How the external encoder counts
     ///
     /// Kept over power-off once 129 was given.
     ///
-    /// Before firmware 6. Replaced by Renc2mode.
+    /// Before firmware 6. Replaced by [Renc2mode](RENC2MODE).
     ///
     /// Chapter Encoder 2. Manual, line 2533: Modo funzionamento encoder esterno.
     pub const REXTENCMODE: ReadWrite<super::types::EncoderMode> = ReadWriteNamedEncoderMode::register_within(
@@ -25463,10 +30748,11 @@ pub mod objects {
     /// Rextenc.
     ///
     /// 0x2099:01, holding registers 153 to 154, low word first, INTEGER32, rw, mappable into TPDOs, in count.
+    /// Accessor: [`rextenc`](super::VectorStep::rextenc).
     ///
     /// Position of the external encoder
     ///
-    /// Before firmware 6. Replaced by Renc2pos.
+    /// Before firmware 6. Replaced by [Renc2pos](RENC2POS).
     ///
     /// Chapter Encoder 2. Manual, line 2534: Registro quota encoder esterno.
     pub const REXTENC: ReadWrite<i32> = ReadWriteI32::register_within(
@@ -25481,10 +30767,11 @@ pub mod objects {
     /// Rextencper.
     ///
     /// 0x20A4:01, holding register 164, UNSIGNED16, rw.
+    /// Accessor: [`rextencper`](super::VectorStep::rextencper).
     ///
     /// Period measured between pulses of the external encoder
     ///
-    /// Before firmware 6. Replaced by Renc2period.
+    /// Before firmware 6. Replaced by [Renc2period](RENC2PERIOD).
     ///
     /// Chapter Encoder 2. Manual, line 2535: Periodo letto dagli impulsi encoder esterno.
     ///
@@ -25499,10 +30786,11 @@ pub mod objects {
     /// Rnewencper.
     ///
     /// 0x20A5:01, holding register 165, UNSIGNED16, rw.
+    /// Accessor: [`rnewencper`](super::VectorStep::rnewencper). Values: [`OldEncoderPeriods`](super::types::OldEncoderPeriods).
     ///
     /// Tells for each encoder that a new period of its pulses was read
     ///
-    /// Before firmware 6. Replaced by Rencnewperiod.
+    /// Before firmware 6. Replaced by [Rencnewperiod](RENCNEWPERIOD).
     ///
     /// Chapter Encoder 2. Manual, line 2536: Segnalazione lettura nuovo periodo impulsi encoder.
     pub const RNEWENCPER: ReadWrite<super::types::OldEncoderPeriods> = ReadWriteNamedOldEncoderPeriods::register(
@@ -25515,12 +30803,13 @@ pub mod objects {
     /// Rextencpuls.
     ///
     /// 0x210C:01, holding register 268, UNSIGNED16, rw, range 0 to 32767, in count.
+    /// Accessor: [`rextencpuls`](super::VectorStep::rextencpuls).
     ///
     /// Pulses per revolution of the external encoder
     ///
     /// Kept over power-off once 129 was given.
     ///
-    /// Before firmware 6. Replaced by Renc2pulse.
+    /// Before firmware 6. Replaced by [Renc2pulse](RENC2PULSE).
     ///
     /// Chapter Encoder 2. Manual, line 2537: Impulsi giro encoder esterno.
     pub const REXTENCPULS: ReadWrite<u16> = ReadWriteU16::register_within(
@@ -25535,6 +30824,7 @@ pub mod objects {
     /// Renc2pos.
     ///
     /// 0x4721:01, holding registers 10017 to 10018, low word first, INTEGER32, rw, mappable into any PDO, in count.
+    /// Accessor: [`renc2pos`](super::VectorStep::renc2pos).
     ///
     /// Position of encoder 2
     ///
@@ -25551,6 +30841,7 @@ pub mod objects {
     /// Renc2pulse.
     ///
     /// 0x472A:01, holding register 10026, UNSIGNED16, rw, default 512, in count.
+    /// Accessor: [`renc2pulse`](super::VectorStep::renc2pulse).
     ///
     /// Pulses per revolution of encoder 2
     ///
@@ -25570,6 +30861,7 @@ pub mod objects {
     /// Renc2period.
     ///
     /// 0x4739:01, holding register 10041, UNSIGNED16, ro.
+    /// Accessor: [`renc2period`](super::VectorStep::renc2period).
     ///
     /// Period measured between pulses of encoder 2
     ///
@@ -25584,6 +30876,7 @@ pub mod objects {
     /// Renc2vel.
     ///
     /// 0x4746:01, holding register 10054, INTEGER16, ro.
+    /// Accessor: [`renc2vel`](super::VectorStep::renc2vel).
     ///
     /// Present speed of encoder 2
     ///
@@ -25598,6 +30891,7 @@ pub mod objects {
     /// Renc2sample.
     ///
     /// 0x4747:01, holding register 10055, UNSIGNED16, rw, in ms.
+    /// Accessor: [`renc2sample`](super::VectorStep::renc2sample).
     ///
     /// Sampling time of encoder 2
     ///
@@ -25616,6 +30910,7 @@ pub mod objects {
     /// Renc2velmul.
     ///
     /// 0x4748:01, holding register 10056, UNSIGNED16, rw.
+    /// Accessor: [`renc2velmul`](super::VectorStep::renc2velmul).
     ///
     /// Multiplier of the speed of encoder 2
     ///
@@ -25632,6 +30927,7 @@ pub mod objects {
     /// Renc2veldiv.
     ///
     /// 0x4749:01, holding register 10057, UNSIGNED16, rw.
+    /// Accessor: [`renc2veldiv`](super::VectorStep::renc2veldiv).
     ///
     /// Divisor of the speed of encoder 2
     ///
@@ -25648,6 +30944,7 @@ pub mod objects {
     /// Renc2topcnt.
     ///
     /// 0x474A:01, holding registers 10058 to 10059, low word first, UNSIGNED32, rw.
+    /// Accessor: [`renc2topcnt`](super::VectorStep::renc2topcnt).
     ///
     /// Number of pulses that came on the index input of encoder 2
     ///
@@ -25662,6 +30959,7 @@ pub mod objects {
     /// Renc2topvel.
     ///
     /// 0x474C:01, holding register 10060, UNSIGNED16, ro.
+    /// Accessor: [`renc2topvel`](super::VectorStep::renc2topvel).
     ///
     /// Speed measured on the index input of encoder 2
     ///
@@ -25676,6 +30974,7 @@ pub mod objects {
     /// Renc2topsample.
     ///
     /// 0x474D:01, holding register 10061, UNSIGNED16, rw, in ms.
+    /// Accessor: [`renc2topsample`](super::VectorStep::renc2topsample).
     ///
     /// Sampling time of the index input of encoder 2
     ///
@@ -25696,6 +30995,7 @@ pub mod objects {
     /// Renc2topvelmul.
     ///
     /// 0x474E:01, holding register 10062, UNSIGNED16, rw.
+    /// Accessor: [`renc2topvelmul`](super::VectorStep::renc2topvelmul).
     ///
     /// Multiplier of the speed on the index input of encoder 2
     ///
@@ -25712,6 +31012,7 @@ pub mod objects {
     /// Renc2topveldiv.
     ///
     /// 0x474F:01, holding register 10063, UNSIGNED16, rw.
+    /// Accessor: [`renc2topveldiv`](super::VectorStep::renc2topveldiv).
     ///
     /// Divisor of the speed on the index input of encoder 2
     ///
@@ -25728,6 +31029,7 @@ pub mod objects {
     /// Renc2code.
     ///
     /// 0x475B:01, holding register 10075, UNSIGNED16, rw.
+    /// Accessor: [`renc2code`](super::VectorStep::renc2code). Values: [`EncoderModel`](super::types::EncoderModel).
     ///
     /// Model of encoder 2
     ///
@@ -25744,6 +31046,7 @@ pub mod objects {
     /// Renc3code.
     ///
     /// 0x475C:01, holding register 10076, UNSIGNED16, rw.
+    /// Accessor: [`renc3code`](super::VectorStep::renc3code). Values: [`EncoderModel`](super::types::EncoderModel).
     ///
     /// Model of encoder 3
     ///
@@ -25762,12 +31065,13 @@ pub mod objects {
     /// Rssiencframelen.
     ///
     /// 0x202C:01, holding register 44, UNSIGNED16, rw, default 25, range 1 to 32, in bit.
+    /// Accessor: [`rssiencframelen`](super::VectorStep::rssiencframelen).
     ///
     /// Length of the frame of the SSI encoder
     ///
     /// Kept over power-off once 129 was given.
     ///
-    /// Before firmware 6. Replaced by Rencabsframembit.
+    /// Before firmware 6. Replaced by [Rencabsframembit](RENCABSFRAMEMBIT).
     ///
     /// Chapter Absolute encoder. Manual, line 2562: Lunghezza trama encoder assoluto SSI.
     pub const RSSIENCFRAMELEN: ReadWrite<u16> = ReadWriteU16::new(
@@ -25781,12 +31085,13 @@ pub mod objects {
     /// Rssiencturnbit.
     ///
     /// 0x205E:01, holding register 94, UNSIGNED16, rw, range 0 to 16, in bit.
+    /// Accessor: [`rssiencturnbit`](super::VectorStep::rssiencturnbit).
     ///
     /// How many bits of the frame count turns
     ///
     /// Kept over power-off once 129 was given.
     ///
-    /// Before firmware 6. Replaced by Rencabsturnsbit.
+    /// Before firmware 6. Replaced by [Rencabsturnsbit](RENCABSTURNSBIT).
     ///
     /// Chapter Absolute encoder. Manual, line 2563: Bit nel frame per conteggio giri encoder.
     pub const RSSIENCTURNBIT: ReadWrite<u16> = ReadWriteU16::register_within(
@@ -25801,12 +31106,13 @@ pub mod objects {
     /// Rssienccountsbit.
     ///
     /// 0x205F:01, holding register 95, UNSIGNED16, rw, range 0 to 16, in bit.
+    /// Accessor: [`rssienccountsbit`](super::VectorStep::rssienccountsbit).
     ///
     /// How many bits of the frame are the position within the turn
     ///
     /// Kept over power-off once 129 was given.
     ///
-    /// Before firmware 6. Replaced by Rencabsposbit.
+    /// Before firmware 6. Replaced by [Rencabsposbit](RENCABSPOSBIT).
     ///
     /// Chapter Absolute encoder. Manual, line 2564: Bit nel frame per posizione sul giro.
     pub const RSSIENCCOUNTSBIT: ReadWrite<u16> = ReadWriteU16::register_within(
@@ -25821,10 +31127,11 @@ pub mod objects {
     /// Rssienccounts.
     ///
     /// 0x2060:01, holding register 96, UNSIGNED16, ro, mappable into TPDOs, range 0 to 32767.
+    /// Accessor: [`rssienccounts`](super::VectorStep::rssienccounts).
     ///
     /// Position of the SSI encoder within the turn; bits 6 and 7 of Rhwconfig preset and complement it
     ///
-    /// Before firmware 6. Replaced by Rencabspos.
+    /// Before firmware 6. Replaced by [Rencabspos](RENCABSPOS).
     ///
     /// Chapter Absolute encoder. Manual, line 2565: Conteggio posizione sul giro encoder SSI.
     pub const RSSIENCCOUNTS: ReadOnly<u16> = ReadOnlyU16::register_within(
@@ -25839,10 +31146,11 @@ pub mod objects {
     /// Rssiencturns.
     ///
     /// 0x2061:01, holding register 97, INTEGER16, ro, mappable into TPDOs, range \-32768 to 32767.
+    /// Accessor: [`rssiencturns`](super::VectorStep::rssiencturns).
     ///
     /// Turns of the SSI encoder; bits 6 and 7 of Rhwconfig preset and complement them
     ///
-    /// Before firmware 6. Replaced by Rencabsturns.
+    /// Before firmware 6. Replaced by [Rencabsturns](RENCABSTURNS).
     ///
     /// Chapter Absolute encoder. Manual, line 2566: Conteggio giri encoder assoluto SSI.
     ///
@@ -25857,6 +31165,7 @@ pub mod objects {
     /// Rencabsquote.
     ///
     /// 0x4725:01, holding registers 10021 to 10022, low word first, INTEGER32, rw, mappable into any PDO, in count.
+    /// Accessor: [`rencabsquote`](super::VectorStep::rencabsquote).
     ///
     /// Position of the absolute encoder
     ///
@@ -25873,6 +31182,7 @@ pub mod objects {
     /// Rencabspos.
     ///
     /// 0x4727:01, holding register 10023, UNSIGNED16, rw, mappable into any PDO, in count.
+    /// Accessor: [`rencabspos`](super::VectorStep::rencabspos).
     ///
     /// Position of the absolute encoder within the turn
     ///
@@ -25889,6 +31199,7 @@ pub mod objects {
     /// Rencabsturns.
     ///
     /// 0x4728:01, holding register 10024, INTEGER16, rw, mappable into any PDO, in rev.
+    /// Accessor: [`rencabsturns`](super::VectorStep::rencabsturns).
     ///
     /// Turns of the absolute encoder
     ///
@@ -25905,6 +31216,7 @@ pub mod objects {
     /// Rencabsframembit.
     ///
     /// 0x472C:01, holding register 10028, UNSIGNED16, rw, default 25, in bit.
+    /// Accessor: [`rencabsframembit`](super::VectorStep::rencabsframembit).
     ///
     /// Length of the absolute encoder's frame
     ///
@@ -25926,6 +31238,7 @@ pub mod objects {
     /// Rencabsposbit.
     ///
     /// 0x472D:01, holding register 10029, UNSIGNED16, rw, default 12, in bit.
+    /// Accessor: [`rencabsposbit`](super::VectorStep::rencabsposbit).
     ///
     /// How many bits of the frame are the position within the turn
     ///
@@ -25945,6 +31258,7 @@ pub mod objects {
     /// Rencabsturnsbit.
     ///
     /// 0x472E:01, holding register 10030, UNSIGNED16, rw, default 13, in bit.
+    /// Accessor: [`rencabsturnsbit`](super::VectorStep::rencabsturnsbit).
     ///
     /// How many bits of the frame count turns
     ///
@@ -25964,6 +31278,7 @@ pub mod objects {
     /// Renc1mode.
     ///
     /// 0x472F:01, holding register 10031, UNSIGNED16, rw.
+    /// Accessor: [`renc1mode`](super::VectorStep::renc1mode). Values: [`EncoderMode`](super::types::EncoderMode).
     ///
     /// How encoder 1 counts; bits 1 and 5 of Rhwconfig moved here
     ///
@@ -25984,6 +31299,7 @@ pub mod objects {
     /// Renc2mode.
     ///
     /// 0x4730:01, holding register 10032, UNSIGNED16, rw.
+    /// Accessor: [`renc2mode`](super::VectorStep::renc2mode). Values: [`EncoderMode`](super::types::EncoderMode).
     ///
     /// How encoder 2 counts
     ///
@@ -26002,6 +31318,7 @@ pub mod objects {
     /// Rencabsmode.
     ///
     /// 0x4732:01, holding register 10034, UNSIGNED16, rw.
+    /// Accessor: [`rencabsmode`](super::VectorStep::rencabsmode). Values: [`AbsoluteEncoderMode`](super::types::AbsoluteEncoderMode).
     ///
     /// How the absolute encoder is read; bits 7 to 10 of Rhwconfig moved here
     ///
@@ -26024,6 +31341,7 @@ pub mod objects {
     /// Rencabsctrl.
     ///
     /// 0x4733:01, holding register 10035, UNSIGNED16, rw.
+    /// Accessor: [`rencabsctrl`](super::VectorStep::rencabsctrl). Values: [`AbsoluteEncoderControl`](super::types::AbsoluteEncoderControl).
     ///
     /// Commands to the absolute encoder
     ///
@@ -26040,6 +31358,7 @@ pub mod objects {
     /// Rencabsbrate.
     ///
     /// 0x4735:01, holding register 10037, UNSIGNED16, rw, range 4 to 128, stands for 25000000 / raw Hz.
+    /// Accessor: [`rencabsbrate`](super::VectorStep::rencabsbrate).
     ///
     /// Clock with which the absolute encoder is read: 25 MHz divided by the value
     ///
@@ -26058,6 +31377,7 @@ pub mod objects {
     /// Rencabsframepause.
     ///
     /// 0x4736:01, holding register 10038, UNSIGNED16, rw, range 0 to 20000, in us.
+    /// Accessor: [`rencabsframepause`](super::VectorStep::rencabsframepause).
     ///
     /// Pause between two frames of the absolute encoder
     ///
@@ -26076,6 +31396,7 @@ pub mod objects {
     /// Rencabsprebit.
     ///
     /// 0x4737:01, holding register 10039, UNSIGNED16, rw.
+    /// Accessor: [`rencabsprebit`](super::VectorStep::rencabsprebit).
     ///
     /// Number of bits at the head of the absolute encoder's frame, which are ignored
     ///
@@ -26094,6 +31415,7 @@ pub mod objects {
     /// Rencabscode.
     ///
     /// 0x475D:01, holding register 10077, UNSIGNED16, rw.
+    /// Accessor: [`rencabscode`](super::VectorStep::rencabscode). Values: [`AbsoluteEncoderModel`](super::types::AbsoluteEncoderModel).
     ///
     /// Model of the absolute encoder
     ///
@@ -26110,6 +31432,7 @@ pub mod objects {
     /// Rencabspulse.
     ///
     /// 0x475E:01, holding register 10078, UNSIGNED16, rw.
+    /// Accessor: [`rencabspulse`](super::VectorStep::rencabspulse).
     ///
     /// Pulses per revolution of the absolute encoder
     ///
@@ -26126,6 +31449,7 @@ pub mod objects {
     /// Rthetainit.
     ///
     /// 0x4792:01, holding registers 10130 to 10131, low word first, INTEGER32, rw.
+    /// Accessor: [`rthetainit`](super::VectorStep::rthetainit).
     ///
     /// Angle that was taken from the resolver while aligning
     ///
@@ -26144,6 +31468,7 @@ pub mod objects {
     /// Rthetaack.
     ///
     /// 0x4794:01, holding register 10132, UNSIGNED16, rw.
+    /// Accessor: [`rthetaack`](super::VectorStep::rthetaack).
     ///
     /// Tells that the angle was taken from the resolver
     ///
@@ -26164,6 +31489,7 @@ pub mod objects {
     /// Rrslvact.
     ///
     /// 0x4795:01, holding register 10133, UNSIGNED16, ro.
+    /// Accessor: [`rrslvact`](super::VectorStep::rrslvact).
     ///
     /// Present value of the resolver
     ///
@@ -26180,6 +31506,7 @@ pub mod objects {
     /// Rrslvoffsetsin.
     ///
     /// 0x4796:01, holding registers 10134 to 10135, low word first, INTEGER32, rw.
+    /// Accessor: [`rrslvoffsetsin`](super::VectorStep::rrslvoffsetsin).
     ///
     /// Correction of the offset of the resolver's sine
     ///
@@ -26198,6 +31525,7 @@ pub mod objects {
     /// Rrslvoffsetcos.
     ///
     /// 0x4798:01, holding registers 10136 to 10137, low word first, INTEGER32, rw.
+    /// Accessor: [`rrslvoffsetcos`](super::VectorStep::rrslvoffsetcos).
     ///
     /// Correction of the offset of the resolver's cosine
     ///
@@ -26216,6 +31544,7 @@ pub mod objects {
     /// Rrslvcorr.
     ///
     /// 0x47D1:01, holding register 10193, INTEGER16, rw.
+    /// Accessor: [`rrslvcorr`](super::VectorStep::rrslvcorr).
     ///
     /// Correction of the resolver
     ///
@@ -26234,6 +31563,7 @@ pub mod objects {
     /// Rrslvrawangleout.
     ///
     /// 0x47D2:01, holding registers 10194 to 10195, low word first, INTEGER32, ro.
+    /// Accessor: [`rrslvrawangleout`](super::VectorStep::rrslvrawangleout).
     ///
     /// Angle of the resolver before correction
     ///
@@ -26252,6 +31582,7 @@ pub mod objects {
     /// Rrslvsinfirot.
     ///
     /// 0x47D4:01, holding registers 10196 to 10197, low word first, INTEGER32, ro.
+    /// Accessor: [`rrslvsinfirot`](super::VectorStep::rrslvsinfirot).
     ///
     /// Sine of the resolver after the FIR filter
     ///
@@ -26270,6 +31601,7 @@ pub mod objects {
     /// Rrslvcosfirot.
     ///
     /// 0x47D6:01, holding registers 10198 to 10199, low word first, INTEGER32, ro.
+    /// Accessor: [`rrslvcosfirot`](super::VectorStep::rrslvcosfirot).
     ///
     /// Cosine of the resolver after the FIR filter
     ///
@@ -26288,6 +31620,7 @@ pub mod objects {
     /// Rloadsav.
     ///
     /// 0x20C2:01, holding register 194, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rloadsav`](super::VectorStep::rloadsav). Values: [`EepromCommand`](super::types::EepromCommand).
     ///
     /// Command to the EEPROM, and to the communication chip; goes back to 0 once it was carried out
     ///
@@ -26312,6 +31645,7 @@ pub mod objects {
     /// Rmemvar.
     ///
     /// 0x20C3:01, holding register 195, UNSIGNED16, rw.
+    /// Accessor: [`rmemvar`](super::VectorStep::rmemvar). Values: [`VariableCommand`](super::types::VariableCommand).
     ///
     /// Loads one variable from the EEPROM, or saves it there
     ///
@@ -26332,6 +31666,7 @@ pub mod objects {
     /// Reepsts.
     ///
     /// 0x20C4:01, holding register 196, UNSIGNED16, ro.
+    /// Accessor: [`reepsts`](super::VectorStep::reepsts). Values: [`EepromStatus`](super::types::EepromStatus).
     ///
     /// State of the EEPROM; 0 means that all is well
     ///
@@ -26346,6 +31681,7 @@ pub mod objects {
     /// Rindex.
     ///
     /// 0x20C9:01, holding register 201, UNSIGNED16, rw, range 1 to 128.
+    /// Accessor: [`rindex`](super::VectorStep::rindex).
     ///
     /// Index with which a MIL program reaches the variables
     ///
@@ -26364,6 +31700,7 @@ pub mod objects {
     /// Reepsts32.
     ///
     /// 0x2149:01, holding registers 329 to 330, low word first, UNSIGNED32, rw, mappable into TPDOs.
+    /// Accessor: [`reepsts32`](super::VectorStep::reepsts32). Values: [`EepromStatus32`](super::types::EepromStatus32).
     ///
     /// State of the EEPROM in 32 bits, on drives from the SMD5106 on; its lower word is Reepsts
     ///
@@ -26382,6 +31719,7 @@ pub mod objects {
     /// Rstrtmode.
     ///
     /// 0x20D8:01, holding register 216, UNSIGNED16, rw, range 1 to 3.
+    /// Accessor: [`rstrtmode`](super::VectorStep::rstrtmode). Values: [`StartMode`](super::types::StartMode).
     ///
     /// What the drive does at power-on
     ///
@@ -26403,6 +31741,7 @@ pub mod objects {
     /// Rstrtconf.
     ///
     /// 0x20D9:01, holding register 217, UNSIGNED16, rw, range 0 to 13.
+    /// Accessor: [`rstrtconf`](super::VectorStep::rstrtconf). Values: [`Configuration`](super::types::Configuration).
     ///
     /// Rconfig at power-on; saving the registers copies Rconfig here where its bit 15 is 0
     ///
@@ -26425,6 +31764,7 @@ pub mod objects {
     /// Rstrtvel.
     ///
     /// 0x2185:01, holding registers 389 to 390, low word first, INTEGER32, rw, range \-10000 to 10000 (-100 to 100 rev/s), in 0.01 rev/s.
+    /// Accessor: [`rstrtvel`](super::VectorStep::rstrtvel).
     ///
     /// Rvel at power-on
     ///
@@ -26443,6 +31783,7 @@ pub mod objects {
     /// Rstrtvss.
     ///
     /// 0x2187:01, holding registers 391 to 392, low word first, UNSIGNED32, rw, range 0 to 10000 (0 to 100 rev/s), in 0.01 rev/s.
+    /// Accessor: [`rstrtvss`](super::VectorStep::rstrtvss).
     ///
     /// Rvss at power-on
     ///
@@ -26463,6 +31804,7 @@ pub mod objects {
     /// Rstrtacc.
     ///
     /// 0x2189:01, holding registers 393 to 394, low word first, UNSIGNED32, rw, range 1 to 200000 (0.1 to 20000 rev/s²), in 0.1 rev/s².
+    /// Accessor: [`rstrtacc`](super::VectorStep::rstrtacc).
     ///
     /// Racc at power-on
     ///
@@ -26483,6 +31825,7 @@ pub mod objects {
     /// Rstrtdec.
     ///
     /// 0x218B:01, holding registers 395 to 396, low word first, UNSIGNED32, rw, range 1 to 200000 (0.1 to 20000 rev/s²), in 0.1 rev/s².
+    /// Accessor: [`rstrtdec`](super::VectorStep::rstrtdec).
     ///
     /// Rdec at power-on
     ///
@@ -26503,6 +31846,7 @@ pub mod objects {
     /// Rstrtpostarg.
     ///
     /// 0x218D:01, holding registers 397 to 398, low word first, INTEGER32, rw, range \-2147483648 to 2147483647, in step.
+    /// Accessor: [`rstrtpostarg`](super::VectorStep::rstrtpostarg).
     ///
     /// Rpostarg at power-on
     ///
@@ -26521,6 +31865,7 @@ pub mod objects {
     /// Rstrthvh.
     ///
     /// 0x218F:01, holding registers 399 to 400, low word first, INTEGER32, rw, range 1 to 10000 (0.01 to 100 rev/s), in 0.01 rev/s.
+    /// Accessor: [`rstrthvh`](super::VectorStep::rstrthvh).
     ///
     /// Rhvh at power-on
     ///
@@ -26541,6 +31886,7 @@ pub mod objects {
     /// Rstrthvl.
     ///
     /// 0x2191:01, holding registers 401 to 402, low word first, INTEGER32, rw, range 1 to 10000 (0.01 to 100 rev/s), in 0.01 rev/s.
+    /// Accessor: [`rstrthvl`](super::VectorStep::rstrthvl).
     ///
     /// Rhvl at power-on
     ///
@@ -26561,6 +31907,7 @@ pub mod objects {
     /// Rstrthacc.
     ///
     /// 0x2193:01, holding registers 403 to 404, low word first, UNSIGNED32, rw, range 1 to 200000 (0.1 to 20000 rev/s²), in 0.1 rev/s².
+    /// Accessor: [`rstrthacc`](super::VectorStep::rstrthacc).
     ///
     /// Rhacc at power-on
     ///
@@ -26581,6 +31928,7 @@ pub mod objects {
     /// Rstrthmode.
     ///
     /// 0x2195:01, holding register 405, INTEGER16, rw, range \-16 to 0.
+    /// Accessor: [`rstrthmode`](super::VectorStep::rstrthmode). Values: [`HomingMethodI16`](super::types::HomingMethodI16).
     ///
     /// Rhmode at power-on
     ///
@@ -26606,6 +31954,7 @@ pub mod objects {
     /// Rcuronramptime.
     ///
     /// 0x2063:01, holding register 99, UNSIGNED16, rw, range 0 to 65535, in ms.
+    /// Accessor: [`rcuronramptime`](super::VectorStep::rcuronramptime).
     ///
     /// Duration of the ramp by which the current rises when it is switched on
     ///
@@ -26624,6 +31973,7 @@ pub mod objects {
     /// Rcuract.
     ///
     /// 0x20D1:01, holding register 209, INTEGER16, ro, mappable into TPDOs, in mA.
+    /// Accessor: [`rcuract`](super::VectorStep::rcuract).
     ///
     /// Motor current at present
     ///
@@ -26640,6 +31990,7 @@ pub mod objects {
     /// Rcurnom.
     ///
     /// 0x20D2:01, holding register 210, UNSIGNED16, rw, mappable into RPDOs, range 0 to 8500, in mA.
+    /// Accessor: [`rcurnom`](super::VectorStep::rcurnom).
     ///
     /// Nominal current that the motor gets
     ///
@@ -26658,6 +32009,7 @@ pub mod objects {
     /// Rcurred.
     ///
     /// 0x20D3:01, holding register 211, UNSIGNED16, rw, mappable into RPDOs, range 0 to 8500, in mA.
+    /// Accessor: [`rcurred`](super::VectorStep::rcurred).
     ///
     /// Reduced current that the motor gets
     ///
@@ -26676,6 +32028,7 @@ pub mod objects {
     /// Rcurboost.
     ///
     /// 0x20D4:01, holding register 212, UNSIGNED16, rw, mappable into RPDOs, range 0 to 10000, in mA.
+    /// Accessor: [`rcurboost`](super::VectorStep::rcurboost).
     ///
     /// Boost current applied during the ramps
     ///
@@ -26694,6 +32047,7 @@ pub mod objects {
     /// Rcurtorque.
     ///
     /// 0x20D5:01, holding register 213, INTEGER16, rw, mappable into RPDOs, range \-10000 to 10000, in mA.
+    /// Accessor: [`rcurtorque`](super::VectorStep::rcurtorque).
     ///
     /// Current wanted in torque mode; the note ANA offers it as a target of an analogue input
     ///
@@ -26710,6 +32064,7 @@ pub mod objects {
     /// Rtboost.
     ///
     /// 0x20D6:01, holding register 214, UNSIGNED16, rw, range 0 to 5000, in ms.
+    /// Accessor: [`rtboost`](super::VectorStep::rtboost).
     ///
     /// Longest time that the boost current may last
     ///
@@ -26728,6 +32083,7 @@ pub mod objects {
     /// Rtcred.
     ///
     /// 0x20D7:01, holding register 215, UNSIGNED16, rw, range 0 to 10000, in ms.
+    /// Accessor: [`rtcred`](super::VectorStep::rtcred).
     ///
     /// Delay before the drive goes to the reduced current
     ///
@@ -26746,6 +32102,7 @@ pub mod objects {
     /// Rfocmode.
     ///
     /// 0x20DB:01, holding register 219, UNSIGNED16, ro, range 0 to 3.
+    /// Accessor: [`rfocmode`](super::VectorStep::rfocmode). Values: [`ControlState`](super::types::ControlState).
     ///
     /// How the motor is being controlled at present
     ///
@@ -26762,6 +32119,7 @@ pub mod objects {
     /// Rcurmodeact.
     ///
     /// 0x20DC:01, holding register 220, UNSIGNED16, ro, mappable into TPDOs, range 0 to 4.
+    /// Accessor: [`rcurmodeact`](super::VectorStep::rcurmodeact). Values: [`CurrentLevelState`](super::types::CurrentLevelState).
     ///
     /// Which current level is in use at present
     ///
@@ -26778,6 +32136,7 @@ pub mod objects {
     /// Rcurmode.
     ///
     /// 0x20DD:01, holding register 221, UNSIGNED16, rw, range 0 to 3.
+    /// Accessor: [`rcurmode`](super::VectorStep::rcurmode). Values: [`CurrentLevel`](super::types::CurrentLevel).
     ///
     /// Which current level the drive is to use
     ///
@@ -26796,6 +32155,7 @@ pub mod objects {
     /// Rconfig.
     ///
     /// 0x20DE:01, holding register 222, UNSIGNED16, rw, range 0 to 15.
+    /// Accessor: [`rconfig`](super::VectorStep::rconfig). Values: [`Configuration`](super::types::Configuration).
     ///
     /// Kind of control loop (open, closed, smart) and what it follows; saving the registers copies it to Rstrtconf while its bit 15 is 0
     ///
@@ -26816,6 +32176,7 @@ pub mod objects {
     /// Renmask.
     ///
     /// 0x20DF:01, holding register 223, UNSIGNED16, ro.
+    /// Accessor: [`renmask`](super::VectorStep::renmask). Values: [`EnableMask`](super::types::EnableMask).
     ///
     /// Mask of the checks for enabling the drive
     ///
@@ -26830,6 +32191,7 @@ pub mod objects {
     /// Rtrqdisp.
     ///
     /// 0x2108:01, holding registers 264 to 265, low word first, UNSIGNED32, ro, mappable into TPDOs.
+    /// Accessor: [`rtrqdisp`](super::VectorStep::rtrqdisp).
     ///
     /// Torque, for display; the manual gives no unit
     ///
@@ -26844,6 +32206,7 @@ pub mod objects {
     /// Rstpres.
     ///
     /// 0x210E:01, holding register 270, UNSIGNED16, rw, range 1 to 1024.
+    /// Accessor: [`rstpres`](super::VectorStep::rstpres).
     ///
     /// Microstep resolution of the motor; from firmware 3.44 in step/direction mode as well
     ///
@@ -26862,6 +32225,7 @@ pub mod objects {
     /// Rkpiq.
     ///
     /// 0x2117:01, holding register 279, UNSIGNED16, rw, range 0 to 32767.
+    /// Accessor: [`rkpiq`](super::VectorStep::rkpiq).
     ///
     /// Proportional gain of the PI controller of the quadrature current
     ///
@@ -26880,6 +32244,7 @@ pub mod objects {
     /// Rkiiq.
     ///
     /// 0x2118:01, holding register 280, UNSIGNED16, rw, range 0 to 32767.
+    /// Accessor: [`rkiiq`](super::VectorStep::rkiiq).
     ///
     /// Integral gain of the PI controller of the quadrature current
     ///
@@ -26898,6 +32263,7 @@ pub mod objects {
     /// Rkpid.
     ///
     /// 0x2119:01, holding register 281, UNSIGNED16, rw, range 0 to 32767.
+    /// Accessor: [`rkpid`](super::VectorStep::rkpid).
     ///
     /// Proportional gain of the PI controller of the direct current
     ///
@@ -26916,6 +32282,7 @@ pub mod objects {
     /// Rkiid.
     ///
     /// 0x211A:01, holding register 282, UNSIGNED16, rw, range 0 to 32767.
+    /// Accessor: [`rkiid`](super::VectorStep::rkiid).
     ///
     /// Integral gain of the PI controller of the direct current
     ///
@@ -26934,6 +32301,7 @@ pub mod objects {
     /// Rkpvel.
     ///
     /// 0x211B:01, holding register 283, UNSIGNED16, rw, range 0 to 32767.
+    /// Accessor: [`rkpvel`](super::VectorStep::rkpvel).
     ///
     /// Proportional gain of the speed controller in closed loop
     ///
@@ -26952,6 +32320,7 @@ pub mod objects {
     /// Rkivel.
     ///
     /// 0x211C:01, holding register 284, UNSIGNED16, rw, range 0 to 32767.
+    /// Accessor: [`rkivel`](super::VectorStep::rkivel).
     ///
     /// Integral gain of the speed controller in closed loop
     ///
@@ -26970,6 +32339,7 @@ pub mod objects {
     /// Rkcvel.
     ///
     /// 0x211D:01, holding register 285, UNSIGNED16, rw, range 0 to 32767.
+    /// Accessor: [`rkcvel`](super::VectorStep::rkcvel).
     ///
     /// Gain Kc of the speed controller in closed loop
     ///
@@ -26988,6 +32358,7 @@ pub mod objects {
     /// Rkppos.
     ///
     /// 0x211E:01, holding register 286, UNSIGNED16, rw, range 0 to 32767.
+    /// Accessor: [`rkppos`](super::VectorStep::rkppos).
     ///
     /// Proportional gain of the position controller in closed loop
     ///
@@ -27006,6 +32377,7 @@ pub mod objects {
     /// Rkipos.
     ///
     /// 0x211F:01, holding register 287, UNSIGNED16, rw, range 0 to 32767.
+    /// Accessor: [`rkipos`](super::VectorStep::rkipos).
     ///
     /// Integral gain of the position controller in closed loop
     ///
@@ -27024,6 +32396,7 @@ pub mod objects {
     /// Rkcipos.
     ///
     /// 0x2120:01, holding register 288, UNSIGNED16, rw, range 0 to 32767.
+    /// Accessor: [`rkcipos`](super::VectorStep::rkcipos).
     ///
     /// Gain Kci of the position controller in closed loop
     ///
@@ -27042,6 +32415,7 @@ pub mod objects {
     /// Rkffpos.
     ///
     /// 0x2121:01, holding register 289, UNSIGNED16, rw, range 0 to 32767.
+    /// Accessor: [`rkffpos`](super::VectorStep::rkffpos).
     ///
     /// Gain Kff of the position controller in closed loop
     ///
@@ -27060,6 +32434,7 @@ pub mod objects {
     /// Rkafpos.
     ///
     /// 0x2122:01, holding register 290, UNSIGNED16, rw, range 0 to 32767.
+    /// Accessor: [`rkafpos`](super::VectorStep::rkafpos).
     ///
     /// Gain Kaf of the position controller in closed loop
     ///
@@ -27078,6 +32453,7 @@ pub mod objects {
     /// Rswacfw.
     ///
     /// 0x2123:01, holding register 291, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rswacfw`](super::VectorStep::rswacfw). Values: [`AccelerationForward`](super::types::AccelerationForward).
     ///
     /// Chooses current or speed for the acceleration feed-forward
     ///
@@ -27096,6 +32472,7 @@ pub mod objects {
     /// Radpicur.
     ///
     /// 0x2124:01, holding register 292, INTEGER16, rw, range \-100 to 100, in %.
+    /// Accessor: [`radpicur`](super::VectorStep::radpicur).
     ///
     /// Correction of the current controller's gains from greatest to least current, to stay responsive without oscillation
     ///
@@ -27114,12 +32491,13 @@ pub mod objects {
     /// Rstpressd.
     ///
     /// 0x212B:01, holding register 299, UNSIGNED16, rw, range 1 to 1024.
+    /// Accessor: [`rstpressd`](super::VectorStep::rstpressd).
     ///
     /// Microstep resolution in step/direction mode; without function where Rstpres has taken its place
     ///
     /// Kept over power-off once 129 was given.
     ///
-    /// Before firmware 3\.44. Replaced by Rstpres.
+    /// Before firmware 3\.44. Replaced by [Rstpres](RSTPRES).
     ///
     /// Chapter Power stage. Manual, line 2678: Risoluzione passo in modalita' step/dir.
     ///
@@ -27136,6 +32514,7 @@ pub mod objects {
     /// Rkpstpdir.
     ///
     /// 0x212C:01, holding register 300, UNSIGNED16, rw, range 0 to 1024.
+    /// Accessor: [`rkpstpdir`](super::VectorStep::rkpstpdir).
     ///
     /// Proportional gain that ramps between incoming steps, in step/direction or gear mode
     ///
@@ -27156,6 +32535,7 @@ pub mod objects {
     /// Rampfrq.
     ///
     /// 0x212D:01, holding register 301, UNSIGNED16, rw, range 0 to 10.
+    /// Accessor: [`rampfrq`](super::VectorStep::rampfrq).
     ///
     /// Factor by which incoming steps are multiplied in closed loop, from 1 (1:1) to 10
     ///
@@ -27176,6 +32556,7 @@ pub mod objects {
     /// Rdefluxen.
     ///
     /// 0x2135:01, holding register 309, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rdefluxen`](super::VectorStep::rdefluxen).
     ///
     /// Enables flux weakening in open loop
     ///
@@ -27196,6 +32577,7 @@ pub mod objects {
     /// Rdefluxmin.
     ///
     /// 0x2136:01, holding register 310, UNSIGNED16, rw, range 0 to 5000.
+    /// Accessor: [`rdefluxmin`](super::VectorStep::rdefluxmin).
     ///
     /// Least current of flux weakening in open loop
     ///
@@ -27216,6 +32598,7 @@ pub mod objects {
     /// Rphamode.
     ///
     /// 0x2137:01, holding register 311, UNSIGNED16, rw, range 0 to 9.
+    /// Accessor: [`rphamode`](super::VectorStep::rphamode).
     ///
     /// Mode of the phase advance in open loop; the manual names no values
     ///
@@ -27234,6 +32617,7 @@ pub mod objects {
     /// Rphagain.
     ///
     /// 0x2138:01, holding register 312, UNSIGNED16, rw, range 0 to 8192.
+    /// Accessor: [`rphagain`](super::VectorStep::rphagain).
     ///
     /// Gain of the phase advance in open loop
     ///
@@ -27252,6 +32636,7 @@ pub mod objects {
     /// Rveladjopenmode.
     ///
     /// 0x213A:01, holding register 314, INTEGER16, rw, range \-4096 to 4096.
+    /// Accessor: [`rveladjopenmode`](super::VectorStep::rveladjopenmode).
     ///
     /// Correction of the speed in open loop, that is with feedback from the armature
     ///
@@ -27270,6 +32655,7 @@ pub mod objects {
     /// Radjcura.
     ///
     /// 0x215F:01, holding register 351, INTEGER16, rw, range \-128 to 127.
+    /// Accessor: [`radjcura`](super::VectorStep::radjcura).
     ///
     /// Adjusts the amplification of the current sensor's signal of phase A
     ///
@@ -27290,6 +32676,7 @@ pub mod objects {
     /// Radjcurb.
     ///
     /// 0x2160:01, holding register 352, INTEGER16, rw, range \-128 to 127.
+    /// Accessor: [`radjcurb`](super::VectorStep::radjcurb).
     ///
     /// Adjusts the amplification of the current sensor's signal of phase B
     ///
@@ -27310,6 +32697,7 @@ pub mod objects {
     /// Rvbusoffs.
     ///
     /// 0x2170:01, holding register 368, INTEGER16, rw, range \-32768 to 32767.
+    /// Accessor: [`rvbusoffs`](super::VectorStep::rvbusoffs).
     ///
     /// Offset of the bus voltage's measurement
     ///
@@ -27326,6 +32714,7 @@ pub mod objects {
     /// Rla.
     ///
     /// 0x2172:01, holding register 370, INTEGER16, ro, mappable into TPDOs, in bit.
+    /// Accessor: [`rla`](super::VectorStep::rla).
     ///
     /// Current of phase A in counts of the converter
     ///
@@ -27344,6 +32733,7 @@ pub mod objects {
     /// Rlb.
     ///
     /// 0x2173:01, holding register 371, INTEGER16, ro, mappable into TPDOs, in bit.
+    /// Accessor: [`rlb`](super::VectorStep::rlb).
     ///
     /// Current of phase B in counts of the converter
     ///
@@ -27362,6 +32752,7 @@ pub mod objects {
     /// Rlan.
     ///
     /// 0x2174:01, holding register 372, INTEGER16, ro, mappable into TPDOs, in mA.
+    /// Accessor: [`rlan`](super::VectorStep::rlan).
     ///
     /// Current of phase A, filtered
     ///
@@ -27378,6 +32769,7 @@ pub mod objects {
     /// Rlbn.
     ///
     /// 0x2175:01, holding register 373, INTEGER16, ro, mappable into TPDOs, in mA.
+    /// Accessor: [`rlbn`](super::VectorStep::rlbn).
     ///
     /// Current of phase B, filtered
     ///
@@ -27394,6 +32786,7 @@ pub mod objects {
     /// Rla\_offs.
     ///
     /// 0x2176:01, holding register 374, INTEGER16, ro, in bit.
+    /// Accessor: [`rla_offs`](super::VectorStep::rla_offs).
     ///
     /// Computed offset of the current sensor of phase A
     ///
@@ -27410,6 +32803,7 @@ pub mod objects {
     /// Rlb\_offs.
     ///
     /// 0x2177:01, holding register 375, INTEGER16, ro, in bit.
+    /// Accessor: [`rlb_offs`](super::VectorStep::rlb_offs).
     ///
     /// Computed offset of the current sensor of phase B
     ///
@@ -27426,6 +32820,7 @@ pub mod objects {
     /// Rla\_offsEI.
     ///
     /// 0x2178:01, holding register 376, INTEGER16, rw, range \-32768 to 32767, in bit.
+    /// Accessor: [`rla_offs_ei`](super::VectorStep::rla_offs_ei).
     ///
     /// Manual correction of phase A's offset; Rloadsav command 137 saves it, 138 measures and saves it
     ///
@@ -27444,6 +32839,7 @@ pub mod objects {
     /// Rlb\_offsEI.
     ///
     /// 0x2179:01, holding register 377, INTEGER16, rw, range \-32768 to 32767, in bit.
+    /// Accessor: [`rlb_offs_ei`](super::VectorStep::rlb_offs_ei).
     ///
     /// Manual correction of phase B's offset; Rloadsav command 137 saves it, 138 measures and saves it
     ///
@@ -27462,6 +32858,7 @@ pub mod objects {
     /// Rid.
     ///
     /// 0x217A:01, holding register 378, INTEGER16, ro, in mA.
+    /// Accessor: [`rid`](super::VectorStep::rid).
     ///
     /// Direct current, component d of the motor current
     ///
@@ -27478,6 +32875,7 @@ pub mod objects {
     /// Riq.
     ///
     /// 0x217B:01, holding register 379, INTEGER16, ro, mappable into TPDOs, in mA.
+    /// Accessor: [`riq`](super::VectorStep::riq).
     ///
     /// Quadrature current, component q of the motor current
     ///
@@ -27494,6 +32892,7 @@ pub mod objects {
     /// Ridcorr.
     ///
     /// 0x2184:01, holding register 388, INTEGER16, rw, range \-5000 to 5000, in mA.
+    /// Accessor: [`ridcorr`](super::VectorStep::ridcorr).
     ///
     /// Correction of the direct current in smart mode
     ///
@@ -27512,6 +32911,7 @@ pub mod objects {
     /// Rpwmmode.
     ///
     /// 0x21EF:01, holding register 495, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rpwmmode`](super::VectorStep::rpwmmode). Values: [`PwmAlignment`](super::types::PwmAlignment).
     ///
     /// How the pulses that make the motor current are aligned; save with Rloadsav command 146 and cycle the power
     ///
@@ -27530,6 +32930,7 @@ pub mod objects {
     /// RpidposKp.
     ///
     /// 0x477E:01, holding register 10110, UNSIGNED16, rw, in 0.001 1.
+    /// Accessor: [`rpidpos_kp`](super::VectorStep::rpidpos_kp).
     ///
     /// Proportional gain of the position PID
     ///
@@ -27550,6 +32951,7 @@ pub mod objects {
     /// RpidposKi.
     ///
     /// 0x477F:01, holding register 10111, UNSIGNED16, rw, in 0.001 1.
+    /// Accessor: [`rpidpos_ki`](super::VectorStep::rpidpos_ki).
     ///
     /// Integral gain of the position PID
     ///
@@ -27570,6 +32972,7 @@ pub mod objects {
     /// RpidposKd.
     ///
     /// 0x4780:01, holding register 10112, UNSIGNED16, rw, in 0.001 1.
+    /// Accessor: [`rpidpos_kd`](super::VectorStep::rpidpos_kd).
     ///
     /// Derivative gain of the position PID
     ///
@@ -27590,6 +32993,7 @@ pub mod objects {
     /// RpidposTauKd.
     ///
     /// 0x4781:01, holding register 10113, UNSIGNED16, rw, in 0.001 1.
+    /// Accessor: [`rpidpos_tau_kd`](super::VectorStep::rpidpos_tau_kd).
     ///
     /// Time constant of the filter on the position PID's derivative part
     ///
@@ -27612,6 +33016,7 @@ pub mod objects {
     /// RpidposKff.
     ///
     /// 0x4782:01, holding register 10114, UNSIGNED16, rw, in 0.001 1.
+    /// Accessor: [`rpidpos_kff`](super::VectorStep::rpidpos_kff).
     ///
     /// Feed-forward gain of the position PID
     ///
@@ -27632,6 +33037,7 @@ pub mod objects {
     /// RpidposKaf.
     ///
     /// 0x4783:01, holding register 10115, UNSIGNED16, rw, in 0.001 1.
+    /// Accessor: [`rpidpos_kaf`](super::VectorStep::rpidpos_kaf).
     ///
     /// Acceleration feed-forward gain of the position PID
     ///
@@ -27652,6 +33058,7 @@ pub mod objects {
     /// RpidposKffFc.
     ///
     /// 0x4784:01, holding register 10116, UNSIGNED16, rw, in Hz.
+    /// Accessor: [`rpidpos_kff_fc`](super::VectorStep::rpidpos_kff_fc).
     ///
     /// Cut-off frequency of the low-pass filter on the position PID's feed-forward
     ///
@@ -27672,6 +33079,7 @@ pub mod objects {
     /// RpidposKaw.
     ///
     /// 0x4785:01, holding register 10117, UNSIGNED16, rw, in 0.001 1.
+    /// Accessor: [`rpidpos_kaw`](super::VectorStep::rpidpos_kaw).
     ///
     /// Anti-windup gain of the position PID
     ///
@@ -27692,6 +33100,7 @@ pub mod objects {
     /// RpidvelKp.
     ///
     /// 0x4786:01, holding register 10118, UNSIGNED16, rw, in 0.001 1.
+    /// Accessor: [`rpidvel_kp`](super::VectorStep::rpidvel_kp).
     ///
     /// Proportional gain of the speed PID
     ///
@@ -27712,6 +33121,7 @@ pub mod objects {
     /// RpidvelKi.
     ///
     /// 0x4787:01, holding register 10119, UNSIGNED16, rw, in 0.001 1.
+    /// Accessor: [`rpidvel_ki`](super::VectorStep::rpidvel_ki).
     ///
     /// Integral gain of the speed PID
     ///
@@ -27732,6 +33142,7 @@ pub mod objects {
     /// RpidvelKd.
     ///
     /// 0x4788:01, holding register 10120, UNSIGNED16, rw, in 0.001 1.
+    /// Accessor: [`rpidvel_kd`](super::VectorStep::rpidvel_kd).
     ///
     /// Derivative gain of the speed PID
     ///
@@ -27752,6 +33163,7 @@ pub mod objects {
     /// RpidveltauKd.
     ///
     /// 0x4789:01, holding register 10121, UNSIGNED16, rw, in 0.001 1.
+    /// Accessor: [`rpidveltau_kd`](super::VectorStep::rpidveltau_kd).
     ///
     /// Time constant of the filter on the speed PID's derivative part
     ///
@@ -27774,6 +33186,7 @@ pub mod objects {
     /// RpidvelKff.
     ///
     /// 0x478A:01, holding register 10122, UNSIGNED16, rw, in 0.001 1.
+    /// Accessor: [`rpidvel_kff`](super::VectorStep::rpidvel_kff).
     ///
     /// Feed-forward gain of the speed PID
     ///
@@ -27794,6 +33207,7 @@ pub mod objects {
     /// RpidvelKaf.
     ///
     /// 0x478B:01, holding register 10123, UNSIGNED16, rw, in 0.001 1.
+    /// Accessor: [`rpidvel_kaf`](super::VectorStep::rpidvel_kaf).
     ///
     /// Acceleration feed-forward gain of the speed PID
     ///
@@ -27814,6 +33228,7 @@ pub mod objects {
     /// RpidvelKffFc.
     ///
     /// 0x478C:01, holding register 10124, UNSIGNED16, rw, in Hz.
+    /// Accessor: [`rpidvel_kff_fc`](super::VectorStep::rpidvel_kff_fc).
     ///
     /// Cut-off frequency of the low-pass filter on the speed PID's feed-forward
     ///
@@ -27834,6 +33249,7 @@ pub mod objects {
     /// RpidvelKaw.
     ///
     /// 0x478D:01, holding register 10125, UNSIGNED16, rw, in 0.001 1.
+    /// Accessor: [`rpidvel_kaw`](super::VectorStep::rpidvel_kaw).
     ///
     /// Anti-windup gain of the speed PID
     ///
@@ -27854,6 +33270,7 @@ pub mod objects {
     /// RfilvelFc.
     ///
     /// 0x478E:01, holding register 10126, UNSIGNED16, rw, in Hz.
+    /// Accessor: [`rfilvel_fc`](super::VectorStep::rfilvel_fc).
     ///
     /// Cut-off frequency of the filter at the speed loop's input
     ///
@@ -27874,6 +33291,7 @@ pub mod objects {
     /// RfilvelPG.
     ///
     /// 0x478F:01, holding register 10127, UNSIGNED16, rw, in 0.001 dB.
+    /// Accessor: [`rfilvel_pg`](super::VectorStep::rfilvel_pg).
     ///
     /// Peak gain of the filter at the speed loop's input
     ///
@@ -27894,6 +33312,7 @@ pub mod objects {
     /// RfilcurFc.
     ///
     /// 0x4790:01, holding register 10128, UNSIGNED16, rw, in Hz.
+    /// Accessor: [`rfilcur_fc`](super::VectorStep::rfilcur_fc).
     ///
     /// Cut-off frequency of the filter at the speed loop's output
     ///
@@ -27914,6 +33333,7 @@ pub mod objects {
     /// RfilcurPG.
     ///
     /// 0x4791:01, holding register 10129, UNSIGNED16, rw, in 0.001 dB.
+    /// Accessor: [`rfilcur_pg`](super::VectorStep::rfilcur_pg).
     ///
     /// Peak gain of the filter at the speed loop's output
     ///
@@ -27934,6 +33354,7 @@ pub mod objects {
     /// Rpidposinpact.
     ///
     /// 0x47AC:01, holding registers 10156 to 10157, low word first, INTEGER32, ro.
+    /// Accessor: [`rpidposinpact`](super::VectorStep::rpidposinpact).
     ///
     /// Input of the position PID at present
     ///
@@ -27950,6 +33371,7 @@ pub mod objects {
     /// Rpidpospropact.
     ///
     /// 0x47AE:01, holding registers 10158 to 10159, low word first, INTEGER32, ro.
+    /// Accessor: [`rpidpospropact`](super::VectorStep::rpidpospropact).
     ///
     /// Proportional part of the position PID at present
     ///
@@ -27966,6 +33388,7 @@ pub mod objects {
     /// Rpidposintact.
     ///
     /// 0x47B0:01, holding registers 10160 to 10161, low word first, INTEGER32, ro.
+    /// Accessor: [`rpidposintact`](super::VectorStep::rpidposintact).
     ///
     /// Integral part of the position PID at present
     ///
@@ -27982,6 +33405,7 @@ pub mod objects {
     /// Rpidposderact.
     ///
     /// 0x47B2:01, holding registers 10162 to 10163, low word first, INTEGER32, ro.
+    /// Accessor: [`rpidposderact`](super::VectorStep::rpidposderact).
     ///
     /// Derivative part of the position PID at present
     ///
@@ -27998,6 +33422,7 @@ pub mod objects {
     /// Rpidposffact.
     ///
     /// 0x47B4:01, holding registers 10164 to 10165, low word first, INTEGER32, ro.
+    /// Accessor: [`rpidposffact`](super::VectorStep::rpidposffact).
     ///
     /// Feed-forward part of the position PID at present
     ///
@@ -28014,6 +33439,7 @@ pub mod objects {
     /// Rpidposafact.
     ///
     /// 0x47B6:01, holding registers 10166 to 10167, low word first, INTEGER32, ro.
+    /// Accessor: [`rpidposafact`](super::VectorStep::rpidposafact).
     ///
     /// Acceleration feed-forward part of the position PID at present
     ///
@@ -28030,6 +33456,7 @@ pub mod objects {
     /// Rpidposoutact.
     ///
     /// 0x47B8:01, holding registers 10168 to 10169, low word first, INTEGER32, ro.
+    /// Accessor: [`rpidposoutact`](super::VectorStep::rpidposoutact).
     ///
     /// Output of the position PID at present
     ///
@@ -28046,6 +33473,7 @@ pub mod objects {
     /// Rpidvelinpact.
     ///
     /// 0x47BA:01, holding registers 10170 to 10171, low word first, INTEGER32, ro.
+    /// Accessor: [`rpidvelinpact`](super::VectorStep::rpidvelinpact).
     ///
     /// Input of the speed PID at present
     ///
@@ -28062,6 +33490,7 @@ pub mod objects {
     /// Rpidvelpropact.
     ///
     /// 0x47BC:01, holding registers 10172 to 10173, low word first, INTEGER32, ro.
+    /// Accessor: [`rpidvelpropact`](super::VectorStep::rpidvelpropact).
     ///
     /// Proportional part of the speed PID at present
     ///
@@ -28078,6 +33507,7 @@ pub mod objects {
     /// Rpidvelintact.
     ///
     /// 0x47BE:01, holding registers 10174 to 10175, low word first, INTEGER32, ro.
+    /// Accessor: [`rpidvelintact`](super::VectorStep::rpidvelintact).
     ///
     /// Integral part of the speed PID at present
     ///
@@ -28094,6 +33524,7 @@ pub mod objects {
     /// Rpidvelderact.
     ///
     /// 0x47C0:01, holding registers 10176 to 10177, low word first, INTEGER32, ro.
+    /// Accessor: [`rpidvelderact`](super::VectorStep::rpidvelderact).
     ///
     /// Derivative part of the speed PID at present
     ///
@@ -28110,6 +33541,7 @@ pub mod objects {
     /// Rpidvelffact.
     ///
     /// 0x47C2:01, holding registers 10178 to 10179, low word first, INTEGER32, ro.
+    /// Accessor: [`rpidvelffact`](super::VectorStep::rpidvelffact).
     ///
     /// Feed-forward part of the speed PID at present
     ///
@@ -28126,6 +33558,7 @@ pub mod objects {
     /// Rpidvelafact.
     ///
     /// 0x47C4:01, holding registers 10180 to 10181, low word first, INTEGER32, ro.
+    /// Accessor: [`rpidvelafact`](super::VectorStep::rpidvelafact).
     ///
     /// Acceleration feed-forward part of the speed PID at present
     ///
@@ -28142,6 +33575,7 @@ pub mod objects {
     /// Rpidveloutact.
     ///
     /// 0x47C6:01, holding registers 10182 to 10183, low word first, INTEGER32, ro.
+    /// Accessor: [`rpidveloutact`](super::VectorStep::rpidveloutact).
     ///
     /// Output of the speed PID at present
     ///
@@ -28158,6 +33592,7 @@ pub mod objects {
     /// Rfilvelinpact.
     ///
     /// 0x47C8:01, holding registers 10184 to 10185, low word first, INTEGER32, ro.
+    /// Accessor: [`rfilvelinpact`](super::VectorStep::rfilvelinpact).
     ///
     /// Value before the filter at the speed loop's input
     ///
@@ -28174,6 +33609,7 @@ pub mod objects {
     /// Rfilveloutact.
     ///
     /// 0x47CA:01, holding registers 10186 to 10187, low word first, INTEGER32, ro.
+    /// Accessor: [`rfilveloutact`](super::VectorStep::rfilveloutact).
     ///
     /// Value after the filter at the speed loop's input
     ///
@@ -28190,6 +33626,7 @@ pub mod objects {
     /// Rfilcurinpact.
     ///
     /// 0x47CC:01, holding registers 10188 to 10189, low word first, INTEGER32, ro.
+    /// Accessor: [`rfilcurinpact`](super::VectorStep::rfilcurinpact).
     ///
     /// Value before the filter at the speed loop's output
     ///
@@ -28206,6 +33643,7 @@ pub mod objects {
     /// Rfilcuroutact.
     ///
     /// 0x47CE:01, holding registers 10190 to 10191, low word first, INTEGER32, ro.
+    /// Accessor: [`rfilcuroutact`](super::VectorStep::rfilcuroutact).
     ///
     /// Value after the filter at the speed loop's output
     ///
@@ -28222,6 +33660,7 @@ pub mod objects {
     /// Rmotype.
     ///
     /// 0x20DA:01, holding register 218, UNSIGNED16, rw.
+    /// Accessor: [`rmotype`](super::VectorStep::rmotype).
     ///
     /// Position of the configured motor in the motor database
     ///
@@ -28238,6 +33677,7 @@ pub mod objects {
     /// Rmotres.
     ///
     /// 0x210F:01, holding register 271, UNSIGNED16, rw, range 1 to 32767 (0.1 to 3276.7 Ω), in 0.1 Ω.
+    /// Accessor: [`rmotres`](super::VectorStep::rmotres).
     ///
     /// Phase resistance of the motor
     ///
@@ -28256,6 +33696,7 @@ pub mod objects {
     /// Rmotind.
     ///
     /// 0x2110:01, holding register 272, UNSIGNED16, rw, range 1 to 32767 (0.1 to 3276.7 mH), in 0.1 mH.
+    /// Accessor: [`rmotind`](super::VectorStep::rmotind).
     ///
     /// Phase inductance of the motor
     ///
@@ -28274,6 +33715,7 @@ pub mod objects {
     /// Rmotkfm.
     ///
     /// 0x2111:01, holding register 273, UNSIGNED16, rw, range 1 to 32767 (0.01 to 327.67 mH·A), in 0.01 mH·A.
+    /// Accessor: [`rmotkfm`](super::VectorStep::rmotkfm).
     ///
     /// Back-EMF constant of the motor: phase inductance in mH   nominal current in mA   100 / 1000
     ///
@@ -28296,6 +33738,7 @@ pub mod objects {
     /// Rmottensnom.
     ///
     /// 0x2112:01, holding register 274, UNSIGNED16, rw, range 1 to 32767, in V.
+    /// Accessor: [`rmottensnom`](super::VectorStep::rmottensnom).
     ///
     /// Nominal voltage of the motor
     ///
@@ -28316,6 +33759,7 @@ pub mod objects {
     /// Rmotiph.
     ///
     /// 0x2113:01, holding register 275, UNSIGNED16, rw, range 1 to 32767, in mA.
+    /// Accessor: [`rmotiph`](super::VectorStep::rmotiph).
     ///
     /// Nominal phase current of the motor
     ///
@@ -28334,6 +33778,7 @@ pub mod objects {
     /// Rmotktq.
     ///
     /// 0x2114:01, holding register 276, UNSIGNED16, rw, range 1 to 65535, in mNm/A.
+    /// Accessor: [`rmotktq`](super::VectorStep::rmotktq).
     ///
     /// Torque constant of the motor
     ///
@@ -28352,6 +33797,7 @@ pub mod objects {
     /// Rmotvelnom.
     ///
     /// 0x2115:01, holding register 277, UNSIGNED16, rw, in rev/s.
+    /// Accessor: [`rmotvelnom`](super::VectorStep::rmotvelnom).
     ///
     /// Nominal speed of the motor
     ///
@@ -28372,6 +33818,7 @@ pub mod objects {
     /// Rtim0.
     ///
     /// 0x209B:01, holding registers 155 to 156, low word first, UNSIGNED32, rw, in ms.
+    /// Accessor: [`rtim0`](super::VectorStep::rtim0).
     ///
     /// Timer that counts down to 0, by one every millisecond
     ///
@@ -28388,6 +33835,7 @@ pub mod objects {
     /// Rtim1.
     ///
     /// 0x209D:01, holding registers 157 to 158, low word first, UNSIGNED32, rw, in ms.
+    /// Accessor: [`rtim1`](super::VectorStep::rtim1).
     ///
     /// Timer that counts down to 0, by one every millisecond
     ///
@@ -28404,6 +33852,7 @@ pub mod objects {
     /// Rtim2.
     ///
     /// 0x209F:01, holding registers 159 to 160, low word first, UNSIGNED32, rw, in ms.
+    /// Accessor: [`rtim2`](super::VectorStep::rtim2).
     ///
     /// Timer that counts down to 0, by one every millisecond
     ///
@@ -28420,6 +33869,7 @@ pub mod objects {
     /// Rtim3.
     ///
     /// 0x20A1:01, holding registers 161 to 162, low word first, UNSIGNED32, rw, in ms.
+    /// Accessor: [`rtim3`](super::VectorStep::rtim3).
     ///
     /// Timer that counts down to 0, by one every millisecond
     ///
@@ -28436,6 +33886,7 @@ pub mod objects {
     /// Rtim4.
     ///
     /// 0x2218:01, holding registers 536 to 537, low word first, UNSIGNED32, rw, at least 0, in ms.
+    /// Accessor: [`rtim4`](super::VectorStep::rtim4).
     ///
     /// Timer that counts down to 0, by one every millisecond
     ///
@@ -28456,6 +33907,7 @@ pub mod objects {
     /// Rtim5.
     ///
     /// 0x221A:01, holding registers 538 to 539, low word first, UNSIGNED32, rw, at least 0, in ms.
+    /// Accessor: [`rtim5`](super::VectorStep::rtim5).
     ///
     /// Timer that counts down to 0, by one every millisecond
     ///
@@ -28476,6 +33928,7 @@ pub mod objects {
     /// Rtim6.
     ///
     /// 0x221C:01, holding registers 540 to 541, low word first, UNSIGNED32, rw, at least 0, in ms.
+    /// Accessor: [`rtim6`](super::VectorStep::rtim6).
     ///
     /// Timer that counts down to 0, by one every millisecond
     ///
@@ -28496,6 +33949,7 @@ pub mod objects {
     /// Rtim7.
     ///
     /// 0x221E:01, holding registers 542 to 543, low word first, UNSIGNED32, rw, at least 0, in ms.
+    /// Accessor: [`rtim7`](super::VectorStep::rtim7).
     ///
     /// Timer that counts down to 0, by one every millisecond
     ///
@@ -28516,6 +33970,7 @@ pub mod objects {
     /// Rfreerun.
     ///
     /// 0x47AA:01, holding registers 10154 to 10155, low word first, UNSIGNED32, ro, range 0 to 4294967295, in ms.
+    /// Accessor: [`rfreerun`](super::VectorStep::rfreerun).
     ///
     /// Counter that runs freely, by one every millisecond
     ///
@@ -28532,6 +33987,7 @@ pub mod objects {
     /// Rtempact.
     ///
     /// 0x2094:01, holding register 148, INTEGER16, ro, mappable into TPDOs, in °C.
+    /// Accessor: [`rtempact`](super::VectorStep::rtempact).
     ///
     /// Temperature of the drive at present
     ///
@@ -28548,6 +34004,7 @@ pub mod objects {
     /// Rtensact.
     ///
     /// 0x2095:01, holding register 149, UNSIGNED16, ro, mappable into TPDOs, in V.
+    /// Accessor: [`rtensact`](super::VectorStep::rtensact).
     ///
     /// Voltage of the drive's DC bus at present
     ///
@@ -28564,6 +34021,7 @@ pub mod objects {
     /// Rcurdact.
     ///
     /// 0x2096:01, holding register 150, UNSIGNED16, ro, in mA.
+    /// Accessor: [`rcurdact`](super::VectorStep::rcurdact).
     ///
     /// Current that the drive draws from its DC supply at present
     ///
@@ -28580,10 +34038,11 @@ pub mod objects {
     /// Rswrev.
     ///
     /// 0x20BE:01, holding register 190, UNSIGNED16, ro.
+    /// Accessor: [`rswrev`](super::VectorStep::rswrev).
     ///
     /// Revision of the software; from firmware 6 see Rindswrev
     ///
-    /// Before firmware 6. Replaced by Rindswrev.
+    /// Before firmware 6. Replaced by [Rindswrev](RINDSWREV).
     ///
     /// Chapter Various. Manual, line 2775: Software revision.
     pub const RSWREV: ReadOnly<u16> = ReadOnlyU16::register(
@@ -28596,10 +34055,11 @@ pub mod objects {
     /// Rhwrev.
     ///
     /// 0x20BF:01, holding register 191, UNSIGNED16, ro.
+    /// Accessor: [`rhwrev`](super::VectorStep::rhwrev).
     ///
     /// Revision of the hardware; the maker writes it before Rloadsav command 136
     ///
-    /// Before firmware 6. Replaced by Rindhwrev.
+    /// Before firmware 6. Replaced by [Rindhwrev](RINDHWREV).
     ///
     /// Chapter Various. Manual, line 2776, 2597: Hardware revision.
     ///
@@ -28614,12 +34074,13 @@ pub mod objects {
     /// Rserial.
     ///
     /// 0x20C0:01, holding registers 192 to 193, low word first, UNSIGNED32, rw.
+    /// Accessor: [`rserial`](super::VectorStep::rserial).
     ///
     /// Serial number, set at the final test and locked once it isn't 0
     ///
     /// Kept over power-off once 136 was given. Can be written only once.
     ///
-    /// Before firmware 6. Replaced by Rindsn.
+    /// Before firmware 6. Replaced by [Rindsn](RINDSN).
     ///
     /// Chapter Various. Manual, line 2777, 2597: Serial number.
     ///
@@ -28638,6 +34099,7 @@ pub mod objects {
     /// Rrotsw.
     ///
     /// 0x20C5:01, holding register 197, UNSIGNED16, ro, range 0 to 99.
+    /// Accessor: [`rrotsw`](super::VectorStep::rrotsw).
     ///
     /// Position of the rotary switches, as the drive has read it
     ///
@@ -28654,6 +34116,7 @@ pub mod objects {
     /// Rhwoptions.
     ///
     /// 0x2157:01, holding register 343, UNSIGNED16, ro.
+    /// Accessor: [`rhwoptions`](super::VectorStep::rhwoptions). Values: [`HardwareOptions`](super::types::HardwareOptions).
     ///
     /// Hardware options that are fitted and active
     ///
@@ -28668,10 +34131,11 @@ pub mod objects {
     /// Rindtype.
     ///
     /// 0x20C6:01, holding register 198, UNSIGNED16, ro.
+    /// Accessor: [`rindtype`](super::VectorStep::rindtype). Values: [`ModelCode`](super::types::ModelCode).
     ///
     /// Model of the drive, as one of 126 codes; from firmware 5.50 it reads as 0xFFFF
     ///
-    /// Before firmware 6. Replaced by Rindfamily.
+    /// Before firmware 6. Replaced by [Rindfamily](RINDFAMILY).
     ///
     /// Chapter Various. Manual, line 2782, 2785: Tipo indexer.
     ///
@@ -28694,6 +34158,7 @@ pub mod objects {
     /// Rindfamily.
     ///
     /// 0x4710:01, holding register 10000, UNSIGNED16, ro.
+    /// Accessor: [`rindfamily`](super::VectorStep::rindfamily).
     ///
     /// Family of the drive as a decimal number, such as 1204, 2204 or 5206
     ///
@@ -28712,6 +34177,7 @@ pub mod objects {
     /// Rindmodel.
     ///
     /// 0x4711:01, holding register 10001, UNSIGNED16, ro.
+    /// Accessor: [`rindmodel`](super::VectorStep::rindmodel). Values: [`ModelDefinition`](super::types::ModelDefinition).
     ///
     /// Voltage, application, platform and communication chip of the drive
     ///
@@ -28726,6 +34192,7 @@ pub mod objects {
     /// Rindfielbus.
     ///
     /// 0x4712:01, holding register 10002, UNSIGNED16, ro.
+    /// Accessor: [`rindfielbus`](super::VectorStep::rindfielbus). Values: [`FieldbusKind`](super::types::FieldbusKind).
     ///
     /// Fieldbus that the drive has
     ///
@@ -28742,6 +34209,7 @@ pub mod objects {
     /// Rindoptions.
     ///
     /// 0x4713:01, holding register 10003, UNSIGNED16, ro.
+    /// Accessor: [`rindoptions`](super::VectorStep::rindoptions). Values: [`DriveOptions`](super::types::DriveOptions).
     ///
     /// Options that the drive has: the absolute encoder
     ///
@@ -28756,6 +34224,7 @@ pub mod objects {
     /// Rindregset.
     ///
     /// 0x4714:01, holding register 10004, UNSIGNED16, ro.
+    /// Accessor: [`rindregset`](super::VectorStep::rindregset). Values: [`RegisterMap`](super::types::RegisterMap).
     ///
     /// Revision of the register map
     ///
@@ -28772,6 +34241,7 @@ pub mod objects {
     /// Rindswrev.
     ///
     /// 0x4715:01, holding register 10005, UNSIGNED16, ro.
+    /// Accessor: [`rindswrev`](super::VectorStep::rindswrev).
     ///
     /// Revision of the software
     ///
@@ -28786,6 +34256,7 @@ pub mod objects {
     /// Rindhwrev.
     ///
     /// 0x4716:01, holding register 10006, UNSIGNED16, ro.
+    /// Accessor: [`rindhwrev`](super::VectorStep::rindhwrev).
     ///
     /// Revision of the hardware
     ///
@@ -28800,6 +34271,7 @@ pub mod objects {
     /// Rindsn.
     ///
     /// 0x4717:01, holding registers 10007 to 10008, low word first, UNSIGNED32, ro.
+    /// Accessor: [`rindsn`](super::VectorStep::rindsn).
     ///
     /// Serial number, a copy of Rserial
     ///
@@ -28816,6 +34288,7 @@ pub mod objects {
     /// Rtestintmot.
     ///
     /// 0x202A:01, holding registers 42 to 43, low word first, UNSIGNED32, ro, default 0x499602D2, range 1234567890 to 1234567890.
+    /// Accessor: [`rtestintmot`](super::VectorStep::rtestintmot).
     ///
     /// Constant that shows, when read as 32 bits, whether the words come in Intel or Motorola order
     ///
@@ -28841,6 +34314,7 @@ pub mod objects {
     /// Rprofists.
     ///
     /// 0x20A6:01, holding register 166, UNSIGNED16, ro.
+    /// Accessor: [`rprofists`](super::VectorStep::rprofists). Values: [`ProfibusState`](super::types::ProfibusState).
     ///
     /// State of the Profibus communication
     ///
@@ -28857,6 +34331,7 @@ pub mod objects {
     /// Rprofibaud.
     ///
     /// 0x20A7:01, holding register 167, UNSIGNED16, rw, range 0 to 11.
+    /// Accessor: [`rprofibaud`](super::VectorStep::rprofibaud). Values: [`ProfibusBitRate`](super::types::ProfibusBitRate).
     ///
     /// Bit rate of Profibus
     ///
@@ -28877,6 +34352,7 @@ pub mod objects {
     /// Rprofiaddr.
     ///
     /// 0x20A8:01, holding register 168, UNSIGNED16, rw, range 0 to 127.
+    /// Accessor: [`rprofiaddr`](super::VectorStep::rprofiaddr).
     ///
     /// Added to the Profibus address set by hardware
     ///
@@ -28895,6 +34371,7 @@ pub mod objects {
     /// Rcanbaud.
     ///
     /// 0x20A9:01, holding register 169, UNSIGNED16, rw, range 0 to 8.
+    /// Accessor: [`rcanbaud`](super::VectorStep::rcanbaud). Values: [`CanBaudRate`](super::types::CanBaudRate).
     ///
     /// Bit rate of CAN
     ///
@@ -28915,6 +34392,7 @@ pub mod objects {
     /// Rcanaddr.
     ///
     /// 0x20AA:01, holding register 170, UNSIGNED16, rw, range 0 to 127.
+    /// Accessor: [`rcanaddr`](super::VectorStep::rcanaddr).
     ///
     /// Added to the CAN address set by hardware
     ///
@@ -28933,6 +34411,7 @@ pub mod objects {
     /// Rcantx.
     ///
     /// 0x20AB:01, holding registers 171 to 172, low word first, UNSIGNED32, ro.
+    /// Accessor: [`rcantx`](super::VectorStep::rcantx).
     ///
     /// Number of CAN messages sent
     ///
@@ -28947,6 +34426,7 @@ pub mod objects {
     /// Rcanrx.
     ///
     /// 0x20AD:01, holding registers 173 to 174, low word first, UNSIGNED32, ro.
+    /// Accessor: [`rcanrx`](super::VectorStep::rcanrx).
     ///
     /// Number of CAN messages received
     ///
@@ -28961,6 +34441,7 @@ pub mod objects {
     /// Rcanovr.
     ///
     /// 0x20AF:01, holding register 175, UNSIGNED16, ro.
+    /// Accessor: [`rcanovr`](super::VectorStep::rcanovr).
     ///
     /// Number of CAN overruns
     ///
@@ -28975,6 +34456,7 @@ pub mod objects {
     /// Rcanerr.
     ///
     /// 0x20B0:01, holding register 176, UNSIGNED16, ro.
+    /// Accessor: [`rcanerr`](super::VectorStep::rcanerr).
     ///
     /// Number of CAN errors
     ///
@@ -28989,6 +34471,7 @@ pub mod objects {
     /// Rcanidx.
     ///
     /// 0x20B1:01, holding register 177, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rcanidx`](super::VectorStep::rcanidx).
     ///
     /// Index of the CANopen object that Rcancmd reads or writes
     ///
@@ -29003,6 +34486,7 @@ pub mod objects {
     /// Rcansub.
     ///
     /// 0x20B2:01, holding register 178, UNSIGNED16, rw, range 0 to 255.
+    /// Accessor: [`rcansub`](super::VectorStep::rcansub).
     ///
     /// Sub-index of the CANopen object that Rcancmd reads or writes
     ///
@@ -29019,6 +34503,7 @@ pub mod objects {
     /// Rcannew.
     ///
     /// 0x20B3:01, holding registers 179 to 180, low word first, UNSIGNED32, rw.
+    /// Accessor: [`rcannew`](super::VectorStep::rcannew).
     ///
     /// Value that Rcancmd writes to the CANopen object
     ///
@@ -29033,6 +34518,7 @@ pub mod objects {
     /// Rcancmd.
     ///
     /// 0x20B5:01, holding register 181, UNSIGNED16, rw, range 0 to 2.
+    /// Accessor: [`rcancmd`](super::VectorStep::rcancmd). Values: [`CanObjectCommand`](super::types::CanObjectCommand).
     ///
     /// Writes Rcannew to the object of Rcanidx and Rcansub, or reads that object into Rcanact
     ///
@@ -29055,6 +34541,7 @@ pub mod objects {
     /// Rcanact.
     ///
     /// 0x20B6:01, holding registers 182 to 183, low word first, UNSIGNED32, ro.
+    /// Accessor: [`rcanact`](super::VectorStep::rcanact).
     ///
     /// Value that Rcancmd has read from the CANopen object
     ///
@@ -29069,6 +34556,7 @@ pub mod objects {
     /// Rcansts.
     ///
     /// 0x20B8:01, holding register 184, UNSIGNED16, ro.
+    /// Accessor: [`rcansts`](super::VectorStep::rcansts). Values: [`CanopenStatus`](super::types::CanopenStatus).
     ///
     /// State of CANopen, as its red and green LED show it
     ///
@@ -29087,6 +34575,7 @@ pub mod objects {
     /// Rserbaud.
     ///
     /// 0x20B9:01, holding register 185, UNSIGNED16, rw, range 0 to 7.
+    /// Accessor: [`rserbaud`](super::VectorStep::rserbaud). Values: [`SerialBaudRate`](super::types::SerialBaudRate).
     ///
     /// Bit rate of the serial port
     ///
@@ -29105,6 +34594,7 @@ pub mod objects {
     /// Rserpar.
     ///
     /// 0x20BA:01, holding register 186, UNSIGNED16, rw, range 0 to 5.
+    /// Accessor: [`rserpar`](super::VectorStep::rserpar). Values: [`SerialFormat`](super::types::SerialFormat).
     ///
     /// Parity and stop bits of the serial port
     ///
@@ -29123,6 +34613,7 @@ pub mod objects {
     /// Rserdly.
     ///
     /// 0x20BB:01, holding register 187, UNSIGNED16, rw, range 0 to 16, in ms.
+    /// Accessor: [`rserdly`](super::VectorStep::rserdly).
     ///
     /// Delay before the drive replies on the serial port
     ///
@@ -29141,6 +34632,7 @@ pub mod objects {
     /// Rseraddr.
     ///
     /// 0x20BC:01, holding register 188, UNSIGNED16, rw, range 0 to 31.
+    /// Accessor: [`rseraddr`](super::VectorStep::rseraddr).
     ///
     /// Added to the serial address set by hardware
     ///
@@ -29159,6 +34651,7 @@ pub mod objects {
     /// Rintmot.
     ///
     /// 0x20BD:01, holding register 189, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rintmot`](super::VectorStep::rintmot). Values: [`WordOrder`](super::types::WordOrder).
     ///
     /// Order of the words of 32-bit registers on the serial port, RS232 or RS485
     ///
@@ -29179,6 +34672,7 @@ pub mod objects {
     /// Rfinsenable.
     ///
     /// 0x212E:01, holding register 302, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rfinsenable`](super::VectorStep::rfinsenable).
     ///
     /// Enables Omron FINS/TCP on drives that communicate by Ethernet
     ///
@@ -29199,6 +34693,7 @@ pub mod objects {
     /// Rfinsnode.
     ///
     /// 0x212F:01, holding register 303, UNSIGNED16, rw, range 1 to 254.
+    /// Accessor: [`rfinsnode`](super::VectorStep::rfinsnode).
     ///
     /// Station number with Omron FINS/TCP
     ///
@@ -29217,6 +34712,7 @@ pub mod objects {
     /// Rmdbport.
     ///
     /// 0x2130:01, holding register 304, UNSIGNED16, rw, default 502, range 0 to 65535.
+    /// Accessor: [`rmdbport`](super::VectorStep::rmdbport).
     ///
     /// TCP port of Modbus/TCP
     ///
@@ -29234,6 +34730,7 @@ pub mod objects {
     /// Rethintmot.
     ///
     /// 0x2131:01, holding register 305, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rethintmot`](super::VectorStep::rethintmot). Values: [`WordOrder`](super::types::WordOrder).
     ///
     /// Order of the words of 32-bit registers with Modbus/TCP and other Ethernet protocols
     ///
@@ -29254,6 +34751,7 @@ pub mod objects {
     /// Rextmdbtime.
     ///
     /// 0x2134:01, holding register 308, UNSIGNED16, rw, default 0, range 0 to 10000, in ms.
+    /// Accessor: [`rextmdbtime`](super::VectorStep::rextmdbtime).
     ///
     /// Additional time between Modbus RTU messages, for slow remote connections
     ///
@@ -29271,6 +34769,7 @@ pub mod objects {
     /// Rstatuscan.
     ///
     /// 0x2161:01, holding register 353, UNSIGNED16, rw.
+    /// Accessor: [`rstatuscan`](super::VectorStep::rstatuscan).
     ///
     /// Errors of agreement between controlword and statusword on CANopen
     ///
@@ -29285,6 +34784,7 @@ pub mod objects {
     /// Rcanmodeofoperation.
     ///
     /// 0x2162:01, holding register 354, INTEGER16, rw.
+    /// Accessor: [`rcanmodeofoperation`](super::VectorStep::rcanmodeofoperation). Values: [`ModesOfOperationI16`](super::types::ModesOfOperationI16).
     ///
     /// Copy of object 0x6060, modes of operation
     ///
@@ -29303,10 +34803,11 @@ pub mod objects {
     /// Rswrevariantais.
     ///
     /// 0x2163:01, holding register 355, UNSIGNED16, rw.
+    /// Accessor: [`rswrevariantais`](super::VectorStep::rswrevariantais).
     ///
     /// Firmware version of the Antaios chip; from firmware 6 see Rswrevariantaios
     ///
-    /// Before firmware 6. Replaced by Rswrevariantaios.
+    /// Before firmware 6. Replaced by [Rswrevariantaios](RSWREVARIANTAIOS).
     ///
     /// Chapter Fieldbus. Manual, line 2827: Versione firmware Antaios.
     ///
@@ -29321,10 +34822,11 @@ pub mod objects {
     /// Rhwrevariantais.
     ///
     /// 0x2164:01, holding register 356, UNSIGNED16, rw.
+    /// Accessor: [`rhwrevariantais`](super::VectorStep::rhwrevariantais).
     ///
     /// Hardware version of the Antaios chip; from firmware 6 see Rhwrevariantaios
     ///
-    /// Before firmware 6. Replaced by Rhwrevariantaios.
+    /// Before firmware 6. Replaced by [Rhwrevariantaios](RHWREVARIANTAIOS).
     ///
     /// Chapter Fieldbus. Manual, line 2828: Versione hardware Antaios.
     ///
@@ -29339,6 +34841,7 @@ pub mod objects {
     /// Rethercatid.
     ///
     /// 0x2165:01, holding register 357, UNSIGNED16, rw.
+    /// Accessor: [`rethercatid`](super::VectorStep::rethercatid).
     ///
     /// Explicit address of the drive on EtherCAT
     ///
@@ -29355,6 +34858,7 @@ pub mod objects {
     /// Rstrmodeofoperation.
     ///
     /// 0x2166:01, holding register 358, INTEGER16, rw, range \-1 to 8.
+    /// Accessor: [`rstrmodeofoperation`](super::VectorStep::rstrmodeofoperation). Values: [`ModesOfOperationI16`](super::types::ModesOfOperationI16).
     ///
     /// Value that object 0x6060 has after power-on, on CANopen and EtherCAT
     ///
@@ -29380,6 +34884,7 @@ pub mod objects {
     /// Rds402compatibility.
     ///
     /// 0x216D:01, holding register 365, UNSIGNED16, rw.
+    /// Accessor: [`rds402compatibility`](super::VectorStep::rds402compatibility). Values: [`Ds402Compatibility`](super::types::Ds402Compatibility).
     ///
     /// Adapts the CiA 402 state machine to masters that expect something else
     ///
@@ -29398,6 +34903,7 @@ pub mod objects {
     /// Rethlocipaddr32.
     ///
     /// 0x2203:01, holding register 515, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethlocipaddr32`](super::VectorStep::rethlocipaddr32).
     ///
     /// Bytes 3 and 2 of the drive's own IP address
     ///
@@ -29416,6 +34922,7 @@ pub mod objects {
     /// Rethlocipaddr10.
     ///
     /// 0x2204:01, holding register 516, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethlocipaddr10`](super::VectorStep::rethlocipaddr10).
     ///
     /// Bytes 1 and 0 of the drive's own IP address
     ///
@@ -29432,6 +34939,7 @@ pub mod objects {
     /// Rethsubnet32.
     ///
     /// 0x2205:01, holding register 517, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethsubnet32`](super::VectorStep::rethsubnet32).
     ///
     /// Bytes 3 and 2 of the subnet mask
     ///
@@ -29448,6 +34956,7 @@ pub mod objects {
     /// Rethsubnet10.
     ///
     /// 0x2206:01, holding register 518, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethsubnet10`](super::VectorStep::rethsubnet10).
     ///
     /// Bytes 1 and 0 of the subnet mask
     ///
@@ -29464,6 +34973,7 @@ pub mod objects {
     /// Rethgwaddr32.
     ///
     /// 0x2207:01, holding register 519, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethgwaddr32`](super::VectorStep::rethgwaddr32).
     ///
     /// Bytes 3 and 2 of the gateway's IP address
     ///
@@ -29480,6 +34990,7 @@ pub mod objects {
     /// Rethgwaddr10.
     ///
     /// 0x2208:01, holding register 520, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethgwaddr10`](super::VectorStep::rethgwaddr10).
     ///
     /// Bytes 1 and 0 of the gateway's IP address
     ///
@@ -29496,6 +35007,7 @@ pub mod objects {
     /// Rethmacaddr054.
     ///
     /// 0x2209:01, holding register 521, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethmacaddr054`](super::VectorStep::rethmacaddr054).
     ///
     /// Bytes 5 and 4 of MAC address 0; write this one first of the three, command 140 saves them
     ///
@@ -29516,6 +35028,7 @@ pub mod objects {
     /// Rethmacaddr032.
     ///
     /// 0x220A:01, holding register 522, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethmacaddr032`](super::VectorStep::rethmacaddr032).
     ///
     /// Bytes 3 and 2 of MAC address 0; write this one second of the three, command 140 saves them
     ///
@@ -29534,6 +35047,7 @@ pub mod objects {
     /// Rethmacaddr010.
     ///
     /// 0x220B:01, holding register 523, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethmacaddr010`](super::VectorStep::rethmacaddr010).
     ///
     /// Bytes 1 and 0 of MAC address 0; write this one last, then at once Rloadsav command 140
     ///
@@ -29552,6 +35066,7 @@ pub mod objects {
     /// Rethmacaddr154.
     ///
     /// 0x220C:01, holding register 524, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethmacaddr154`](super::VectorStep::rethmacaddr154).
     ///
     /// Bytes 5 and 4 of MAC address 1, of PROFINET port 1
     ///
@@ -29566,6 +35081,7 @@ pub mod objects {
     /// Rethmacaddr132.
     ///
     /// 0x220D:01, holding register 525, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethmacaddr132`](super::VectorStep::rethmacaddr132).
     ///
     /// Bytes 3 and 2 of MAC address 1, of PROFINET port 1
     ///
@@ -29580,6 +35096,7 @@ pub mod objects {
     /// Rethmacaddr110.
     ///
     /// 0x220E:01, holding register 526, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethmacaddr110`](super::VectorStep::rethmacaddr110).
     ///
     /// Bytes 1 and 0 of MAC address 1, of PROFINET port 1
     ///
@@ -29594,6 +35111,7 @@ pub mod objects {
     /// Rethmacaddr254.
     ///
     /// 0x220F:01, holding register 527, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethmacaddr254`](super::VectorStep::rethmacaddr254).
     ///
     /// Bytes 5 and 4 of MAC address 2, of PROFINET port 2
     ///
@@ -29608,6 +35126,7 @@ pub mod objects {
     /// Rethmacaddr232.
     ///
     /// 0x2210:01, holding register 528, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethmacaddr232`](super::VectorStep::rethmacaddr232).
     ///
     /// Bytes 3 and 2 of MAC address 2, of PROFINET port 2
     ///
@@ -29622,6 +35141,7 @@ pub mod objects {
     /// Rethmacaddr210.
     ///
     /// 0x2211:01, holding register 529, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethmacaddr210`](super::VectorStep::rethmacaddr210).
     ///
     /// Bytes 1 and 0 of MAC address 2, of PROFINET port 2
     ///
@@ -29636,6 +35156,7 @@ pub mod objects {
     /// Rethprotsock1.
     ///
     /// 0x2220:01, holding register 544, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rethprotsock1`](super::VectorStep::rethprotsock1). Values: [`SocketProtocol`](super::types::SocketProtocol).
     ///
     /// Protocol of socket 1
     ///
@@ -29654,6 +35175,7 @@ pub mod objects {
     /// Rethprotsock2.
     ///
     /// 0x2221:01, holding register 545, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rethprotsock2`](super::VectorStep::rethprotsock2). Values: [`SocketProtocol`](super::types::SocketProtocol).
     ///
     /// Protocol of socket 2
     ///
@@ -29672,6 +35194,7 @@ pub mod objects {
     /// Rethprotsock3.
     ///
     /// 0x2222:01, holding register 546, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rethprotsock3`](super::VectorStep::rethprotsock3). Values: [`SocketProtocol`](super::types::SocketProtocol).
     ///
     /// Protocol of socket 3
     ///
@@ -29690,6 +35213,7 @@ pub mod objects {
     /// Rethprotsock4.
     ///
     /// 0x2223:01, holding register 547, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rethprotsock4`](super::VectorStep::rethprotsock4).
     ///
     /// Reserved; by its name the protocol of socket 4
     ///
@@ -29710,6 +35234,7 @@ pub mod objects {
     /// Rethprotsock5.
     ///
     /// 0x2224:01, holding register 548, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rethprotsock5`](super::VectorStep::rethprotsock5).
     ///
     /// Reserved; by its name the protocol of socket 5
     ///
@@ -29730,6 +35255,7 @@ pub mod objects {
     /// Rethprotsock6.
     ///
     /// 0x2225:01, holding register 549, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rethprotsock6`](super::VectorStep::rethprotsock6).
     ///
     /// Reserved; by its name the protocol of socket 6
     ///
@@ -29750,6 +35276,7 @@ pub mod objects {
     /// Rethprotsock7.
     ///
     /// 0x2226:01, holding register 550, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rethprotsock7`](super::VectorStep::rethprotsock7).
     ///
     /// Reserved; by its name the protocol of socket 7
     ///
@@ -29770,6 +35297,7 @@ pub mod objects {
     /// Rethportsock1.
     ///
     /// 0x2227:01, holding register 551, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethportsock1`](super::VectorStep::rethportsock1).
     ///
     /// Port number of socket 1
     ///
@@ -29786,6 +35314,7 @@ pub mod objects {
     /// Rethportsock2.
     ///
     /// 0x2228:01, holding register 552, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethportsock2`](super::VectorStep::rethportsock2).
     ///
     /// Port number of socket 2
     ///
@@ -29802,6 +35331,7 @@ pub mod objects {
     /// Rethportsock3.
     ///
     /// 0x2229:01, holding register 553, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethportsock3`](super::VectorStep::rethportsock3).
     ///
     /// Port number of socket 3
     ///
@@ -29818,6 +35348,7 @@ pub mod objects {
     /// Rethportsock4.
     ///
     /// 0x222A:01, holding register 554, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethportsock4`](super::VectorStep::rethportsock4).
     ///
     /// Port number of socket 4
     ///
@@ -29836,6 +35367,7 @@ pub mod objects {
     /// Rethportsock5.
     ///
     /// 0x222B:01, holding register 555, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethportsock5`](super::VectorStep::rethportsock5).
     ///
     /// Port number of socket 5
     ///
@@ -29854,6 +35386,7 @@ pub mod objects {
     /// Rethportsock6.
     ///
     /// 0x222C:01, holding register 556, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethportsock6`](super::VectorStep::rethportsock6).
     ///
     /// Port number of socket 6
     ///
@@ -29872,6 +35405,7 @@ pub mod objects {
     /// Rethportsock7.
     ///
     /// 0x222D:01, holding register 557, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rethportsock7`](super::VectorStep::rethportsock7).
     ///
     /// Port number of socket 7
     ///
@@ -29890,6 +35424,7 @@ pub mod objects {
     /// Rethcptimeout.
     ///
     /// 0x222E:01, holding register 558, UNSIGNED16, rw, range 0 to 65535, in s.
+    /// Accessor: [`rethcptimeout`](super::VectorStep::rethcptimeout).
     ///
     /// Time-out of a TCP socket without activity; 0 switches it off
     ///
@@ -29912,6 +35447,7 @@ pub mod objects {
     /// Rprofinetnameptr.
     ///
     /// 0x4760:01, holding register 10080, UNSIGNED16, rw.
+    /// Accessor: [`rprofinetnameptr`](super::VectorStep::rprofinetnameptr).
     ///
     /// Position in the PROFINET device name of the character that Rprofinetnamechr holds
     ///
@@ -29926,6 +35462,7 @@ pub mod objects {
     /// Rprofinetnamechr.
     ///
     /// 0x4761:01, holding register 10081, UNSIGNED16, rw.
+    /// Accessor: [`rprofinetnamechr`](super::VectorStep::rprofinetnamechr).
     ///
     /// Character of the PROFINET device name at the position in Rprofinetnameptr
     ///
@@ -29940,6 +35477,7 @@ pub mod objects {
     /// Rprofinetname.
     ///
     /// 0x4762:01, holding register 10082, unknown type, rw.
+    /// Accessor: [`rprofinetname`](super::VectorStep::rprofinetname).
     ///
     /// PROFINET device name, for a tool; it can't be sent to the drive as a whole
     ///
@@ -29956,6 +35494,7 @@ pub mod objects {
     /// Rswrevariantaios.
     ///
     /// 0x479C:01, holding register 10140, UNSIGNED16, rw.
+    /// Accessor: [`rswrevariantaios`](super::VectorStep::rswrevariantaios).
     ///
     /// Firmware version of the Antaios chip
     ///
@@ -29974,6 +35513,7 @@ pub mod objects {
     /// Rhwrevariantaios.
     ///
     /// 0x479D:01, holding register 10141, UNSIGNED16, rw.
+    /// Accessor: [`rhwrevariantaios`](super::VectorStep::rhwrevariantaios).
     ///
     /// Hardware version of the Antaios chip
     ///
@@ -29992,6 +35532,7 @@ pub mod objects {
     /// Rmodelantaios.
     ///
     /// 0x479E:01, holding register 10142, UNSIGNED16, rw.
+    /// Accessor: [`rmodelantaios`](super::VectorStep::rmodelantaios).
     ///
     /// Model of the expansion card, by the Antaios firmware; Rloadsav command 12 reads it from the card
     ///
@@ -30012,6 +35553,7 @@ pub mod objects {
     /// Rmodulcmd.
     ///
     /// 0x219D:01, holding register 413, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rmodulcmd`](super::VectorStep::rmodulcmd). Values: [`ModuloCommand`](super::types::ModuloCommand).
     ///
     /// Which positions wrap around, and in which direction the axis goes to a target
     ///
@@ -30032,6 +35574,7 @@ pub mod objects {
     /// Rmodulpos.
     ///
     /// 0x219E:01, holding registers 414 to 415, UNSIGNED32, rw, range 1 to 2147483647, in step.
+    /// Accessor: [`rmodulpos`](super::VectorStep::rmodulpos).
     ///
     /// Highest position of the positioner before it rolls over to 0
     ///
@@ -30050,6 +35593,7 @@ pub mod objects {
     /// Rmodulmotenc.
     ///
     /// 0x21A0:01, holding registers 416 to 417, UNSIGNED32, rw, range 1 to 2147483647, in count.
+    /// Accessor: [`rmodulmotenc`](super::VectorStep::rmodulmotenc).
     ///
     /// Highest count of encoder 1 before it rolls over to 0
     ///
@@ -30068,6 +35612,7 @@ pub mod objects {
     /// Rmodulextenc.
     ///
     /// 0x21A2:01, holding registers 418 to 419, UNSIGNED32, rw, range 1 to 2147483647, in count.
+    /// Accessor: [`rmodulextenc`](super::VectorStep::rmodulextenc).
     ///
     /// Highest count of encoder 2 before it rolls over to 0
     ///
@@ -30086,6 +35631,7 @@ pub mod objects {
     /// Rlineupcmd.
     ///
     /// 0x21A4:01, holding register 420, UNSIGNED16, rw, mappable into RPDOs.
+    /// Accessor: [`rlineupcmd`](super::VectorStep::rlineupcmd). Values: [`LineUpCommand`](super::types::LineUpCommand).
     ///
     /// Starts the line-up of the chosen positions; all wanted bits have to be written together
     ///
@@ -30106,6 +35652,7 @@ pub mod objects {
     /// Rlineuppos.
     ///
     /// 0x21A5:01, holding registers 421 to 422, INTEGER32, rw, in step.
+    /// Accessor: [`rlineuppos`](super::VectorStep::rlineuppos).
     ///
     /// Position that a line-up puts into Rposactreq; set it before the command
     ///
@@ -30124,6 +35671,7 @@ pub mod objects {
     /// Rlineupmotenc.
     ///
     /// 0x21A7:01, holding registers 423 to 424, INTEGER32, rw, in count.
+    /// Accessor: [`rlineupmotenc`](super::VectorStep::rlineupmotenc).
     ///
     /// Count that a line-up gives to encoder 1; set it before the command
     ///
@@ -30142,6 +35690,7 @@ pub mod objects {
     /// Rlineupextenc.
     ///
     /// 0x21A9:01, holding registers 425 to 426, INTEGER32, rw, in count.
+    /// Accessor: [`rlineupextenc`](super::VectorStep::rlineupextenc).
     ///
     /// Count that a line-up gives to encoder 2; set it before the command
     ///
@@ -30160,6 +35709,7 @@ pub mod objects {
     /// Rlineupdef.
     ///
     /// 0x21AB:01, holding register 427, UNSIGNED16, rw, mappable into RPDOs.
+    /// Accessor: [`rlineupdef`](super::VectorStep::rlineupdef). Values: [`LineUpDefinition`](super::types::LineUpDefinition).
     ///
     /// Bits that are copied to Rlineupcmd when the digital line-up input is activated
     ///
@@ -30178,12 +35728,13 @@ pub mod objects {
     /// Rtouchprobefunc.
     ///
     /// 0x214B:01, holding register 331, UNSIGNED16, rw, mappable into RPDOs, default 0, range 0 to 65535.
+    /// Accessor: [`rtouchprobefunc`](super::VectorStep::rtouchprobefunc). Values: [`TouchProbeControl`](super::types::TouchProbeControl).
     ///
     /// Control word of both touch probes; the same as object 0x60B8
     ///
     /// Kept over power-off once 129 was given. bits 3-2 and 11-10 can't be changed any more once bit 4 or bit 12 is set.
     ///
-    /// Before firmware 6. Replaced by Rtouchprobefunc\_v6.
+    /// Before firmware 6. Replaced by [Rtouchprobefunc\_v6](RTOUCHPROBEFUNC_V6).
     ///
     /// Chapter Touch probe. Manual, line 2951, 2991-3030: Word di controllo della funzione Touch Probe.
     ///
@@ -30207,10 +35758,11 @@ pub mod objects {
     /// Rtouchprobestatus.
     ///
     /// 0x214C:01, holding register 332, UNSIGNED16, ro, mappable into TPDOs, default 0.
+    /// Accessor: [`rtouchprobestatus`](super::VectorStep::rtouchprobestatus). Values: [`TouchProbeStatusBeforeV6`](super::types::TouchProbeStatusBeforeV6).
     ///
     /// Status word of both touch probes; the same as object 0x60B9
     ///
-    /// Before firmware 6. Replaced by Rtouchprobestatus\_v6.
+    /// Before firmware 6. Replaced by [Rtouchprobestatus\_v6](RTOUCHPROBESTATUS_V6).
     ///
     /// Chapter Touch probe. Manual, line 2952, 3032-3057: Word di stato della funzione Touch Probe.
     ///
@@ -30228,10 +35780,11 @@ pub mod objects {
     /// Rtouchprobepos1pos.
     ///
     /// 0x214D:01, holding registers 333 to 334, low word first, INTEGER32, ro, mappable into TPDOs, default 0.
+    /// Accessor: [`rtouchprobepos1pos`](super::VectorStep::rtouchprobepos1pos).
     ///
     /// Position of probe 1 latched at its positive edge; object 0x60BA
     ///
-    /// Before firmware 6. Replaced by Rtouchprobepos1pos\_v6.
+    /// Before firmware 6. Replaced by [Rtouchprobepos1pos\_v6](RTOUCHPROBEPOS1POS_V6).
     ///
     /// Chapter Touch probe. Manual, line 2953, 3059-3067: Valore catturato su fronte positivo.
     ///
@@ -30251,10 +35804,11 @@ pub mod objects {
     /// Rtouchprobepos1neg.
     ///
     /// 0x214F:01, holding registers 335 to 336, low word first, INTEGER32, ro, mappable into TPDOs, default 0.
+    /// Accessor: [`rtouchprobepos1neg`](super::VectorStep::rtouchprobepos1neg).
     ///
     /// Position of probe 1 latched at its negative edge; object 0x60BB
     ///
-    /// Before firmware 6. Replaced by Rtouchprobepos1neg\_v6.
+    /// Before firmware 6. Replaced by [Rtouchprobepos1neg\_v6](RTOUCHPROBEPOS1NEG_V6).
     ///
     /// Chapter Touch probe. Manual, line 2954, 3069-3077: Valore catturato su fronte negativo.
     ///
@@ -30274,10 +35828,11 @@ pub mod objects {
     /// Rtouchprobepos2pos.
     ///
     /// 0x2151:01, holding registers 337 to 338, low word first, INTEGER32, ro, mappable into TPDOs, default 0.
+    /// Accessor: [`rtouchprobepos2pos`](super::VectorStep::rtouchprobepos2pos).
     ///
     /// Position of probe 2 latched at its positive edge; object 0x60BC
     ///
-    /// Before firmware 6. Replaced by Rtouchprobe2pos.
+    /// Before firmware 6. Replaced by [Rtouchprobe2pos](RTOUCHPROBE2POS).
     ///
     /// Chapter Touch probe. Manual, line 2955, 3079-3089: Valore catturato su fronte positivo.
     ///
@@ -30297,10 +35852,11 @@ pub mod objects {
     /// Rtouchprobe2neg.
     ///
     /// 0x2153:01, holding registers 339 to 340, low word first, INTEGER32, ro, mappable into TPDOs, default 0.
+    /// Accessor: [`rtouchprobe2neg`](super::VectorStep::rtouchprobe2neg).
     ///
     /// Position of probe 2 latched at its negative edge; object 0x60BD
     ///
-    /// Before firmware 6. Replaced by Rtouchprobe2neg\_v6.
+    /// Before firmware 6. Replaced by [Rtouchprobe2neg\_v6](RTOUCHPROBE2NEG_V6).
     ///
     /// Chapter Touch probe. Manual, line 2958, 3091-3099: Valore catturato su fronte positivo.
     ///
@@ -30324,10 +35880,11 @@ pub mod objects {
     /// Rtouchprobe1inpdef.
     ///
     /// 0x2155:01, holding register 341, INTEGER16, rw, mappable into RPDOs, range \-21 to 6.
+    /// Accessor: [`rtouchprobe1inpdef`](super::VectorStep::rtouchprobe1inpdef). Values: [`TouchProbeInput`](super::types::TouchProbeInput).
     ///
     /// Signal that triggers touch probe 1
     ///
-    /// Before firmware 6. Replaced by Rtouchprobe1inp.
+    /// Before firmware 6. Replaced by [Rtouchprobe1inp](RTOUCHPROBE1INP).
     ///
     /// Chapter Touch probe. Manual, line 2959: Ingresso digitale per touch probe 1.
     ///
@@ -30349,10 +35906,11 @@ pub mod objects {
     /// Rtouchprobe2inpdef.
     ///
     /// 0x2156:01, holding register 342, INTEGER16, rw, mappable into RPDOs.
+    /// Accessor: [`rtouchprobe2inpdef`](super::VectorStep::rtouchprobe2inpdef). Values: [`TouchProbeInput`](super::types::TouchProbeInput).
     ///
     /// Signal that triggers touch probe 2
     ///
-    /// Before firmware 6. Replaced by Rtouchprobe2inp.
+    /// Before firmware 6. Replaced by [Rtouchprobe2inp](RTOUCHPROBE2INP).
     ///
     /// Chapter Touch probe. Manual, line 2960: Ingresso digitale per touch probe 2.
     ///
@@ -30369,6 +35927,7 @@ pub mod objects {
     /// Rtouchprobefunc\_v6.
     ///
     /// 0x4764:01, holding register 10084, UNSIGNED16, rw, default 0, range 0 to 65535.
+    /// Accessor: [`rtouchprobefunc_v6`](super::VectorStep::rtouchprobefunc_v6). Values: [`TouchProbeControl`](super::types::TouchProbeControl).
     ///
     /// Control word of both touch probes from firmware 6; the same as object 0x60B8
     ///
@@ -30400,6 +35959,7 @@ pub mod objects {
     /// Rtouchprobestatus\_v6.
     ///
     /// 0x4765:01, holding register 10085, UNSIGNED16, ro, default 0, range 0 to 65535.
+    /// Accessor: [`rtouchprobestatus_v6`](super::VectorStep::rtouchprobestatus_v6). Values: [`TouchProbeStatusV6`](super::types::TouchProbeStatusV6).
     ///
     /// Status word of both touch probes from firmware 6; the same as object 0x60B9
     ///
@@ -30423,6 +35983,7 @@ pub mod objects {
     /// Rtouchprobepos1pos\_v6.
     ///
     /// 0x4766:01, holding registers 10086 to 10087, low word first, INTEGER32, ro, default 0.
+    /// Accessor: [`rtouchprobepos1pos_v6`](super::VectorStep::rtouchprobepos1pos_v6).
     ///
     /// Position of probe 1 latched at its positive edge; object 0x60BA
     ///
@@ -30448,6 +36009,7 @@ pub mod objects {
     /// Rtouchprobepos1neg\_v6.
     ///
     /// 0x4768:01, holding registers 10088 to 10089, low word first, INTEGER32, ro, default 0.
+    /// Accessor: [`rtouchprobepos1neg_v6`](super::VectorStep::rtouchprobepos1neg_v6).
     ///
     /// Position of probe 1 latched at its negative edge; object 0x60BB
     ///
@@ -30473,6 +36035,7 @@ pub mod objects {
     /// Rtouchprobe1inp.
     ///
     /// 0x476A:01, holding register 10090, INTEGER16, rw, range \-21 to 6.
+    /// Accessor: [`rtouchprobe1inp`](super::VectorStep::rtouchprobe1inp). Values: [`TouchProbeInput`](super::types::TouchProbeInput).
     ///
     /// Signal that triggers touch probe 1, from firmware 6
     ///
@@ -30496,6 +36059,7 @@ pub mod objects {
     /// Rtouchprobe1timestamppos.
     ///
     /// 0x476B:01, holding registers 10091 to 10092, low word first, UNSIGNED32, ro, in ns.
+    /// Accessor: [`rtouchprobe1timestamppos`](super::VectorStep::rtouchprobe1timestamppos).
     ///
     /// Time since the positive edge of probe 1, up to 4 s
     ///
@@ -30512,6 +36076,7 @@ pub mod objects {
     /// Rtouchprobe1timestampneg.
     ///
     /// 0x476D:01, holding registers 10093 to 10094, low word first, UNSIGNED32, ro, in ns.
+    /// Accessor: [`rtouchprobe1timestampneg`](super::VectorStep::rtouchprobe1timestampneg).
     ///
     /// Time since the negative edge of probe 1, up to 4 s
     ///
@@ -30528,6 +36093,7 @@ pub mod objects {
     /// Rtouchprobe1posedgecnt.
     ///
     /// 0x476F:01, holding register 10095, UNSIGNED16, ro.
+    /// Accessor: [`rtouchprobe1posedgecnt`](super::VectorStep::rtouchprobe1posedgecnt).
     ///
     /// Number of positive edges of probe 1
     ///
@@ -30542,6 +36108,7 @@ pub mod objects {
     /// Rtouchprobe1negedgecnt.
     ///
     /// 0x4770:01, holding register 10096, UNSIGNED16, ro.
+    /// Accessor: [`rtouchprobe1negedgecnt`](super::VectorStep::rtouchprobe1negedgecnt).
     ///
     /// Number of negative edges of probe 1
     ///
@@ -30558,6 +36125,7 @@ pub mod objects {
     /// Rtouchprobe2pos.
     ///
     /// 0x4771:01, holding registers 10097 to 10098, low word first, INTEGER32, ro, default 0.
+    /// Accessor: [`rtouchprobe2pos`](super::VectorStep::rtouchprobe2pos).
     ///
     /// Position of probe 2 latched at its positive edge; object 0x60BC
     ///
@@ -30583,6 +36151,7 @@ pub mod objects {
     /// Rtouchprobe2neg\_v6.
     ///
     /// 0x4773:01, holding registers 10099 to 10100, low word first, INTEGER32, ro, default 0.
+    /// Accessor: [`rtouchprobe2neg_v6`](super::VectorStep::rtouchprobe2neg_v6).
     ///
     /// Position of probe 2 latched at its negative edge; object 0x60BD
     ///
@@ -30610,6 +36179,7 @@ pub mod objects {
     /// Rtouchprobe2inp.
     ///
     /// 0x4775:01, holding register 10101, INTEGER16, rw.
+    /// Accessor: [`rtouchprobe2inp`](super::VectorStep::rtouchprobe2inp). Values: [`TouchProbeInput`](super::types::TouchProbeInput).
     ///
     /// Signal that triggers touch probe 2, from firmware 6
     ///
@@ -30626,6 +36196,7 @@ pub mod objects {
     /// Rtouchprobe2timestamppos.
     ///
     /// 0x4776:01, holding registers 10102 to 10103, low word first, UNSIGNED32, ro, in ns.
+    /// Accessor: [`rtouchprobe2timestamppos`](super::VectorStep::rtouchprobe2timestamppos).
     ///
     /// Time since the positive edge of probe 2, up to 4 s
     ///
@@ -30642,6 +36213,7 @@ pub mod objects {
     /// Rtouchprobe2timestampneg.
     ///
     /// 0x4778:01, holding registers 10104 to 10105, low word first, UNSIGNED32, ro, in ns.
+    /// Accessor: [`rtouchprobe2timestampneg`](super::VectorStep::rtouchprobe2timestampneg).
     ///
     /// Time since the negative edge of probe 2, up to 4 s
     ///
@@ -30660,6 +36232,7 @@ pub mod objects {
     /// Rtouchprobe2posedgecnt.
     ///
     /// 0x477A:01, holding register 10106, UNSIGNED16, ro.
+    /// Accessor: [`rtouchprobe2posedgecnt`](super::VectorStep::rtouchprobe2posedgecnt).
     ///
     /// Number of positive edges of probe 2
     ///
@@ -30674,6 +36247,7 @@ pub mod objects {
     /// Rtouchprobe2negedgecnt.
     ///
     /// 0x477B:01, holding register 10107, UNSIGNED16, ro.
+    /// Accessor: [`rtouchprobe2negedgecnt`](super::VectorStep::rtouchprobe2negedgecnt).
     ///
     /// Number of negative edges of probe 2
     ///
@@ -30688,6 +36262,7 @@ pub mod objects {
     /// Rtouchprobe1source.
     ///
     /// 0x477C:01, holding register 10108, UNSIGNED16, rw.
+    /// Accessor: [`rtouchprobe1source`](super::VectorStep::rtouchprobe1source). Values: [`TouchProbeSource`](super::types::TouchProbeSource).
     ///
     /// Position that touch probe 1 latches
     ///
@@ -30706,6 +36281,7 @@ pub mod objects {
     /// Rtouchprobe2source.
     ///
     /// 0x477D:01, holding register 10109, UNSIGNED16, rw.
+    /// Accessor: [`rtouchprobe2source`](super::VectorStep::rtouchprobe2source). Values: [`TouchProbeSource`](super::types::TouchProbeSource).
     ///
     /// Position that touch probe 2 latches
     ///
@@ -30724,6 +36300,7 @@ pub mod objects {
     /// Rcapselinp.
     ///
     /// 0x2159:01, holding register 345, UNSIGNED16, rw, range 0 to 15.
+    /// Accessor: [`rcapselinp`](super::VectorStep::rcapselinp).
     ///
     /// Number of the digital input that the capture function watches
     ///
@@ -30742,6 +36319,7 @@ pub mod objects {
     /// Rcaptvelmax.
     ///
     /// 0x215A:01, holding registers 346 to 347, low word first, UNSIGNED32, rw, in 20 us.
+    /// Accessor: [`rcaptvelmax`](super::VectorStep::rcaptvelmax).
     ///
     /// Highest value that the capture timer can reach, in steps of 20 µs
     ///
@@ -30760,6 +36338,7 @@ pub mod objects {
     /// Rcaptval.
     ///
     /// 0x215C:01, holding registers 348 to 349, low word first, UNSIGNED32, rw, in 20 us.
+    /// Accessor: [`rcaptval`](super::VectorStep::rcaptval).
     ///
     /// Period between two edges of the captured input, in steps of 20 µs
     ///
@@ -30776,6 +36355,7 @@ pub mod objects {
     /// Rcaptcnt.
     ///
     /// 0x215E:01, holding register 350, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rcaptcnt`](super::VectorStep::rcaptcnt).
     ///
     /// Pulses counted on the captured input; after 65535 it begins again at 0
     ///
@@ -30790,6 +36370,7 @@ pub mod objects {
     /// Rcamstpulse.
     ///
     /// 0x217C:01, holding register 380, UNSIGNED16, rw, range 1 to 32767, in count.
+    /// Accessor: [`rcamstpulse`](super::VectorStep::rcamstpulse).
     ///
     /// Counts per revolution of the master encoder, for cams of type 1 and 2
     ///
@@ -30808,6 +36389,7 @@ pub mod objects {
     /// Rcamstmaxfrq.
     ///
     /// 0x217D:01, holding register 381, UNSIGNED16, rw, range 1 to 32767, in count/s.
+    /// Accessor: [`rcamstmaxfrq`](super::VectorStep::rcamstmaxfrq).
     ///
     /// Highest counts per second of the master encoder, for cams of type 2
     ///
@@ -30826,6 +36408,7 @@ pub mod objects {
     /// Rcamstrtphase.
     ///
     /// 0x217E:01, holding register 382, UNSIGNED16, rw, mappable into TPDOs, range 0 to 63.
+    /// Accessor: [`rcamstrtphase`](super::VectorStep::rcamstrtphase).
     ///
     /// Number of the task that holds the first phase, for cams of type 1 and 2
     ///
@@ -30844,6 +36427,7 @@ pub mod objects {
     /// Rcamstposact.
     ///
     /// 0x217F:01, holding register 383, UNSIGNED16, ro, mappable into TPDOs, in count.
+    /// Accessor: [`rcamstposact`](super::VectorStep::rcamstposact).
     ///
     /// Position of the master encoder now, for cams of type 1 and 2
     ///
@@ -30860,6 +36444,7 @@ pub mod objects {
     /// Rcamphaseact.
     ///
     /// 0x2180:01, holding register 384, UNSIGNED16, ro.
+    /// Accessor: [`rcamphaseact`](super::VectorStep::rcamphaseact).
     ///
     /// Phase (task) that runs now, for cams of type 1 and 2
     ///
@@ -30874,6 +36459,7 @@ pub mod objects {
     /// Rcamflgwr.
     ///
     /// 0x2181:01, holding register 385, UNSIGNED16, rw.
+    /// Accessor: [`rcamflgwr`](super::VectorStep::rcamflgwr). Values: [`CamControl`](super::types::CamControl).
     ///
     /// Control bits of cams of type 1 and 2
     ///
@@ -30888,6 +36474,7 @@ pub mod objects {
     /// Rcamflgrd.
     ///
     /// 0x2182:01, holding register 386, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`rcamflgrd`](super::VectorStep::rcamflgrd). Values: [`CamStatus`](super::types::CamStatus).
     ///
     /// Status bits of cams of type 1 and 2
     ///
@@ -30902,6 +36489,7 @@ pub mod objects {
     /// Rcamkpl.
     ///
     /// 0x2183:01, holding register 387, UNSIGNED16, rw, range 0 to 32767.
+    /// Accessor: [`rcamkpl`](super::VectorStep::rcamkpl).
     ///
     /// Proportional gain of the increments in all cam modes: type 1, type 2, start/stop and winding
     ///
@@ -30920,6 +36508,7 @@ pub mod objects {
     /// Rcamstspmstmmpulse.
     ///
     /// 0x21C8:01, holding register 456, UNSIGNED16, rw, range 0 to 65535 (0 to 65.535 mm/count), in 0.001 mm/count.
+    /// Accessor: [`rcamstspmstmmpulse`](super::VectorStep::rcamstspmstmmpulse).
     ///
     /// Travel of the master per encoder count, in thousandths of a millimetre
     ///
@@ -30938,6 +36527,7 @@ pub mod objects {
     /// Rcamstspslvmmstep.
     ///
     /// 0x21C9:01, holding register 457, UNSIGNED16, rw, range 0 to 65535 (0 to 65.535 mm/step), in 0.001 mm/step.
+    /// Accessor: [`rcamstspslvmmstep`](super::VectorStep::rcamstspslvmmstep).
     ///
     /// Travel of the slave per motor step, in thousandths of a millimetre
     ///
@@ -30958,6 +36548,7 @@ pub mod objects {
     /// Rcamstspcor.
     ///
     /// 0x21CA:01, holding register 458, INTEGER16, rw, range \-1000 to 1000, in %.
+    /// Accessor: [`rcamstspcor`](super::VectorStep::rcamstspcor).
     ///
     /// Correction of the ratio between master and slave
     ///
@@ -30978,6 +36569,7 @@ pub mod objects {
     /// Rcamstspaccspace.
     ///
     /// 0x21CB:01, holding register 459, UNSIGNED16, rw, range 0 to 65535 (0 to 6553.5 mm), in 0.1 mm.
+    /// Accessor: [`rcamstspaccspace`](super::VectorStep::rcamstspaccspace).
     ///
     /// Master travel during which the slave accelerates
     ///
@@ -30996,6 +36588,7 @@ pub mod objects {
     /// Rcamstspctrl.
     ///
     /// 0x21CC:01, holding register 460, UNSIGNED16, rw, mappable into RPDOs.
+    /// Accessor: [`rcamstspctrl`](super::VectorStep::rcamstspctrl). Values: [`CamStartStopControl`](super::types::CamStartStopControl).
     ///
     /// Control bits of the start/stop cam
     ///
@@ -31010,6 +36603,7 @@ pub mod objects {
     /// Rcamstspstatus.
     ///
     /// 0x21CD:01, holding register 461, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`rcamstspstatus`](super::VectorStep::rcamstspstatus). Values: [`CamStartStopStatus`](super::types::CamStartStopStatus).
     ///
     /// Status bits of the start/stop cam
     ///
@@ -31024,6 +36618,7 @@ pub mod objects {
     /// Rcamstsplowquotestlv.
     ///
     /// 0x21CE:01, holding registers 462 to 463, UNSIGNED32, rw, range 0 to 2147483647, in step.
+    /// Accessor: [`rcamstsplowquotestlv`](super::VectorStep::rcamstsplowquotestlv).
     ///
     /// Lowest position of the slave in the start/stop cam
     ///
@@ -31042,6 +36637,7 @@ pub mod objects {
     /// Rcamstsphighquotestlv.
     ///
     /// 0x21D0:01, holding registers 464 to 465, UNSIGNED32, rw, range 0 to 2147483647, in step.
+    /// Accessor: [`rcamstsphighquotestlv`](super::VectorStep::rcamstsphighquotestlv).
     ///
     /// Highest position of the slave in the start/stop cam
     ///
@@ -31060,6 +36656,7 @@ pub mod objects {
     /// Rcamstsplowquotemst.
     ///
     /// 0x21D2:01, holding registers 466 to 467, UNSIGNED32, rw, range 0 to 2147483647, in count.
+    /// Accessor: [`rcamstsplowquotemst`](super::VectorStep::rcamstsplowquotemst).
     ///
     /// Lowest position of the master in the start/stop cam
     ///
@@ -31078,6 +36675,7 @@ pub mod objects {
     /// Rcamstsphighquotemst.
     ///
     /// 0x21D4:01, holding registers 468 to 469, UNSIGNED32, rw, range 0 to 2147483647, in count.
+    /// Accessor: [`rcamstsphighquotemst`](super::VectorStep::rcamstsphighquotemst).
     ///
     /// Highest position of the master in the start/stop cam
     ///
@@ -31096,6 +36694,7 @@ pub mod objects {
     /// Rcammodeselect.
     ///
     /// 0x21D6:01, holding register 470, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rcammodeselect`](super::VectorStep::rcammodeselect). Values: [`CamMode`](super::types::CamMode).
     ///
     /// Which kind of cam is used
     ///
@@ -31114,6 +36713,7 @@ pub mod objects {
     /// Rcamstspsimvel.
     ///
     /// 0x21F0:01, holding register 496, UNSIGNED16, rw, in mm/s.
+    /// Accessor: [`rcamstspsimvel`](super::VectorStep::rcamstspsimvel).
     ///
     /// Speed of the simulated master encoder of the start/stop cam
     ///
@@ -31132,6 +36732,7 @@ pub mod objects {
     /// Rcamstspdecspace.
     ///
     /// 0x21F1:01, holding register 497, UNSIGNED16, rw, in 0.1 mm.
+    /// Accessor: [`rcamstspdecspace`](super::VectorStep::rcamstspdecspace).
     ///
     /// Master travel during which the slave decelerates
     ///
@@ -31150,6 +36751,7 @@ pub mod objects {
     /// Rcamstspstartdly.
     ///
     /// 0x21F2:01, holding register 498, UNSIGNED16, rw, in 0.1 mm.
+    /// Accessor: [`rcamstspstartdly`](super::VectorStep::rcamstspstartdly).
     ///
     /// Master travel before the slave starts
     ///
@@ -31168,6 +36770,7 @@ pub mod objects {
     /// Rcamstspstopdly.
     ///
     /// 0x21F3:01, holding register 499, UNSIGNED16, rw, in 0.1 mm.
+    /// Accessor: [`rcamstspstopdly`](super::VectorStep::rcamstspstopdly).
     ///
     /// Travel of the slave between the stop command and the beginning of its deceleration ramp
     ///
@@ -31186,6 +36789,7 @@ pub mod objects {
     /// Rwindspoolimpturn.
     ///
     /// 0x21D7:01, holding register 471, UNSIGNED16, rw, range 1 to 65535, in count.
+    /// Accessor: [`rwindspoolimpturn`](super::VectorStep::rwindspoolimpturn).
     ///
     /// Encoder counts per revolution of the spool
     ///
@@ -31204,6 +36808,7 @@ pub mod objects {
     /// Rwindyarnguidemmstep.
     ///
     /// 0x21D8:01, holding register 472, UNSIGNED16, rw, range 0 to 65535 (0 to 65.535 mm), in 0.001 mm.
+    /// Accessor: [`rwindyarnguidemmstep`](super::VectorStep::rwindyarnguidemmstep).
     ///
     /// Travel of the yarn guide per motor step
     ///
@@ -31222,6 +36827,7 @@ pub mod objects {
     /// Rwindaccspoolturn.
     ///
     /// 0x21D9:01, holding register 473, UNSIGNED16, rw, range 0 to 65535 (0 to 6553.5 rev), in 0.1 rev.
+    /// Accessor: [`rwindaccspoolturn`](super::VectorStep::rwindaccspoolturn).
     ///
     /// Revolutions in which the yarn guide accelerates to the speed required
     ///
@@ -31240,6 +36846,7 @@ pub mod objects {
     /// Rwindyarnshift.
     ///
     /// 0x21DA:01, holding register 474, UNSIGNED16, rw, range 0 to 65535 (0 to 655.35 mm), in 0.01 mm.
+    /// Accessor: [`rwindyarnshift`](super::VectorStep::rwindyarnshift).
     ///
     /// Travel of the yarn guide per revolution of the spool
     ///
@@ -31258,6 +36865,7 @@ pub mod objects {
     /// Rwindtyingshift.
     ///
     /// 0x21DB:01, holding register 475, UNSIGNED16, rw, range 0 to 65535 (0 to 655.35 mm), in 0.01 mm.
+    /// Accessor: [`rwindtyingshift`](super::VectorStep::rwindtyingshift).
     ///
     /// Travel of the yarn guide per revolution of the spool while it ties
     ///
@@ -31276,6 +36884,7 @@ pub mod objects {
     /// Rwindctrl.
     ///
     /// 0x21DC:01, holding register 476, UNSIGNED16, rw, mappable into RPDOs.
+    /// Accessor: [`rwindctrl`](super::VectorStep::rwindctrl). Values: [`WindingControl`](super::types::WindingControl).
     ///
     /// Control bits of the winding cam
     ///
@@ -31290,6 +36899,7 @@ pub mod objects {
     /// Rwindstatus.
     ///
     /// 0x21DD:01, holding register 477, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`rwindstatus`](super::VectorStep::rwindstatus). Values: [`WindingStatus`](super::types::WindingStatus).
     ///
     /// Status bits of the winding cam
     ///
@@ -31304,6 +36914,7 @@ pub mod objects {
     /// Rwindquotelleft.
     ///
     /// 0x21DE:01, holding registers 478 to 479, UNSIGNED32, rw, range 0 to 2147483647 (0 to 214748364.7 mm), in 0.1 mm.
+    /// Accessor: [`rwindquotelleft`](super::VectorStep::rwindquotelleft).
     ///
     /// End position of the yarn guide on the side of the machine
     ///
@@ -31320,6 +36931,7 @@ pub mod objects {
     /// Rwindquoteright.
     ///
     /// 0x21E0:01, holding registers 480 to 481, UNSIGNED32, rw, range 0 to 2147483647 (0 to 214748364.7 mm), in 0.1 mm.
+    /// Accessor: [`rwindquoteright`](super::VectorStep::rwindquoteright).
     ///
     /// End position of the yarn guide on the side of the operator
     ///
@@ -31336,6 +36948,7 @@ pub mod objects {
     /// Rwindquotestop.
     ///
     /// 0x21E2:01, holding registers 482 to 483, UNSIGNED32, rw, range 0 to 2147483647 (0 to 214748364.7 mm), in 0.1 mm.
+    /// Accessor: [`rwindquotestop`](super::VectorStep::rwindquotestop).
     ///
     /// Position where the yarn guide stops
     ///
@@ -31352,6 +36965,7 @@ pub mod objects {
     /// Rwindtyingquotelleft.
     ///
     /// 0x21E4:01, holding registers 484 to 485, UNSIGNED32, rw, range 0 to 2147483647 (0 to 214748364.7 mm), in 0.1 mm.
+    /// Accessor: [`rwindtyingquotelleft`](super::VectorStep::rwindtyingquotelleft).
     ///
     /// End position of the yarn guide on the machine's side while it ties
     ///
@@ -31368,6 +36982,7 @@ pub mod objects {
     /// Rwindtyingquoteright.
     ///
     /// 0x21E6:01, holding registers 486 to 487, UNSIGNED32, rw, range 0 to 2147483647 (0 to 214748364.7 mm), in 0.1 mm.
+    /// Accessor: [`rwindtyingquoteright`](super::VectorStep::rwindtyingquoteright).
     ///
     /// End position of the yarn guide on the operator's side while it ties
     ///
@@ -31384,6 +36999,7 @@ pub mod objects {
     /// Rwindyarnguidemturnmotor.
     ///
     /// 0x21E8:01, holding registers 488 to 489, UNSIGNED32, rw, range 0 to 2147483647 (0 to 21474836.47 mm), in 0.01 mm.
+    /// Accessor: [`rwindyarnguidemturnmotor`](super::VectorStep::rwindyarnguidemturnmotor).
     ///
     /// Travel of the yarn guide per revolution of the stepper motor
     ///
@@ -31400,6 +37016,7 @@ pub mod objects {
     /// Rwindrevcnt.
     ///
     /// 0x21EA:01, holding register 490, UNSIGNED16, rw, mappable into TPDOs.
+    /// Accessor: [`rwindrevcnt`](super::VectorStep::rwindrevcnt).
     ///
     /// How often the stepper motor has reversed in winding mode
     ///
@@ -31414,6 +37031,7 @@ pub mod objects {
     /// Rwindrevpause.
     ///
     /// 0x21EB:01, holding registers 491 to 492, UNSIGNED32, rw, range 0 to 2147483647, in count.
+    /// Accessor: [`rwindrevpause`](super::VectorStep::rwindrevpause).
     ///
     /// Counts of the master encoder for which the motor pauses while it reverses
     ///
@@ -31430,6 +37048,7 @@ pub mod objects {
     /// Renccamfbk.
     ///
     /// 0x471C:01, holding register 10012, UNSIGNED16, rw, default 1.
+    /// Accessor: [`renccamfbk`](super::VectorStep::renccamfbk). Values: [`CamFeedback`](super::types::CamFeedback).
     ///
     /// Encoder that the cam and winding functions follow
     ///
@@ -31449,6 +37068,7 @@ pub mod objects {
     /// Rbrakedlyopen.
     ///
     /// 0x2062:01, holding register 98, UNSIGNED16, rw, range 0 to 65535, in ms.
+    /// Accessor: [`rbrakedlyopen`](super::VectorStep::rbrakedlyopen).
     ///
     /// Delay with which the external brake opens
     ///
@@ -31467,6 +37087,7 @@ pub mod objects {
     /// Rbrakedlyclose.
     ///
     /// 0x2158:01, holding register 344, UNSIGNED16, rw, range 0 to 65535, in ms.
+    /// Accessor: [`rbrakedlyclose`](super::VectorStep::rbrakedlyclose).
     ///
     /// Delay with which the external brake closes
     ///
@@ -31485,6 +37106,7 @@ pub mod objects {
     /// Rusrpidkp.
     ///
     /// 0x21F4:01, holding register 500, UNSIGNED16, rw.
+    /// Accessor: [`rusrpidkp`](super::VectorStep::rusrpidkp).
     ///
     /// Proportional gain of the user PID
     ///
@@ -31501,6 +37123,7 @@ pub mod objects {
     /// Rusrpidki.
     ///
     /// 0x21F5:01, holding register 501, UNSIGNED16, rw.
+    /// Accessor: [`rusrpidki`](super::VectorStep::rusrpidki).
     ///
     /// Integral gain of the user PID
     ///
@@ -31517,6 +37140,7 @@ pub mod objects {
     /// Rusrpidkd.
     ///
     /// 0x21F6:01, holding register 502, UNSIGNED16, rw.
+    /// Accessor: [`rusrpidkd`](super::VectorStep::rusrpidkd).
     ///
     /// Derivative gain of the user PID
     ///
@@ -31533,6 +37157,7 @@ pub mod objects {
     /// Rusrpidkt.
     ///
     /// 0x21F7:01, holding register 503, UNSIGNED16, rw, in ms.
+    /// Accessor: [`rusrpidkt`](super::VectorStep::rusrpidkt).
     ///
     /// Integration time of the user PID
     ///
@@ -31551,6 +37176,7 @@ pub mod objects {
     /// Rusrpidflag.
     ///
     /// 0x21F8:01, holding register 504, UNSIGNED16, rw.
+    /// Accessor: [`rusrpidflag`](super::VectorStep::rusrpidflag). Values: [`UserPidControl`](super::types::UserPidControl).
     ///
     /// Starts, stops and resets the user PID
     ///
@@ -31565,6 +37191,7 @@ pub mod objects {
     /// Rusrpidmaxout.
     ///
     /// 0x21F9:01, holding registers 505 to 506, low word first, INTEGER32, rw.
+    /// Accessor: [`rusrpidmaxout`](super::VectorStep::rusrpidmaxout).
     ///
     /// Highest output of the user PID
     ///
@@ -31581,6 +37208,7 @@ pub mod objects {
     /// Rusrpidminout.
     ///
     /// 0x21FB:01, holding registers 507 to 508, low word first, INTEGER32, rw.
+    /// Accessor: [`rusrpidminout`](super::VectorStep::rusrpidminout).
     ///
     /// Lowest output of the user PID
     ///
@@ -31597,6 +37225,7 @@ pub mod objects {
     /// Rusrpidsetpoint.
     ///
     /// 0x21FD:01, holding registers 509 to 510, low word first, INTEGER32, rw, mappable into RPDOs.
+    /// Accessor: [`rusrpidsetpoint`](super::VectorStep::rusrpidsetpoint).
     ///
     /// Set-point of the user PID
     ///
@@ -31613,6 +37242,7 @@ pub mod objects {
     /// Rusrpidprocessvalue.
     ///
     /// 0x21FF:01, holding registers 511 to 512, low word first, INTEGER32, rw, mappable into TPDOs.
+    /// Accessor: [`rusrpidprocessvalue`](super::VectorStep::rusrpidprocessvalue).
     ///
     /// Process value of the user PID
     ///
@@ -31627,6 +37257,7 @@ pub mod objects {
     /// Rusrpidout.
     ///
     /// 0x2201:01, holding registers 513 to 514, low word first, INTEGER32, rw, mappable into TPDOs.
+    /// Accessor: [`rusrpidout`](super::VectorStep::rusrpidout).
     ///
     /// Output of the user PID
     ///
@@ -31641,6 +37272,7 @@ pub mod objects {
     /// Rfgapplyto.
     ///
     /// 0x213B:01, holding register 315, UNSIGNED16, rw, range 0 to 5.
+    /// Accessor: [`rfgapplyto`](super::VectorStep::rfgapplyto). Values: [`GeneratorTarget`](super::types::GeneratorTarget).
     ///
     /// What the signal of the internal function generator is applied to
     ///
@@ -31657,6 +37289,7 @@ pub mod objects {
     /// Rfgvalmin.
     ///
     /// 0x213C:01, holding registers 316 to 317, low word first, INTEGER32, ro, range \-2147483648 to 2147483647, in bit.
+    /// Accessor: [`rfgvalmin`](super::VectorStep::rfgvalmin).
     ///
     /// Lowest value of the generated signal
     ///
@@ -31675,6 +37308,7 @@ pub mod objects {
     /// Rfgvalmax.
     ///
     /// 0x213E:01, holding registers 318 to 319, low word first, INTEGER32, ro, range \-2147483648 to 2147483647, in bit.
+    /// Accessor: [`rfgvalmax`](super::VectorStep::rfgvalmax).
     ///
     /// Highest value of the generated signal
     ///
@@ -31693,6 +37327,7 @@ pub mod objects {
     /// Rfgfreq.
     ///
     /// 0x2140:01, holding register 320, UNSIGNED16, rw, range 1 to 10000, in Hz.
+    /// Accessor: [`rfgfreq`](super::VectorStep::rfgfreq).
     ///
     /// Frequency of the generated signal
     ///
@@ -31709,6 +37344,7 @@ pub mod objects {
     /// Rfgperiod.
     ///
     /// 0x2141:01, holding register 321, UNSIGNED16, rw, range 1 to 1000, in ms.
+    /// Accessor: [`rfgperiod`](super::VectorStep::rfgperiod).
     ///
     /// Period of the generated signal
     ///
@@ -31727,6 +37363,7 @@ pub mod objects {
     /// Rfgcmd.
     ///
     /// 0x2142:01, holding register 322, UNSIGNED16, rw, range 0 to 1.
+    /// Accessor: [`rfgcmd`](super::VectorStep::rfgcmd). Values: [`GeneratorCommand`](super::types::GeneratorCommand).
     ///
     /// Starts and stops the function generator
     ///
@@ -31747,6 +37384,7 @@ pub mod objects {
     /// Rfgmode.
     ///
     /// 0x2143:01, holding register 323, UNSIGNED16, rw, range 0 to 2.
+    /// Accessor: [`rfgmode`](super::VectorStep::rfgmode). Values: [`GeneratorMode`](super::types::GeneratorMode).
     ///
     /// Shape of the generated signal
     ///
@@ -31765,6 +37403,7 @@ pub mod objects {
     /// Rfgout32.
     ///
     /// 0x2144:01, holding registers 324 to 325, low word first, INTEGER32, ro.
+    /// Accessor: [`rfgout32`](super::VectorStep::rfgout32).
     ///
     /// Output of the function generator in 32 bits
     ///
@@ -31779,6 +37418,7 @@ pub mod objects {
     /// Rfgout16.
     ///
     /// 0x2146:01, holding register 326, INTEGER16, rw.
+    /// Accessor: [`rfgout16`](super::VectorStep::rfgout16).
     ///
     /// Output of the function generator in 16 bits
     ///
@@ -31793,6 +37433,7 @@ pub mod objects {
     /// Rstsprg.
     ///
     /// 0x20CC:01, holding register 204, UNSIGNED16, ro.
+    /// Accessor: [`rstsprg`](super::VectorStep::rstsprg). Values: [`ProgramStatus`](super::types::ProgramStatus).
     ///
     /// Whether the user program runs and is valid
     ///
@@ -31807,6 +37448,7 @@ pub mod objects {
     /// Rprgrunmode.
     ///
     /// 0x20CD:01, holding register 205, UNSIGNED16, rw, range 0 to 2.
+    /// Accessor: [`rprgrunmode`](super::VectorStep::rprgrunmode). Values: [`ProgramRunMode`](super::types::ProgramRunMode).
     ///
     /// Stops the user program, runs it, or runs one step of it
     ///
@@ -31825,6 +37467,7 @@ pub mod objects {
     /// Rprgstopevent.
     ///
     /// 0x20CE:01, holding register 206, UNSIGNED16, ro.
+    /// Accessor: [`rprgstopevent`](super::VectorStep::rprgstopevent). Values: [`ProgramStopEvent`](super::types::ProgramStopEvent).
     ///
     /// Why the user program stopped
     ///
@@ -31841,10 +37484,11 @@ pub mod objects {
     /// Rprgcnt.
     ///
     /// 0x20CF:01, holding register 207, UNSIGNED16, rw, range 0 to 4998.
+    /// Accessor: [`rprgcnt`](super::VectorStep::rprgcnt).
     ///
     /// Program counter of the user program; it can be written while the program is stopped
     ///
-    /// Can be written only while Rprgrunmode is 0.
+    /// Can be written only while [Rprgrunmode](RPRGRUNMODE) is 0.
     ///
     /// Chapter User program. Manual, line 3199: Program counter User program.
     ///
@@ -31863,6 +37507,7 @@ pub mod objects {
     /// Rprgccflag.
     ///
     /// 0x20D0:01, holding register 208, UNSIGNED16, rw.
+    /// Accessor: [`rprgccflag`](super::VectorStep::rprgccflag). Values: [`ProgramConditionCodes`](super::types::ProgramConditionCodes).
     ///
     /// Condition codes of the user program
     ///
@@ -31877,6 +37522,7 @@ pub mod objects {
     /// Rprgeventcounterptr.
     ///
     /// 0x2242:01, holding register 578, UNSIGNED16, rw, range 0 to 4988.
+    /// Accessor: [`rprgeventcounterptr`](super::VectorStep::rprgeventcounterptr).
     ///
     /// Program address whose passing is counted in Rprgeventcounter
     ///
@@ -31895,6 +37541,7 @@ pub mod objects {
     /// Rprgeventcounter.
     ///
     /// 0x2243:01, holding register 579, UNSIGNED16, rw, range 0 to 65535.
+    /// Accessor: [`rprgeventcounter`](super::VectorStep::rprgeventcounter).
     ///
     /// How often the program has passed the address in Rprgeventcounterptr
     ///
@@ -31909,6 +37556,7 @@ pub mod objects {
     /// Rprgusrpsw.
     ///
     /// Holding register 2000, UNSIGNED16, rw.
+    /// Accessor: [`rprgusrpsw`](super::VectorStep::rprgusrpsw).
     ///
     /// Password entered; unless it is the one in the EEPROM, the program memory can be neither read nor written
     ///
@@ -31923,6 +37571,7 @@ pub mod objects {
     /// Rprgcmd.
     ///
     /// Holding register 2001, UNSIGNED16, rw.
+    /// Accessor: [`rprgcmd`](super::VectorStep::rprgcmd). Values: [`ProgramCommand`](super::types::ProgramCommand).
     ///
     /// Saves, loads and erases the user program, and sets its password
     ///
@@ -31935,6 +37584,7 @@ pub mod objects {
     /// Rprgcmdsts.
     ///
     /// Holding register 2002, UNSIGNED16, rw.
+    /// Accessor: [`rprgcmdsts`](super::VectorStep::rprgcmdsts).
     ///
     /// Result of the last command in Rprgcmd; its values aren't described
     ///
@@ -31947,6 +37597,7 @@ pub mod objects {
     /// Rprgnewpsw.
     ///
     /// Holding register 2003, UNSIGNED16, rw.
+    /// Accessor: [`rprgnewpsw`](super::VectorStep::rprgnewpsw).
     ///
     /// Password that the command 0x82 in Rprgcmd sets
     ///
@@ -31959,6 +37610,7 @@ pub mod objects {
     /// Rprgpswact.
     ///
     /// Holding register 2004, UNSIGNED16, rw.
+    /// Accessor: [`rprgpswact`](super::VectorStep::rprgpswact). Values: [`ProgramProtection`](super::types::ProgramProtection).
     ///
     /// Whether a password protects the user program
     ///
@@ -31971,6 +37623,7 @@ pub mod objects {
     /// Rprgbpenable.
     ///
     /// Holding register 2005, UNSIGNED16, rw.
+    /// Accessor: [`rprgbpenable`](super::VectorStep::rprgbpenable).
     ///
     /// Enables software breakpoints
     ///
@@ -31985,6 +37638,7 @@ pub mod objects {
     /// Rprgbpnum.
     ///
     /// Holding register 2006, UNSIGNED16, rw.
+    /// Accessor: [`rprgbpnum`](super::VectorStep::rprgbpnum). Values: [`ProgramBreakpoint`](super::types::ProgramBreakpoint).
     ///
     /// Which breakpoint Rprgbpval reads or writes
     ///
@@ -31997,6 +37651,7 @@ pub mod objects {
     /// Rprgbpval.
     ///
     /// Holding register 2007, UNSIGNED16, rw.
+    /// Accessor: [`rprgbpval`](super::VectorStep::rprgbpval).
     ///
     /// Value of the breakpoint that Rprgbpnum points to
     ///
@@ -32009,6 +37664,7 @@ pub mod objects {
     /// Rprglen.
     ///
     /// Holding register 2008, UNSIGNED16, rw.
+    /// Accessor: [`rprglen`](super::VectorStep::rprglen).
     ///
     /// Length of the user program
     ///
@@ -32021,6 +37677,7 @@ pub mod objects {
     /// Rprgprgcks.
     ///
     /// Holding register 2009, UNSIGNED16, rw.
+    /// Accessor: [`rprgprgcks`](super::VectorStep::rprgprgcks).
     ///
     /// Checksum of the user program
     ///
@@ -32033,6 +37690,7 @@ pub mod objects {
     /// Rprgusrprg.
     ///
     /// Holding register 2010, UNSIGNED16, rw.
+    /// Accessor: [`rprgusrprg`](super::VectorStep::rprgusrprg).
     ///
     /// First location of the user program
     ///
@@ -32045,6 +37703,7 @@ pub mod objects {
     /// user\_program\_locations.
     ///
     /// Holding registers 2011 to 6998, low word first, unknown type, rw.
+    /// Accessor: [`user_program_locations`](super::VectorStep::user_program_locations).
     ///
     /// Locations 1 to 4988 of the user program
     ///
@@ -32061,6 +37720,7 @@ pub mod objects {
     /// user\_program\_last\_location.
     ///
     /// Holding register 6999, UNSIGNED16, rw.
+    /// Accessor: [`user_program_last_location`](super::VectorStep::user_program_last_location).
     ///
     /// Last location of the user program
     ///
@@ -32077,6 +37737,7 @@ pub mod objects {
     /// Device Type.
     ///
     /// 0x1000:00, UNSIGNED32, ro, default 0x40192, range 0 to 4294967295.
+    /// Accessor: [`device_type`](super::VectorStep::device_type). Values: [`DeviceType`](super::types::DeviceType).
     ///
     /// Device profile in the low word, additional information in the high word
     ///
@@ -32090,6 +37751,7 @@ pub mod objects {
     /// Error Register.
     ///
     /// 0x1001:00, UNSIGNED8, ro, mappable into TPDOs, default 0, range 0 to 255.
+    /// Accessor: [`error_register`](super::VectorStep::error_register). Values: [`ErrorRegister`](super::types::ErrorRegister).
     ///
     /// Errors of the device, one bit per kind
     ///
@@ -32114,6 +37776,7 @@ pub mod objects {
         /// Number of errors.
         ///
         /// 0x1003:00, UNSIGNED8, rw, default 0, range 0 to 2.
+        /// Accessor: [`Accessors::number_of_errors`].
         ///
         /// How many errors are in the history; writing 0 clears it
         ///
@@ -32133,6 +37796,7 @@ pub mod objects {
         /// Standard error field 1.
         ///
         /// 0x1003:01, UNSIGNED32, ro, default 0, range 0 to 4294967295.
+        /// Accessor: [`Accessors::standard_error_field_1`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Error in the history; the low 16 bits are the code that 0x603F shows; present only after an error
         ///
@@ -32151,6 +37815,7 @@ pub mod objects {
         /// Standard error field 2.
         ///
         /// 0x1003:02, UNSIGNED32, ro, default 0, range 0 to 4294967295.
+        /// Accessor: [`Accessors::standard_error_field_2`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
         /// Error in the history; present only after errors have occurred
         ///
@@ -32174,12 +37839,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of errors: 0x1003:00.
+            ///
+            /// How many errors are in the history; writing 0 clears it
+            ///
+            /// Constant: [`NUMBER_OF_ERRORS`].
             pub fn number_of_errors(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ERRORS.at(self.client)
             }
             /// Standard error field 1: 0x1003:01.
+            ///
+            /// Error in the history; the low 16 bits are the code that 0x603F shows; present only after an error
+            ///
+            /// Constant: [`STANDARD_ERROR_FIELD_1`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn standard_error_field_1(
                 &mut self,
             ) -> super::ReadOnlyAccess<
@@ -32191,6 +37864,10 @@ pub mod objects {
                 STANDARD_ERROR_FIELD_1.at(self.client)
             }
             /// Standard error field 2: 0x1003:02.
+            ///
+            /// Error in the history; present only after errors have occurred
+            ///
+            /// Constant: [`STANDARD_ERROR_FIELD_2`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn standard_error_field_2(
                 &mut self,
             ) -> super::ReadOnlyAccess<
@@ -32206,6 +37883,7 @@ pub mod objects {
     /// COB-ID SYNC Message.
     ///
     /// 0x1005:00, UNSIGNED32, rw, default 128, range 0 to 4294967295.
+    /// Accessor: [`cob_id_sync_message`](super::VectorStep::cob_id_sync_message). Values: [`CobIdSync`](super::types::CobIdSync).
     ///
     /// Identifier of the SYNC message, and whether the device produces it; changes of bits 29 and 30 are refused (abort 0x06090030)
     ///
@@ -32226,6 +37904,7 @@ pub mod objects {
     /// Communication Cycle Period.
     ///
     /// 0x1006:00, UNSIGNED32, rw, default 0, range 0 to 4294967295, in us.
+    /// Accessor: [`communication_cycle_period`](super::VectorStep::communication_cycle_period).
     ///
     /// Interval of SYNC; 0 where it isn't used
     ///
@@ -32243,6 +37922,7 @@ pub mod objects {
     /// Synchronous window length.
     ///
     /// 0x1007:00, UNSIGNED32, rw, default 0, range 0 to 4294967295, in us.
+    /// Accessor: [`synchronous_window_length`](super::VectorStep::synchronous_window_length).
     ///
     /// Length of the time window for synchronous PDOs; 0 where it isn't used
     ///
@@ -32258,6 +37938,7 @@ pub mod objects {
     /// Manufacturer Device Name.
     ///
     /// 0x1008:00, VISIBLE_STRING, const, default "SMD50.06LIC".
+    /// Accessor: [`manufacturer_device_name`](super::VectorStep::manufacturer_device_name).
     ///
     /// Code of the device
     ///
@@ -32278,6 +37959,7 @@ pub mod objects {
     /// Manufacturer Hardware Version.
     ///
     /// 0x1009:00, VISIBLE_STRING, const.
+    /// Accessor: [`manufacturer_hardware_version`](super::VectorStep::manufacturer_hardware_version).
     ///
     /// Hardware version, in the form Hw ver.X.XX
     ///
@@ -32297,6 +37979,7 @@ pub mod objects {
     /// Manufacturer Software Version.
     ///
     /// 0x100A:00, VISIBLE_STRING, const.
+    /// Accessor: [`manufacturer_software_version`](super::VectorStep::manufacturer_software_version).
     ///
     /// Software version, in the form Sw ver.X.XX
     ///
@@ -32316,6 +37999,7 @@ pub mod objects {
     /// Guard time.
     ///
     /// 0x100C:00, UNSIGNED16, rw, default 0, range 0 to 65535, in ms.
+    /// Accessor: [`guard_time`](super::VectorStep::guard_time).
     ///
     /// Times the life-time factor it is the life time of node guarding; 0 where it isn't used
     ///
@@ -32331,6 +38015,7 @@ pub mod objects {
     /// Life-time factor.
     ///
     /// 0x100D:00, UNSIGNED8, rw, default 0, range 0 to 255.
+    /// Accessor: [`life_time_factor`](super::VectorStep::life_time_factor).
     ///
     /// Factor that makes the life time of life guarding out of the guard time; 0 where it isn't used
     ///
@@ -32344,6 +38029,7 @@ pub mod objects {
     /// COB-ID Emergency Object.
     ///
     /// 0x1014:00, UNSIGNED32, rw, default \$NODEID+0x80, range 1 to 4294967295.
+    /// Accessor: [`cob_id_emergency_object`](super::VectorStep::cob_id_emergency_object). Values: [`CobIdEmergency`](super::types::CobIdEmergency).
     ///
     /// Identifier of the emergency message; changes of bits 29 and 30 are refused (abort 0x06090030)
     ///
@@ -32366,6 +38052,7 @@ pub mod objects {
     /// Inhibit Time Emergency.
     ///
     /// 0x1015:00, UNSIGNED16, rw, default 0, range 0 to 65535 (0 to 6553500 us), in 100 us.
+    /// Accessor: [`inhibit_time_emergency`](super::VectorStep::inhibit_time_emergency).
     ///
     /// Least time between two emergency messages, in multiples of 100 µs
     ///
@@ -32389,6 +38076,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1016:00, UNSIGNED8, ro, default 0, range 0 to 2.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of sub-entries
         ///
@@ -32406,6 +38094,7 @@ pub mod objects {
         /// Consumer heartbeat time 1.
         ///
         /// 0x1016:01, UNSIGNED32, rw, default 0, range 0 to 2147483647.
+        /// Accessor: [`Accessors::consumer_heartbeat_time_1`]. Values: [`ConsumerHeartbeat`](super::super::types::ConsumerHeartbeat).
         ///
         /// Node watched and its time in ms; 0 is off; a node set twice is refused (abort 0x06040043)
         ///
@@ -32426,6 +38115,7 @@ pub mod objects {
         /// Consumer heartbeat time 2.
         ///
         /// 0x1016:02, UNSIGNED32, rw, default 0, range 0 to 2147483647.
+        /// Accessor: [`Accessors::consumer_heartbeat_time_2`]. Values: [`ConsumerHeartbeat`](super::super::types::ConsumerHeartbeat).
         ///
         /// Node watched and its time in ms; 0 is off; a node set twice is refused (abort 0x06040043)
         ///
@@ -32449,12 +38139,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1016:00.
+            ///
+            /// Number of sub-entries
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Consumer heartbeat time 1: 0x1016:01.
+            ///
+            /// Node watched and its time in ms; 0 is off; a node set twice is refused (abort 0x06040043)
+            ///
+            /// Constant: [`CONSUMER_HEARTBEAT_TIME_1`]. Values: [`ConsumerHeartbeat`](super::super::types::ConsumerHeartbeat).
             pub fn consumer_heartbeat_time_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -32466,6 +38164,10 @@ pub mod objects {
                 CONSUMER_HEARTBEAT_TIME_1.at(self.client)
             }
             /// Consumer heartbeat time 2: 0x1016:02.
+            ///
+            /// Node watched and its time in ms; 0 is off; a node set twice is refused (abort 0x06040043)
+            ///
+            /// Constant: [`CONSUMER_HEARTBEAT_TIME_2`]. Values: [`ConsumerHeartbeat`](super::super::types::ConsumerHeartbeat).
             pub fn consumer_heartbeat_time_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -32481,6 +38183,7 @@ pub mod objects {
     /// Producer Heartbeat Time.
     ///
     /// 0x1017:00, UNSIGNED16, rw, default 0, range 0 to 65535, in ms.
+    /// Accessor: [`producer_heartbeat_time`](super::VectorStep::producer_heartbeat_time).
     ///
     /// Cycle time of the heartbeat that the device sends; 0 where it isn't used
     ///
@@ -32501,6 +38204,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1018:00, UNSIGNED8, ro, default 4, range 1 to 4.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of sub-entries
         ///
@@ -32516,6 +38220,7 @@ pub mod objects {
         /// Vendor ID.
         ///
         /// 0x1018:01, UNSIGNED32, ro, default 188, range 0 to 4294967295.
+        /// Accessor: [`Accessors::vendor_id`].
         ///
         /// Number of the manufacturer; AEC has 0xBC
         ///
@@ -32529,6 +38234,7 @@ pub mod objects {
         /// Product code.
         ///
         /// 0x1018:02, UNSIGNED32, ro, range 0 to 4294967295.
+        /// Accessor: [`Accessors::product_code`].
         ///
         /// Product, as the decimal number of the model: 5006 or 3006
         ///
@@ -32543,6 +38249,7 @@ pub mod objects {
         /// Revision number.
         ///
         /// 0x1018:03, UNSIGNED32, ro, range 0 to 4294967295.
+        /// Accessor: [`Accessors::revision_number`]. Values: [`RevisionNumber`](super::super::types::RevisionNumber).
         ///
         /// Revision of the CANopen behaviour and of the firmware
         ///
@@ -32558,6 +38265,7 @@ pub mod objects {
         /// Serial number.
         ///
         /// 0x1018:04, UNSIGNED32, ro, range 0 to 4294967295.
+        /// Accessor: [`Accessors::serial_number`].
         ///
         /// Serial number of the product
         ///
@@ -32575,24 +38283,40 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1018:00.
+            ///
+            /// Number of sub-entries
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Vendor ID: 0x1018:01.
+            ///
+            /// Number of the manufacturer; AEC has 0xBC
+            ///
+            /// Constant: [`VENDOR_ID`].
             pub fn vendor_id(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
                 VENDOR_ID.at(self.client)
             }
             /// Product code: 0x1018:02.
+            ///
+            /// Product, as the decimal number of the model: 5006 or 3006
+            ///
+            /// Constant: [`PRODUCT_CODE`].
             pub fn product_code(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
                 PRODUCT_CODE.at(self.client)
             }
             /// Revision number: 0x1018:03.
+            ///
+            /// Revision of the CANopen behaviour and of the firmware
+            ///
+            /// Constant: [`REVISION_NUMBER`]. Values: [`RevisionNumber`](super::super::types::RevisionNumber).
             pub fn revision_number(
                 &mut self,
             ) -> super::ReadOnlyAccess<
@@ -32604,6 +38328,10 @@ pub mod objects {
                 REVISION_NUMBER.at(self.client)
             }
             /// Serial number: 0x1018:04.
+            ///
+            /// Serial number of the product
+            ///
+            /// Constant: [`SERIAL_NUMBER`].
             pub fn serial_number(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u32, rt::OnCanOpenAndCoE> {
@@ -32619,6 +38347,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1200:00, UNSIGNED8, ro, default 2, range 2 to 2.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of sub-entries
         ///
@@ -32634,6 +38363,7 @@ pub mod objects {
         /// COB-ID client to server.
         ///
         /// 0x1200:01, UNSIGNED32, rw, default \$NODEID+0x600, range 0 to 4294967295.
+        /// Accessor: [`Accessors::cob_id_client_to_server`]. Values: [`SdoIdentifier`](super::super::types::SdoIdentifier).
         ///
         /// Identifier of requests to the drive
         ///
@@ -32654,6 +38384,7 @@ pub mod objects {
         /// COB-ID server to client.
         ///
         /// 0x1200:02, UNSIGNED32, rw, default \$NODEID+0x580, range 0 to 4294967295.
+        /// Accessor: [`Accessors::cob_id_server_to_client`]. Values: [`SdoIdentifier`](super::super::types::SdoIdentifier).
         ///
         /// Identifier of the drive's replies
         ///
@@ -32677,12 +38408,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1200:00.
+            ///
+            /// Number of sub-entries
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// COB-ID client to server: 0x1200:01.
+            ///
+            /// Identifier of requests to the drive
+            ///
+            /// Constant: [`COB_ID_CLIENT_TO_SERVER`]. Values: [`SdoIdentifier`](super::super::types::SdoIdentifier).
             pub fn cob_id_client_to_server(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -32694,6 +38433,10 @@ pub mod objects {
                 COB_ID_CLIENT_TO_SERVER.at(self.client)
             }
             /// COB-ID server to client: 0x1200:02.
+            ///
+            /// Identifier of the drive's replies
+            ///
+            /// Constant: [`COB_ID_SERVER_TO_CLIENT`]. Values: [`SdoIdentifier`](super::super::types::SdoIdentifier).
             pub fn cob_id_server_to_client(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -32714,6 +38457,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1400:00, UNSIGNED8, ro, default 2, range 2 to 2.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of sub-entries
         ///
@@ -32729,6 +38473,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1400:01, UNSIGNED32, rw, default \$NODEID+0x200, range 0 to 4294967295.
+        /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
         /// Identifier of the PDO and whether it is valid
         ///
@@ -32747,6 +38492,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1400:02, UNSIGNED8, rw, default 254, range 0 to 255.
+        /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// Whether the PDO is synchronous, event triggered or on request
         ///
@@ -32770,12 +38516,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1400:00.
+            ///
+            /// Number of sub-entries
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// COB-ID: 0x1400:01.
+            ///
+            /// Identifier of the PDO and whether it is valid
+            ///
+            /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -32787,6 +38541,10 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1400:02.
+            ///
+            /// Whether the PDO is synchronous, event triggered or on request
+            ///
+            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -32807,6 +38565,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1401:00, UNSIGNED8, ro, default 2, range 2 to 2.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of sub-entries
         ///
@@ -32822,6 +38581,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1401:01, UNSIGNED32, rw, default \$NODEID+0x300, range 0 to 4294967295.
+        /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
         /// Identifier of the PDO and whether it is valid
         ///
@@ -32840,6 +38600,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1401:02, UNSIGNED8, rw, default 254, range 0 to 255.
+        /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// Whether the PDO is synchronous, event triggered or on request
         ///
@@ -32863,12 +38624,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1401:00.
+            ///
+            /// Number of sub-entries
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// COB-ID: 0x1401:01.
+            ///
+            /// Identifier of the PDO and whether it is valid
+            ///
+            /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -32880,6 +38649,10 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1401:02.
+            ///
+            /// Whether the PDO is synchronous, event triggered or on request
+            ///
+            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -32900,6 +38673,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1402:00, UNSIGNED8, ro, default 2, range 2 to 2.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of sub-entries
         ///
@@ -32915,6 +38689,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1402:01, UNSIGNED32, rw, default \$NODEID+0x400, range 0 to 4294967295.
+        /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
         /// Identifier of the PDO and whether it is valid
         ///
@@ -32933,6 +38708,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1402:02, UNSIGNED8, rw, default 254, range 0 to 255.
+        /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// Whether the PDO is synchronous, event triggered or on request
         ///
@@ -32956,12 +38732,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1402:00.
+            ///
+            /// Number of sub-entries
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// COB-ID: 0x1402:01.
+            ///
+            /// Identifier of the PDO and whether it is valid
+            ///
+            /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -32973,6 +38757,10 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1402:02.
+            ///
+            /// Whether the PDO is synchronous, event triggered or on request
+            ///
+            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -32993,6 +38781,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1403:00, UNSIGNED8, ro, default 2, range 2 to 2.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of sub-entries
         ///
@@ -33008,6 +38797,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1403:01, UNSIGNED32, rw, default \$NODEID+0x500, range 0 to 4294967295.
+        /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
         /// Identifier of the PDO and whether it is valid
         ///
@@ -33026,6 +38816,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1403:02, UNSIGNED8, rw, default 254, range 0 to 255.
+        /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// Whether the PDO is synchronous, event triggered or on request
         ///
@@ -33049,12 +38840,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1403:00.
+            ///
+            /// Number of sub-entries
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// COB-ID: 0x1403:01.
+            ///
+            /// Identifier of the PDO and whether it is valid
+            ///
+            /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33066,6 +38865,10 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1403:02.
+            ///
+            /// Whether the PDO is synchronous, event triggered or on request
+            ///
+            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33086,6 +38889,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1600:00, UNSIGNED8, rw, default 2, range 0 to 8.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of mapped objects; 0 while the mapping is changed
         ///
@@ -33109,6 +38913,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1600:01, UNSIGNED32, rw, default 0x60400010, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; by default the Controlword
         ///
@@ -33127,6 +38932,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// 0x1600:02, UNSIGNED32, rw, default 0x60600008, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; by default the mode of operation or target position
         ///
@@ -33143,6 +38949,7 @@ pub mod objects {
         /// Mapped object 3.
         ///
         /// 0x1600:03, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33158,6 +38965,7 @@ pub mod objects {
         /// Mapped object 4.
         ///
         /// 0x1600:04, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33173,6 +38981,7 @@ pub mod objects {
         /// Mapped object 5.
         ///
         /// 0x1600:05, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33188,6 +38997,7 @@ pub mod objects {
         /// Mapped object 6.
         ///
         /// 0x1600:06, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33203,6 +39013,7 @@ pub mod objects {
         /// Mapped object 7.
         ///
         /// 0x1600:07, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33218,6 +39029,7 @@ pub mod objects {
         /// Mapped object 8.
         ///
         /// 0x1600:08, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33236,12 +39048,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1600:00.
+            ///
+            /// Number of mapped objects; 0 while the mapping is changed
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Mapped object 1: 0x1600:01.
+            ///
+            /// Object, sub-index and number of bits; by default the Controlword
+            ///
+            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33253,6 +39073,10 @@ pub mod objects {
                 MAPPED_OBJECT_1.at(self.client)
             }
             /// Mapped object 2: 0x1600:02.
+            ///
+            /// Object, sub-index and number of bits; by default the mode of operation or target position
+            ///
+            /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33264,6 +39088,10 @@ pub mod objects {
                 MAPPED_OBJECT_2.at(self.client)
             }
             /// Mapped object 3: 0x1600:03.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33275,6 +39103,10 @@ pub mod objects {
                 MAPPED_OBJECT_3.at(self.client)
             }
             /// Mapped object 4: 0x1600:04.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33286,6 +39118,10 @@ pub mod objects {
                 MAPPED_OBJECT_4.at(self.client)
             }
             /// Mapped object 5: 0x1600:05.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33297,6 +39133,10 @@ pub mod objects {
                 MAPPED_OBJECT_5.at(self.client)
             }
             /// Mapped object 6: 0x1600:06.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33308,6 +39148,10 @@ pub mod objects {
                 MAPPED_OBJECT_6.at(self.client)
             }
             /// Mapped object 7: 0x1600:07.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33319,6 +39163,10 @@ pub mod objects {
                 MAPPED_OBJECT_7.at(self.client)
             }
             /// Mapped object 8: 0x1600:08.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33339,6 +39187,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1601:00, UNSIGNED8, rw, default 2, range 0 to 8.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of mapped objects; 0 while the mapping is changed
         ///
@@ -33362,6 +39211,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1601:01, UNSIGNED32, rw, default 0x60400010, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; by default the Controlword
         ///
@@ -33380,6 +39230,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// 0x1601:02, UNSIGNED32, rw, default 0x607A0020, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; by default the mode of operation or target position
         ///
@@ -33396,6 +39247,7 @@ pub mod objects {
         /// Mapped object 3.
         ///
         /// 0x1601:03, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33411,6 +39263,7 @@ pub mod objects {
         /// Mapped object 4.
         ///
         /// 0x1601:04, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33426,6 +39279,7 @@ pub mod objects {
         /// Mapped object 5.
         ///
         /// 0x1601:05, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33441,6 +39295,7 @@ pub mod objects {
         /// Mapped object 6.
         ///
         /// 0x1601:06, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33456,6 +39311,7 @@ pub mod objects {
         /// Mapped object 7.
         ///
         /// 0x1601:07, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33471,6 +39327,7 @@ pub mod objects {
         /// Mapped object 8.
         ///
         /// 0x1601:08, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33489,12 +39346,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1601:00.
+            ///
+            /// Number of mapped objects; 0 while the mapping is changed
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Mapped object 1: 0x1601:01.
+            ///
+            /// Object, sub-index and number of bits; by default the Controlword
+            ///
+            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33506,6 +39371,10 @@ pub mod objects {
                 MAPPED_OBJECT_1.at(self.client)
             }
             /// Mapped object 2: 0x1601:02.
+            ///
+            /// Object, sub-index and number of bits; by default the mode of operation or target position
+            ///
+            /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33517,6 +39386,10 @@ pub mod objects {
                 MAPPED_OBJECT_2.at(self.client)
             }
             /// Mapped object 3: 0x1601:03.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33528,6 +39401,10 @@ pub mod objects {
                 MAPPED_OBJECT_3.at(self.client)
             }
             /// Mapped object 4: 0x1601:04.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33539,6 +39416,10 @@ pub mod objects {
                 MAPPED_OBJECT_4.at(self.client)
             }
             /// Mapped object 5: 0x1601:05.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33550,6 +39431,10 @@ pub mod objects {
                 MAPPED_OBJECT_5.at(self.client)
             }
             /// Mapped object 6: 0x1601:06.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33561,6 +39446,10 @@ pub mod objects {
                 MAPPED_OBJECT_6.at(self.client)
             }
             /// Mapped object 7: 0x1601:07.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33572,6 +39461,10 @@ pub mod objects {
                 MAPPED_OBJECT_7.at(self.client)
             }
             /// Mapped object 8: 0x1601:08.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33592,6 +39485,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1602:00, UNSIGNED8, rw, default 0, range 0 to 8.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of mapped objects; 0 while the mapping is changed
         ///
@@ -33615,6 +39509,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1602:01, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33630,6 +39525,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// 0x1602:02, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33645,6 +39541,7 @@ pub mod objects {
         /// Mapped object 3.
         ///
         /// 0x1602:03, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33660,6 +39557,7 @@ pub mod objects {
         /// Mapped object 4.
         ///
         /// 0x1602:04, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33675,6 +39573,7 @@ pub mod objects {
         /// Mapped object 5.
         ///
         /// 0x1602:05, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33690,6 +39589,7 @@ pub mod objects {
         /// Mapped object 6.
         ///
         /// 0x1602:06, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33705,6 +39605,7 @@ pub mod objects {
         /// Mapped object 7.
         ///
         /// 0x1602:07, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33720,6 +39621,7 @@ pub mod objects {
         /// Mapped object 8.
         ///
         /// 0x1602:08, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33738,12 +39640,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1602:00.
+            ///
+            /// Number of mapped objects; 0 while the mapping is changed
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Mapped object 1: 0x1602:01.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33755,6 +39665,10 @@ pub mod objects {
                 MAPPED_OBJECT_1.at(self.client)
             }
             /// Mapped object 2: 0x1602:02.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33766,6 +39680,10 @@ pub mod objects {
                 MAPPED_OBJECT_2.at(self.client)
             }
             /// Mapped object 3: 0x1602:03.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33777,6 +39695,10 @@ pub mod objects {
                 MAPPED_OBJECT_3.at(self.client)
             }
             /// Mapped object 4: 0x1602:04.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33788,6 +39710,10 @@ pub mod objects {
                 MAPPED_OBJECT_4.at(self.client)
             }
             /// Mapped object 5: 0x1602:05.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33799,6 +39725,10 @@ pub mod objects {
                 MAPPED_OBJECT_5.at(self.client)
             }
             /// Mapped object 6: 0x1602:06.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33810,6 +39740,10 @@ pub mod objects {
                 MAPPED_OBJECT_6.at(self.client)
             }
             /// Mapped object 7: 0x1602:07.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33821,6 +39755,10 @@ pub mod objects {
                 MAPPED_OBJECT_7.at(self.client)
             }
             /// Mapped object 8: 0x1602:08.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -33841,6 +39779,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1603:00, UNSIGNED8, rw, default 0, range 0 to 8.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of mapped objects; 0 while the mapping is changed
         ///
@@ -33864,6 +39803,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1603:01, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33879,6 +39819,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// 0x1603:02, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33894,6 +39835,7 @@ pub mod objects {
         /// Mapped object 3.
         ///
         /// 0x1603:03, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33909,6 +39851,7 @@ pub mod objects {
         /// Mapped object 4.
         ///
         /// 0x1603:04, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33924,6 +39867,7 @@ pub mod objects {
         /// Mapped object 5.
         ///
         /// 0x1603:05, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33939,6 +39883,7 @@ pub mod objects {
         /// Mapped object 6.
         ///
         /// 0x1603:06, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33954,6 +39899,7 @@ pub mod objects {
         /// Mapped object 7.
         ///
         /// 0x1603:07, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33969,6 +39915,7 @@ pub mod objects {
         /// Mapped object 8.
         ///
         /// 0x1603:08, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -33987,12 +39934,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1603:00.
+            ///
+            /// Number of mapped objects; 0 while the mapping is changed
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Mapped object 1: 0x1603:01.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34004,6 +39959,10 @@ pub mod objects {
                 MAPPED_OBJECT_1.at(self.client)
             }
             /// Mapped object 2: 0x1603:02.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34015,6 +39974,10 @@ pub mod objects {
                 MAPPED_OBJECT_2.at(self.client)
             }
             /// Mapped object 3: 0x1603:03.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34026,6 +39989,10 @@ pub mod objects {
                 MAPPED_OBJECT_3.at(self.client)
             }
             /// Mapped object 4: 0x1603:04.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34037,6 +40004,10 @@ pub mod objects {
                 MAPPED_OBJECT_4.at(self.client)
             }
             /// Mapped object 5: 0x1603:05.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34048,6 +40019,10 @@ pub mod objects {
                 MAPPED_OBJECT_5.at(self.client)
             }
             /// Mapped object 6: 0x1603:06.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34059,6 +40034,10 @@ pub mod objects {
                 MAPPED_OBJECT_6.at(self.client)
             }
             /// Mapped object 7: 0x1603:07.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34070,6 +40049,10 @@ pub mod objects {
                 MAPPED_OBJECT_7.at(self.client)
             }
             /// Mapped object 8: 0x1603:08.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34090,6 +40073,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1800:00, UNSIGNED8, ro, default 5, range 2 to 5.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Greatest sub-index that exists
         ///
@@ -34105,6 +40089,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1800:01, UNSIGNED32, rw, default \$NODEID+0x180, range 0 to 4294967295.
+        /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
         /// Identifier of the PDO, whether it is valid and may be requested
         ///
@@ -34123,6 +40108,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1800:02, UNSIGNED8, rw, default 254, range 0 to 255.
+        /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// When the PDO is sent: on SYNC, on events or on request
         ///
@@ -34139,6 +40125,7 @@ pub mod objects {
         /// Inhibit time.
         ///
         /// 0x1800:03, UNSIGNED16, rw, default 0, range 0 to 65535 (0 to 6553500 us), in 100 us.
+        /// Accessor: [`Accessors::inhibit_time`].
         ///
         /// Least time between two transmissions, in multiples of 100 µs
         ///
@@ -34159,6 +40146,7 @@ pub mod objects {
         /// Reserved.
         ///
         /// 0x1800:04, unknown type, rw.
+        /// Accessor: [`Accessors::reserved`].
         ///
         /// Reserved; all fields of its box are blank
         ///
@@ -34171,6 +40159,7 @@ pub mod objects {
         /// Event timer.
         ///
         /// 0x1800:05, UNSIGNED16, rw, default 0, range 0 to 65535, in ms.
+        /// Accessor: [`Accessors::event_timer`].
         ///
         /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
         ///
@@ -34189,12 +40178,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1800:00.
+            ///
+            /// Greatest sub-index that exists
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// COB-ID: 0x1800:01.
+            ///
+            /// Identifier of the PDO, whether it is valid and may be requested
+            ///
+            /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34206,6 +40203,10 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1800:02.
+            ///
+            /// When the PDO is sent: on SYNC, on events or on request
+            ///
+            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34217,6 +40218,10 @@ pub mod objects {
                 TRANSMISSION_TYPE.at(self.client)
             }
             /// Inhibit time: 0x1800:03.
+            ///
+            /// Least time between two transmissions, in multiples of 100 µs
+            ///
+            /// Constant: [`INHIBIT_TIME`].
             pub fn inhibit_time(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34228,12 +40233,20 @@ pub mod objects {
                 INHIBIT_TIME.at(self.client)
             }
             /// Reserved: 0x1800:04.
+            ///
+            /// Reserved; all fields of its box are blank
+            ///
+            /// Constant: [`RESERVED`].
             pub fn reserved(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, rt::Opaque, rt::OnCanOpenAndCoE> {
                 RESERVED.at(self.client)
             }
             /// Event timer: 0x1800:05.
+            ///
+            /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
+            ///
+            /// Constant: [`EVENT_TIMER`].
             pub fn event_timer(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
@@ -34249,6 +40262,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1801:00, UNSIGNED8, ro, default 5, range 2 to 5.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Greatest sub-index that exists
         ///
@@ -34264,6 +40278,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1801:01, UNSIGNED32, rw, default \$NODEID+0x280, range 0 to 4294967295.
+        /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
         /// Identifier of the PDO, whether it is valid and may be requested
         ///
@@ -34282,6 +40297,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1801:02, UNSIGNED8, rw, default 254, range 0 to 255.
+        /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// When the PDO is sent: on SYNC, on events or on request
         ///
@@ -34298,6 +40314,7 @@ pub mod objects {
         /// Inhibit time.
         ///
         /// 0x1801:03, UNSIGNED16, rw, default 0, range 0 to 65535 (0 to 6553500 us), in 100 us.
+        /// Accessor: [`Accessors::inhibit_time`].
         ///
         /// Least time between two transmissions, in multiples of 100 µs
         ///
@@ -34318,6 +40335,7 @@ pub mod objects {
         /// Reserved.
         ///
         /// 0x1801:04, unknown type, rw.
+        /// Accessor: [`Accessors::reserved`].
         ///
         /// Reserved; all fields of its box are blank
         ///
@@ -34330,6 +40348,7 @@ pub mod objects {
         /// Event timer.
         ///
         /// 0x1801:05, UNSIGNED16, rw, default 0, range 0 to 65535, in ms.
+        /// Accessor: [`Accessors::event_timer`].
         ///
         /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
         ///
@@ -34348,12 +40367,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1801:00.
+            ///
+            /// Greatest sub-index that exists
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// COB-ID: 0x1801:01.
+            ///
+            /// Identifier of the PDO, whether it is valid and may be requested
+            ///
+            /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34365,6 +40392,10 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1801:02.
+            ///
+            /// When the PDO is sent: on SYNC, on events or on request
+            ///
+            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34376,6 +40407,10 @@ pub mod objects {
                 TRANSMISSION_TYPE.at(self.client)
             }
             /// Inhibit time: 0x1801:03.
+            ///
+            /// Least time between two transmissions, in multiples of 100 µs
+            ///
+            /// Constant: [`INHIBIT_TIME`].
             pub fn inhibit_time(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34387,12 +40422,20 @@ pub mod objects {
                 INHIBIT_TIME.at(self.client)
             }
             /// Reserved: 0x1801:04.
+            ///
+            /// Reserved; all fields of its box are blank
+            ///
+            /// Constant: [`RESERVED`].
             pub fn reserved(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, rt::Opaque, rt::OnCanOpenAndCoE> {
                 RESERVED.at(self.client)
             }
             /// Event timer: 0x1801:05.
+            ///
+            /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
+            ///
+            /// Constant: [`EVENT_TIMER`].
             pub fn event_timer(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
@@ -34408,6 +40451,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1802:00, UNSIGNED8, ro, default 5, range 2 to 5.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Greatest sub-index that exists
         ///
@@ -34423,6 +40467,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1802:01, UNSIGNED32, rw, default \$NODEID+0x380, range 0 to 4294967295.
+        /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
         /// Identifier of the PDO, whether it is valid and may be requested
         ///
@@ -34441,6 +40486,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1802:02, UNSIGNED8, rw, default 254, range 0 to 255.
+        /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// When the PDO is sent: on SYNC, on events or on request
         ///
@@ -34457,6 +40503,7 @@ pub mod objects {
         /// Inhibit time.
         ///
         /// 0x1802:03, UNSIGNED16, rw, default 0, range 0 to 65535 (0 to 6553500 us), in 100 us.
+        /// Accessor: [`Accessors::inhibit_time`].
         ///
         /// Least time between two transmissions, in multiples of 100 µs
         ///
@@ -34477,6 +40524,7 @@ pub mod objects {
         /// Reserved.
         ///
         /// 0x1802:04, unknown type, rw.
+        /// Accessor: [`Accessors::reserved`].
         ///
         /// Reserved; all fields of its box are blank
         ///
@@ -34489,6 +40537,7 @@ pub mod objects {
         /// Event timer.
         ///
         /// 0x1802:05, UNSIGNED16, rw, default 0, range 0 to 65535, in ms.
+        /// Accessor: [`Accessors::event_timer`].
         ///
         /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
         ///
@@ -34507,12 +40556,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1802:00.
+            ///
+            /// Greatest sub-index that exists
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// COB-ID: 0x1802:01.
+            ///
+            /// Identifier of the PDO, whether it is valid and may be requested
+            ///
+            /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34524,6 +40581,10 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1802:02.
+            ///
+            /// When the PDO is sent: on SYNC, on events or on request
+            ///
+            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34535,6 +40596,10 @@ pub mod objects {
                 TRANSMISSION_TYPE.at(self.client)
             }
             /// Inhibit time: 0x1802:03.
+            ///
+            /// Least time between two transmissions, in multiples of 100 µs
+            ///
+            /// Constant: [`INHIBIT_TIME`].
             pub fn inhibit_time(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34546,12 +40611,20 @@ pub mod objects {
                 INHIBIT_TIME.at(self.client)
             }
             /// Reserved: 0x1802:04.
+            ///
+            /// Reserved; all fields of its box are blank
+            ///
+            /// Constant: [`RESERVED`].
             pub fn reserved(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, rt::Opaque, rt::OnCanOpenAndCoE> {
                 RESERVED.at(self.client)
             }
             /// Event timer: 0x1802:05.
+            ///
+            /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
+            ///
+            /// Constant: [`EVENT_TIMER`].
             pub fn event_timer(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
@@ -34567,6 +40640,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1803:00, UNSIGNED8, ro, default 5, range 2 to 5.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Greatest sub-index that exists
         ///
@@ -34582,6 +40656,7 @@ pub mod objects {
         /// COB-ID.
         ///
         /// 0x1803:01, UNSIGNED32, rw, default \$NODEID+0x480, range 0 to 4294967295.
+        /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
         /// Identifier of the PDO, whether it is valid and may be requested
         ///
@@ -34600,6 +40675,7 @@ pub mod objects {
         /// Transmission type.
         ///
         /// 0x1803:02, UNSIGNED8, rw, default 254, range 0 to 255.
+        /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
         /// When the PDO is sent: on SYNC, on events or on request
         ///
@@ -34616,6 +40692,7 @@ pub mod objects {
         /// Inhibit time.
         ///
         /// 0x1803:03, UNSIGNED16, rw, default 0, range 0 to 65535 (0 to 6553500 us), in 100 us.
+        /// Accessor: [`Accessors::inhibit_time`].
         ///
         /// Least time between two transmissions, in multiples of 100 µs
         ///
@@ -34636,6 +40713,7 @@ pub mod objects {
         /// Reserved.
         ///
         /// 0x1803:04, unknown type, rw.
+        /// Accessor: [`Accessors::reserved`].
         ///
         /// Reserved; all fields of its box are blank
         ///
@@ -34648,6 +40726,7 @@ pub mod objects {
         /// Event timer.
         ///
         /// 0x1803:05, UNSIGNED16, rw, default 0, range 0 to 65535, in ms.
+        /// Accessor: [`Accessors::event_timer`].
         ///
         /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
         ///
@@ -34666,12 +40745,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1803:00.
+            ///
+            /// Greatest sub-index that exists
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// COB-ID: 0x1803:01.
+            ///
+            /// Identifier of the PDO, whether it is valid and may be requested
+            ///
+            /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34683,6 +40770,10 @@ pub mod objects {
                 COB_ID.at(self.client)
             }
             /// Transmission type: 0x1803:02.
+            ///
+            /// When the PDO is sent: on SYNC, on events or on request
+            ///
+            /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34694,6 +40785,10 @@ pub mod objects {
                 TRANSMISSION_TYPE.at(self.client)
             }
             /// Inhibit time: 0x1803:03.
+            ///
+            /// Least time between two transmissions, in multiples of 100 µs
+            ///
+            /// Constant: [`INHIBIT_TIME`].
             pub fn inhibit_time(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34705,12 +40800,20 @@ pub mod objects {
                 INHIBIT_TIME.at(self.client)
             }
             /// Reserved: 0x1803:04.
+            ///
+            /// Reserved; all fields of its box are blank
+            ///
+            /// Constant: [`RESERVED`].
             pub fn reserved(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, rt::Opaque, rt::OnCanOpenAndCoE> {
                 RESERVED.at(self.client)
             }
             /// Event timer: 0x1803:05.
+            ///
+            /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
+            ///
+            /// Constant: [`EVENT_TIMER`].
             pub fn event_timer(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
@@ -34726,6 +40829,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1A00:00, UNSIGNED8, rw, default 2, range 0 to 8.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of mapped objects; 0 while the mapping is changed
         ///
@@ -34747,6 +40851,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1A00:01, UNSIGNED32, rw, default 0x60410010, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; by default the Statusword
         ///
@@ -34763,6 +40868,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// 0x1A00:02, UNSIGNED32, rw, default 0x60610008, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; by default the mode shown or the actual position
         ///
@@ -34779,6 +40885,7 @@ pub mod objects {
         /// Mapped object 3.
         ///
         /// 0x1A00:03, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -34794,6 +40901,7 @@ pub mod objects {
         /// Mapped object 4.
         ///
         /// 0x1A00:04, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -34809,6 +40917,7 @@ pub mod objects {
         /// Mapped object 5.
         ///
         /// 0x1A00:05, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -34824,6 +40933,7 @@ pub mod objects {
         /// Mapped object 6.
         ///
         /// 0x1A00:06, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -34839,6 +40949,7 @@ pub mod objects {
         /// Mapped object 7.
         ///
         /// 0x1A00:07, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -34854,6 +40965,7 @@ pub mod objects {
         /// Mapped object 8.
         ///
         /// 0x1A00:08, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -34872,12 +40984,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A00:00.
+            ///
+            /// Number of mapped objects; 0 while the mapping is changed
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Mapped object 1: 0x1A00:01.
+            ///
+            /// Object, sub-index and number of bits; by default the Statusword
+            ///
+            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34889,6 +41009,10 @@ pub mod objects {
                 MAPPED_OBJECT_1.at(self.client)
             }
             /// Mapped object 2: 0x1A00:02.
+            ///
+            /// Object, sub-index and number of bits; by default the mode shown or the actual position
+            ///
+            /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34900,6 +41024,10 @@ pub mod objects {
                 MAPPED_OBJECT_2.at(self.client)
             }
             /// Mapped object 3: 0x1A00:03.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34911,6 +41039,10 @@ pub mod objects {
                 MAPPED_OBJECT_3.at(self.client)
             }
             /// Mapped object 4: 0x1A00:04.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34922,6 +41054,10 @@ pub mod objects {
                 MAPPED_OBJECT_4.at(self.client)
             }
             /// Mapped object 5: 0x1A00:05.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34933,6 +41069,10 @@ pub mod objects {
                 MAPPED_OBJECT_5.at(self.client)
             }
             /// Mapped object 6: 0x1A00:06.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34944,6 +41084,10 @@ pub mod objects {
                 MAPPED_OBJECT_6.at(self.client)
             }
             /// Mapped object 7: 0x1A00:07.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34955,6 +41099,10 @@ pub mod objects {
                 MAPPED_OBJECT_7.at(self.client)
             }
             /// Mapped object 8: 0x1A00:08.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -34975,6 +41123,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1A01:00, UNSIGNED8, rw, default 2, range 0 to 8.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of mapped objects; 0 while the mapping is changed
         ///
@@ -34996,6 +41145,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1A01:01, UNSIGNED32, rw, default 0x60410010, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; by default the Statusword
         ///
@@ -35012,6 +41162,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// 0x1A01:02, UNSIGNED32, rw, default 0x60640020, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; by default the mode shown or the actual position
         ///
@@ -35028,6 +41179,7 @@ pub mod objects {
         /// Mapped object 3.
         ///
         /// 0x1A01:03, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35043,6 +41195,7 @@ pub mod objects {
         /// Mapped object 4.
         ///
         /// 0x1A01:04, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35058,6 +41211,7 @@ pub mod objects {
         /// Mapped object 5.
         ///
         /// 0x1A01:05, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35073,6 +41227,7 @@ pub mod objects {
         /// Mapped object 6.
         ///
         /// 0x1A01:06, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35088,6 +41243,7 @@ pub mod objects {
         /// Mapped object 7.
         ///
         /// 0x1A01:07, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35103,6 +41259,7 @@ pub mod objects {
         /// Mapped object 8.
         ///
         /// 0x1A01:08, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35121,12 +41278,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A01:00.
+            ///
+            /// Number of mapped objects; 0 while the mapping is changed
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Mapped object 1: 0x1A01:01.
+            ///
+            /// Object, sub-index and number of bits; by default the Statusword
+            ///
+            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35138,6 +41303,10 @@ pub mod objects {
                 MAPPED_OBJECT_1.at(self.client)
             }
             /// Mapped object 2: 0x1A01:02.
+            ///
+            /// Object, sub-index and number of bits; by default the mode shown or the actual position
+            ///
+            /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35149,6 +41318,10 @@ pub mod objects {
                 MAPPED_OBJECT_2.at(self.client)
             }
             /// Mapped object 3: 0x1A01:03.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35160,6 +41333,10 @@ pub mod objects {
                 MAPPED_OBJECT_3.at(self.client)
             }
             /// Mapped object 4: 0x1A01:04.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35171,6 +41348,10 @@ pub mod objects {
                 MAPPED_OBJECT_4.at(self.client)
             }
             /// Mapped object 5: 0x1A01:05.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35182,6 +41363,10 @@ pub mod objects {
                 MAPPED_OBJECT_5.at(self.client)
             }
             /// Mapped object 6: 0x1A01:06.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35193,6 +41378,10 @@ pub mod objects {
                 MAPPED_OBJECT_6.at(self.client)
             }
             /// Mapped object 7: 0x1A01:07.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35204,6 +41393,10 @@ pub mod objects {
                 MAPPED_OBJECT_7.at(self.client)
             }
             /// Mapped object 8: 0x1A01:08.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35224,6 +41417,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1A02:00, UNSIGNED8, rw, default 0, range 0 to 8.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of mapped objects; 0 while the mapping is changed
         ///
@@ -35245,6 +41439,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1A02:01, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35260,6 +41455,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// 0x1A02:02, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35275,6 +41471,7 @@ pub mod objects {
         /// Mapped object 3.
         ///
         /// 0x1A02:03, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35290,6 +41487,7 @@ pub mod objects {
         /// Mapped object 4.
         ///
         /// 0x1A02:04, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35305,6 +41503,7 @@ pub mod objects {
         /// Mapped object 5.
         ///
         /// 0x1A02:05, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35320,6 +41519,7 @@ pub mod objects {
         /// Mapped object 6.
         ///
         /// 0x1A02:06, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35335,6 +41535,7 @@ pub mod objects {
         /// Mapped object 7.
         ///
         /// 0x1A02:07, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35350,6 +41551,7 @@ pub mod objects {
         /// Mapped object 8.
         ///
         /// 0x1A02:08, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35368,12 +41570,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A02:00.
+            ///
+            /// Number of mapped objects; 0 while the mapping is changed
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Mapped object 1: 0x1A02:01.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35385,6 +41595,10 @@ pub mod objects {
                 MAPPED_OBJECT_1.at(self.client)
             }
             /// Mapped object 2: 0x1A02:02.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35396,6 +41610,10 @@ pub mod objects {
                 MAPPED_OBJECT_2.at(self.client)
             }
             /// Mapped object 3: 0x1A02:03.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35407,6 +41625,10 @@ pub mod objects {
                 MAPPED_OBJECT_3.at(self.client)
             }
             /// Mapped object 4: 0x1A02:04.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35418,6 +41640,10 @@ pub mod objects {
                 MAPPED_OBJECT_4.at(self.client)
             }
             /// Mapped object 5: 0x1A02:05.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35429,6 +41655,10 @@ pub mod objects {
                 MAPPED_OBJECT_5.at(self.client)
             }
             /// Mapped object 6: 0x1A02:06.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35440,6 +41670,10 @@ pub mod objects {
                 MAPPED_OBJECT_6.at(self.client)
             }
             /// Mapped object 7: 0x1A02:07.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35451,6 +41685,10 @@ pub mod objects {
                 MAPPED_OBJECT_7.at(self.client)
             }
             /// Mapped object 8: 0x1A02:08.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35471,6 +41709,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x1A03:00, UNSIGNED8, rw, default 0, range 0 to 8.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of mapped objects; 0 while the mapping is changed
         ///
@@ -35492,6 +41731,7 @@ pub mod objects {
         /// Mapped object 1.
         ///
         /// 0x1A03:01, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35507,6 +41747,7 @@ pub mod objects {
         /// Mapped object 2.
         ///
         /// 0x1A03:02, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35522,6 +41763,7 @@ pub mod objects {
         /// Mapped object 3.
         ///
         /// 0x1A03:03, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35537,6 +41779,7 @@ pub mod objects {
         /// Mapped object 4.
         ///
         /// 0x1A03:04, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35552,6 +41795,7 @@ pub mod objects {
         /// Mapped object 5.
         ///
         /// 0x1A03:05, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35567,6 +41811,7 @@ pub mod objects {
         /// Mapped object 6.
         ///
         /// 0x1A03:06, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35582,6 +41827,7 @@ pub mod objects {
         /// Mapped object 7.
         ///
         /// 0x1A03:07, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35597,6 +41843,7 @@ pub mod objects {
         /// Mapped object 8.
         ///
         /// 0x1A03:08, UNSIGNED32, rw, range 0 to 4294967295.
+        /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
         /// Object, sub-index and number of bits; not used by default
         ///
@@ -35615,12 +41862,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A03:00.
+            ///
+            /// Number of mapped objects; 0 while the mapping is changed
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Mapped object 1: 0x1A03:01.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35632,6 +41887,10 @@ pub mod objects {
                 MAPPED_OBJECT_1.at(self.client)
             }
             /// Mapped object 2: 0x1A03:02.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35643,6 +41902,10 @@ pub mod objects {
                 MAPPED_OBJECT_2.at(self.client)
             }
             /// Mapped object 3: 0x1A03:03.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35654,6 +41917,10 @@ pub mod objects {
                 MAPPED_OBJECT_3.at(self.client)
             }
             /// Mapped object 4: 0x1A03:04.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35665,6 +41932,10 @@ pub mod objects {
                 MAPPED_OBJECT_4.at(self.client)
             }
             /// Mapped object 5: 0x1A03:05.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35676,6 +41947,10 @@ pub mod objects {
                 MAPPED_OBJECT_5.at(self.client)
             }
             /// Mapped object 6: 0x1A03:06.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35687,6 +41962,10 @@ pub mod objects {
                 MAPPED_OBJECT_6.at(self.client)
             }
             /// Mapped object 7: 0x1A03:07.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35698,6 +41977,10 @@ pub mod objects {
                 MAPPED_OBJECT_7.at(self.client)
             }
             /// Mapped object 8: 0x1A03:08.
+            ///
+            /// Object, sub-index and number of bits; not used by default
+            ///
+            /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -35718,6 +42001,7 @@ pub mod objects {
         /// number\_of\_entries.
         ///
         /// 0x23E8:00, UNSIGNED8, ro, default 2.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of sub-indices
         ///
@@ -35733,6 +42017,7 @@ pub mod objects {
         /// variable\_number\_sdo.
         ///
         /// 0x23E8:01, UNSIGNED16, rw, default 1, range 1 to 128.
+        /// Accessor: [`Accessors::variable_number_sdo`].
         ///
         /// Number of the variable that sub-index 2 reads or writes
         ///
@@ -35750,6 +42035,7 @@ pub mod objects {
         /// variable\_value\_sdo.
         ///
         /// 0x23E8:02, INTEGER32, rw, default 0, range \-2147483648 to 2147483647.
+        /// Accessor: [`Accessors::variable_value_sdo`].
         ///
         /// Value of the variable whose number is in sub-index 1
         ///
@@ -35763,6 +42049,7 @@ pub mod objects {
         /// variable\_number\_write\_pdo.
         ///
         /// 0x23E8:03, UNSIGNED16, rw, mappable into RPDOs, default 1, range 1 to 128.
+        /// Accessor: [`Accessors::variable_number_write_pdo`].
         ///
         /// Number of the variable that sub-index 4 writes
         ///
@@ -35783,6 +42070,7 @@ pub mod objects {
         /// variable\_value\_write\_pdo.
         ///
         /// 0x23E8:04, INTEGER32, rw, mappable into RPDOs, default 0, range \-2147483648 to 2147483647.
+        /// Accessor: [`Accessors::variable_value_write_pdo`].
         ///
         /// Value written to the variable whose number is in sub-index 3
         ///
@@ -35799,6 +42087,7 @@ pub mod objects {
         /// variable\_number\_read\_pdo.
         ///
         /// 0x23E8:05, UNSIGNED16, rw, mappable into RPDOs, default 1, range 1 to 128.
+        /// Accessor: [`Accessors::variable_number_read_pdo`].
         ///
         /// Number of the variable that sub-index 6 reads
         ///
@@ -35816,6 +42105,7 @@ pub mod objects {
         /// variable\_value\_read\_pdo.
         ///
         /// 0x23E8:06, INTEGER32, rw, mappable into TPDOs, default 0, range \-2147483648 to 2147483647.
+        /// Accessor: [`Accessors::variable_value_read_pdo`].
         ///
         /// Value of the variable whose number is in sub-index 5
         ///
@@ -35837,42 +42127,70 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// number\_of\_entries: 0x23E8:00.
+            ///
+            /// Number of sub-indices
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// variable\_number\_sdo: 0x23E8:01.
+            ///
+            /// Number of the variable that sub-index 2 reads or writes
+            ///
+            /// Constant: [`VARIABLE_NUMBER_SDO`].
             pub fn variable_number_sdo(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
                 VARIABLE_NUMBER_SDO.at(self.client)
             }
             /// variable\_value\_sdo: 0x23E8:02.
+            ///
+            /// Value of the variable whose number is in sub-index 1
+            ///
+            /// Constant: [`VARIABLE_VALUE_SDO`].
             pub fn variable_value_sdo(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
                 VARIABLE_VALUE_SDO.at(self.client)
             }
             /// variable\_number\_write\_pdo: 0x23E8:03.
+            ///
+            /// Number of the variable that sub-index 4 writes
+            ///
+            /// Constant: [`VARIABLE_NUMBER_WRITE_PDO`].
             pub fn variable_number_write_pdo(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
                 VARIABLE_NUMBER_WRITE_PDO.at(self.client)
             }
             /// variable\_value\_write\_pdo: 0x23E8:04.
+            ///
+            /// Value written to the variable whose number is in sub-index 3
+            ///
+            /// Constant: [`VARIABLE_VALUE_WRITE_PDO`].
             pub fn variable_value_write_pdo(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
                 VARIABLE_VALUE_WRITE_PDO.at(self.client)
             }
             /// variable\_number\_read\_pdo: 0x23E8:05.
+            ///
+            /// Number of the variable that sub-index 6 reads
+            ///
+            /// Constant: [`VARIABLE_NUMBER_READ_PDO`].
             pub fn variable_number_read_pdo(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u16, rt::OnCanOpenAndCoE> {
                 VARIABLE_NUMBER_READ_PDO.at(self.client)
             }
             /// variable\_value\_read\_pdo: 0x23E8:06.
+            ///
+            /// Value of the variable whose number is in sub-index 5
+            ///
+            /// Constant: [`VARIABLE_VALUE_READ_PDO`].
             pub fn variable_value_read_pdo(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
@@ -35883,6 +42201,7 @@ pub mod objects {
     /// Error code.
     ///
     /// 0x603F:00, UNSIGNED16, ro, default 0, range 0 to 65535.
+    /// Accessor: [`error_code`](super::VectorStep::error_code). Values: [`ErrorCode`](super::types::ErrorCode).
     ///
     /// Code of the last error, the low 16 bits of the entry in 0x1003
     ///
@@ -35896,6 +42215,7 @@ pub mod objects {
     /// Controlword.
     ///
     /// 0x6040:00, UNSIGNED16, rw, mappable into RPDOs, default 0, range 0 to 65535.
+    /// Accessor: [`controlword`](super::VectorStep::controlword). Values: [`Controlword`](super::types::Controlword). Carried by [`RxPdo1`](super::pdo::RxPdo1), [`RxPdo2`](super::pdo::RxPdo2).
     ///
     /// Commands the state machine and the mode of operation; the manual has it in the first two bytes of every received PDO
     ///
@@ -35916,6 +42236,7 @@ pub mod objects {
     /// Statusword.
     ///
     /// 0x6041:00, UNSIGNED16, ro, mappable into TPDOs, default 0, range 0 to 65535.
+    /// Accessor: [`statusword`](super::VectorStep::statusword). Values: [`Statusword`](super::types::Statusword). Carried by [`TxPdo1`](super::pdo::TxPdo1), [`TxPdo2`](super::pdo::TxPdo2).
     ///
     /// State of the drive; the manual has it in the first two bytes of every transmitted PDO
     ///
@@ -35934,6 +42255,7 @@ pub mod objects {
     /// Quick-Stop option code.
     ///
     /// 0x605A:00, INTEGER16, rw, default 2, range \-32768 to 32767.
+    /// Accessor: [`quick_stop_option_code`](super::VectorStep::quick_stop_option_code). Values: [`QuickStopOptionCode`](super::types::QuickStopOptionCode).
     ///
     /// What a quick stop does (transition 11)
     ///
@@ -35952,6 +42274,7 @@ pub mod objects {
     /// Shutdown option code.
     ///
     /// 0x605B:00, INTEGER16, rw, default 0, range \-32768 to 32767.
+    /// Accessor: [`shutdown_option_code`](super::VectorStep::shutdown_option_code). Values: [`ShutdownOptionCode`](super::types::ShutdownOptionCode).
     ///
     /// What transition 8 does, from operation enabled to ready to switch on
     ///
@@ -35970,6 +42293,7 @@ pub mod objects {
     /// Disable operation option code.
     ///
     /// 0x605C:00, INTEGER16, rw, default 1, range \-32768 to 32767.
+    /// Accessor: [`disable_operation_option_code`](super::VectorStep::disable_operation_option_code). Values: [`DisableOperationOptionCode`](super::types::DisableOperationOptionCode).
     ///
     /// What transition 5 does, from operation enabled to switched on
     ///
@@ -35988,6 +42312,7 @@ pub mod objects {
     /// Stop option code.
     ///
     /// 0x605D:00, INTEGER16, rw, default 1, range \-32768 to 32767.
+    /// Accessor: [`stop_option_code`](super::VectorStep::stop_option_code). Values: [`StopOptionCode`](super::types::StopOptionCode).
     ///
     /// What a requested stop does
     ///
@@ -36008,6 +42333,7 @@ pub mod objects {
     /// Fault reaction option code.
     ///
     /// 0x605E:00, INTEGER16, rw, default 2, range \-32768 to 32767.
+    /// Accessor: [`fault_reaction_option_code`](super::VectorStep::fault_reaction_option_code). Values: [`FaultReactionOptionCode`](super::types::FaultReactionOptionCode).
     ///
     /// What the drive does on a fault
     ///
@@ -36028,6 +42354,7 @@ pub mod objects {
     /// Modes of operation.
     ///
     /// 0x6060:00, INTEGER8, wo, mappable into RPDOs, default 1, range \-128 to 127.
+    /// Accessor: [`modes_of_operation`](super::VectorStep::modes_of_operation). Values: [`ModesOfOperation`](super::types::ModesOfOperation). Carried by [`RxPdo1`](super::pdo::RxPdo1).
     ///
     /// Chooses the mode of operation
     ///
@@ -36051,6 +42378,7 @@ pub mod objects {
     /// Modes of operation display.
     ///
     /// 0x6061:00, INTEGER8, ro, mappable into TPDOs, default 1.
+    /// Accessor: [`modes_of_operation_display`](super::VectorStep::modes_of_operation_display). Values: [`ModesOfOperation`](super::types::ModesOfOperation). Carried by [`TxPdo1`](super::pdo::TxPdo1).
     ///
     /// The mode of operation that is in effect
     ///
@@ -36074,6 +42402,7 @@ pub mod objects {
     /// Position actual value.
     ///
     /// 0x6064:00, INTEGER32, ro, mappable into TPDOs, default 0, range \-2147483648 to 2147483647, in step.
+    /// Accessor: [`position_actual_value`](super::VectorStep::position_actual_value). Carried by [`TxPdo2`](super::pdo::TxPdo2).
     ///
     /// Absolute position of the axis in steps
     ///
@@ -36089,6 +42418,7 @@ pub mod objects {
     /// Following error window.
     ///
     /// 0x6065:00, UNSIGNED32, rw, mappable into RPDOs.
+    /// Accessor: [`following_error_window`](super::VectorStep::following_error_window).
     ///
     /// Following error that is tolerated
     ///
@@ -36104,6 +42434,7 @@ pub mod objects {
     /// Following error time-out.
     ///
     /// 0x6066:00, UNSIGNED16, rw, mappable into RPDOs, in ms.
+    /// Accessor: [`following_error_time_out`](super::VectorStep::following_error_time_out).
     ///
     /// How long the following error may exceed its window
     ///
@@ -36121,6 +42452,7 @@ pub mod objects {
     /// Position window.
     ///
     /// 0x6067:00, UNSIGNED32, rw, mappable into RPDOs.
+    /// Accessor: [`position_window`](super::VectorStep::position_window).
     ///
     /// Distance from the target within which it counts as reached
     ///
@@ -36136,6 +42468,7 @@ pub mod objects {
     /// Position window time-out.
     ///
     /// 0x6068:00, UNSIGNED16, rw, mappable into RPDOs, in ms.
+    /// Accessor: [`position_window_time_out`](super::VectorStep::position_window_time_out).
     ///
     /// How long the position has to stay within its window
     ///
@@ -36153,6 +42486,7 @@ pub mod objects {
     /// Velocity actual value.
     ///
     /// 0x606C:00, INTEGER32, ro, mappable into TPDOs, in 0.01 rev/s.
+    /// Accessor: [`velocity_actual_value`](super::VectorStep::velocity_actual_value).
     ///
     /// Present velocity of the motor
     ///
@@ -36173,6 +42507,7 @@ pub mod objects {
     /// Target position.
     ///
     /// 0x607A:00, INTEGER32, rw, mappable into RPDOs, default 0, range \-2147483648 to 2147483647, in step.
+    /// Accessor: [`target_position`](super::VectorStep::target_position). Carried by [`RxPdo2`](super::pdo::RxPdo2).
     ///
     /// Position wanted in profile position mode; bit 6 of the Controlword makes it absolute or relative
     ///
@@ -36190,6 +42525,7 @@ pub mod objects {
     /// Home offset.
     ///
     /// 0x607C:00, INTEGER32, rw, mappable into RPDOs, default 0, range \-2147483648 to 2147483647, in step.
+    /// Accessor: [`home_offset`](super::VectorStep::home_offset).
     ///
     /// Value that the actual position gets at the end of homing
     ///
@@ -36205,6 +42541,7 @@ pub mod objects {
     /// Profile velocity.
     ///
     /// 0x6081:00, UNSIGNED32, rw, mappable into RPDOs, default 100, range 0 to 2147483647 (0 to 21474836.47 rev/s), in 0.01 rev/s.
+    /// Accessor: [`profile_velocity`](super::VectorStep::profile_velocity).
     ///
     /// Velocity of a movement
     ///
@@ -36225,6 +42562,7 @@ pub mod objects {
     /// End Velocity.
     ///
     /// 0x6082:00, INTEGER32, rw, mappable into RPDOs, default 0, range \-5000 to 5000 (-50 to 50 rev/s), in 0.01 rev/s.
+    /// Accessor: [`end_velocity`](super::VectorStep::end_velocity).
     ///
     /// Velocity at which a movement starts and stops
     ///
@@ -36244,6 +42582,7 @@ pub mod objects {
     /// Profile acceleration.
     ///
     /// 0x6083:00, UNSIGNED32, rw, mappable into RPDOs, default 1000, range 1 to 200000 (0.1 to 20000 rev/s²), in 0.1 rev/s².
+    /// Accessor: [`profile_acceleration`](super::VectorStep::profile_acceleration).
     ///
     /// Acceleration of a movement
     ///
@@ -36264,6 +42603,7 @@ pub mod objects {
     /// Profile deceleration.
     ///
     /// 0x6084:00, UNSIGNED32, rw, mappable into RPDOs, default 1000, range 1 to 200000 (0.1 to 20000 rev/s²), in 0.1 rev/s².
+    /// Accessor: [`profile_deceleration`](super::VectorStep::profile_deceleration).
     ///
     /// Deceleration of a movement
     ///
@@ -36284,6 +42624,7 @@ pub mod objects {
     /// Quick stop deceleration.
     ///
     /// 0x6085:00, UNSIGNED32, rw, default 1000, range 1 to 200000 (0.1 to 20000 rev/s²), in 0.1 rev/s².
+    /// Accessor: [`quick_stop_deceleration`](super::VectorStep::quick_stop_deceleration).
     ///
     /// Deceleration in an emergency
     ///
@@ -36304,6 +42645,7 @@ pub mod objects {
     /// Motion profile type.
     ///
     /// 0x6086:00, INTEGER16, rw, mappable into RPDOs, default 0, range \-32768 to 32767.
+    /// Accessor: [`motion_profile_type`](super::VectorStep::motion_profile_type). Values: [`MotionProfileType`](super::types::MotionProfileType).
     ///
     /// Shape of the acceleration and deceleration ramps: linear or S
     ///
@@ -36323,6 +42665,7 @@ pub mod objects {
     /// Homing method.
     ///
     /// 0x6098:00, INTEGER8, rw, mappable into RPDOs, default 0, range \-128 to 127.
+    /// Accessor: [`homing_method`](super::VectorStep::homing_method). Values: [`HomingMethod`](super::types::HomingMethod).
     ///
     /// How the axis is homed
     ///
@@ -36351,6 +42694,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x6099:00, UNSIGNED8, ro, default 2, range 2 to 2.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of sub-entries
         ///
@@ -36366,6 +42710,7 @@ pub mod objects {
         /// Speed during search for switch.
         ///
         /// 0x6099:01, UNSIGNED32, rw, mappable into RPDOs, default 100, range 0 to 10000 (0 to 100 rev/s), in 0.01 rev/s.
+        /// Accessor: [`Accessors::speed_during_search_for_switch`].
         ///
         /// Velocity of the approach
         ///
@@ -36386,6 +42731,7 @@ pub mod objects {
         /// Speed during search for zero.
         ///
         /// 0x6099:02, UNSIGNED32, rw, mappable into RPDOs, default 10, range 0 to 10000 (0 to 100 rev/s), in 0.01 rev/s.
+        /// Accessor: [`Accessors::speed_during_search_for_zero`].
         ///
         /// Velocity of the search for zero
         ///
@@ -36409,12 +42755,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x6099:00.
+            ///
+            /// Number of sub-entries
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Speed during search for switch: 0x6099:01.
+            ///
+            /// Velocity of the approach
+            ///
+            /// Constant: [`SPEED_DURING_SEARCH_FOR_SWITCH`].
             pub fn speed_during_search_for_switch(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -36426,6 +42780,10 @@ pub mod objects {
                 SPEED_DURING_SEARCH_FOR_SWITCH.at(self.client)
             }
             /// Speed during search for zero: 0x6099:02.
+            ///
+            /// Velocity of the search for zero
+            ///
+            /// Constant: [`SPEED_DURING_SEARCH_FOR_ZERO`].
             pub fn speed_during_search_for_zero(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -36441,6 +42799,7 @@ pub mod objects {
     /// Homing acceleration.
     ///
     /// 0x609A:00, UNSIGNED32, rw, mappable into RPDOs, default 1, range 1 to 500000 (0.1 to 50000 rev/s²), in 0.1 rev/s².
+    /// Accessor: [`homing_acceleration`](super::VectorStep::homing_acceleration).
     ///
     /// Acceleration and deceleration during homing
     ///
@@ -36461,6 +42820,7 @@ pub mod objects {
     /// Touch Probe function.
     ///
     /// 0x60B8:00, UNSIGNED16, rw, mappable into RPDOs, default 0, range 0 to 65535.
+    /// Accessor: [`touch_probe_function`](super::VectorStep::touch_probe_function). Values: [`TouchProbeFunction`](super::types::TouchProbeFunction).
     ///
     /// Controls the touch probes; the same as register 331, from firmware 6 register 10084 (L2994)
     ///
@@ -36492,6 +42852,7 @@ pub mod objects {
     /// Touch Probe status.
     ///
     /// 0x60B9:00, UNSIGNED16, ro, mappable into TPDOs, default 0, range 0 to 65535.
+    /// Accessor: [`touch_probe_status`](super::VectorStep::touch_probe_status). Values: [`TouchProbeStatus`](super::types::TouchProbeStatus).
     ///
     /// State of the touch probes; the same as register 332, from firmware 6 register 10085 (L3035)
     ///
@@ -36515,6 +42876,7 @@ pub mod objects {
     /// Touch probe position 1 positive value.
     ///
     /// 0x60BA:00, INTEGER32, ro, mappable into TPDOs, default 0, range \-2147483648 to 2147483647.
+    /// Accessor: [`touch_probe_position_1_positive_value`](super::VectorStep::touch_probe_position_1_positive_value).
     ///
     /// Position at the positive edge of touch probe 1, in the user's position units; register 333-334, from firmware 6 10086-10087
     ///
@@ -36536,6 +42898,7 @@ pub mod objects {
     /// Touch probe position 1 negative value.
     ///
     /// 0x60BB:00, INTEGER32, ro, mappable into TPDOs, default 0, range \-2147483648 to 2147483647.
+    /// Accessor: [`touch_probe_position_1_negative_value`](super::VectorStep::touch_probe_position_1_negative_value).
     ///
     /// Position at the negative edge of touch probe 1, in the user's position units; register 335-336, from firmware 6 10088-10089
     ///
@@ -36557,6 +42920,7 @@ pub mod objects {
     /// Touch probe position 2 positive value.
     ///
     /// 0x60BC:00, INTEGER32, ro, mappable into TPDOs, default 0, range \-2147483648 to 2147483647.
+    /// Accessor: [`touch_probe_position_2_positive_value`](super::VectorStep::touch_probe_position_2_positive_value).
     ///
     /// Position at the positive edge of touch probe 2, in the user's position units; register 337-338, from firmware 6 10097-10098
     ///
@@ -36578,6 +42942,7 @@ pub mod objects {
     /// Touch probe position 2 negative value.
     ///
     /// 0x60BD:00, INTEGER32, ro, mappable into TPDOs, default 0, range \-2147483648 to 2147483647.
+    /// Accessor: [`touch_probe_position_2_negative_value`](super::VectorStep::touch_probe_position_2_negative_value).
     ///
     /// Position at the negative edge of touch probe 2, in the user's position units; register 339-340, from firmware 6 10099-10100
     ///
@@ -36599,6 +42964,7 @@ pub mod objects {
     /// Interpolation Submode Select.
     ///
     /// 0x60C0:00, INTEGER16, rw, default 0, range \-32768 to 32767.
+    /// Accessor: [`interpolation_submode_select`](super::VectorStep::interpolation_submode_select). Values: [`InterpolationSubmode`](super::types::InterpolationSubmode).
     ///
     /// How the drive interpolates
     ///
@@ -36620,6 +42986,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x60C1:00, UNSIGNED8, ro, default 2.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of sub-entries
         ///
@@ -36635,6 +43002,7 @@ pub mod objects {
         /// 1st ip function parameter.
         ///
         /// 0x60C1:01, INTEGER32, rw, mappable into RPDOs, default 0, range \-2147483648 to 2147483647, in step.
+        /// Accessor: [`Accessors::_1st_ip_function_parameter`].
         ///
         /// First target position of the interpolator
         ///
@@ -36655,6 +43023,7 @@ pub mod objects {
         /// 2nd ip function parameter.
         ///
         /// 0x60C1:02, INTEGER32, rw, mappable into RPDOs, default 0, range \-2147483648 to 2147483647, in step.
+        /// Accessor: [`Accessors::_2nd_ip_function_parameter`].
         ///
         /// Second target position of the interpolator
         ///
@@ -36678,18 +43047,30 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x60C1:00.
+            ///
+            /// Number of sub-entries
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// 1st ip function parameter: 0x60C1:01.
+            ///
+            /// First target position of the interpolator
+            ///
+            /// Constant: [`_1ST_IP_FUNCTION_PARAMETER`].
             pub fn _1st_ip_function_parameter(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
                 _1ST_IP_FUNCTION_PARAMETER.at(self.client)
             }
             /// 2nd ip function parameter: 0x60C1:02.
+            ///
+            /// Second target position of the interpolator
+            ///
+            /// Constant: [`_2ND_IP_FUNCTION_PARAMETER`].
             pub fn _2nd_ip_function_parameter(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, i32, rt::OnCanOpenAndCoE> {
@@ -36705,6 +43086,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x60C2:00, UNSIGNED8, ro, default 2.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of sub-entries
         ///
@@ -36720,6 +43102,7 @@ pub mod objects {
         /// Interpolation time units.
         ///
         /// 0x60C2:01, UNSIGNED8, rw, mappable into RPDOs, default 4, range 1 to 10, in ms.
+        /// Accessor: [`Accessors::interpolation_time_units`].
         ///
         /// Period of the interpolation, in units that the time index gives: milliseconds
         ///
@@ -36737,6 +43120,7 @@ pub mod objects {
         /// Interpolation time index.
         ///
         /// 0x60C2:02, INTEGER8, rw, default -3, range \-3 to \-3.
+        /// Accessor: [`Accessors::interpolation_time_index`].
         ///
         /// Power of ten of the time units:  3, milliseconds
         ///
@@ -36759,18 +43143,30 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x60C2:00.
+            ///
+            /// Number of sub-entries
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Interpolation time units: 0x60C2:01.
+            ///
+            /// Period of the interpolation, in units that the time index gives: milliseconds
+            ///
+            /// Constant: [`INTERPOLATION_TIME_UNITS`].
             pub fn interpolation_time_units(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 INTERPOLATION_TIME_UNITS.at(self.client)
             }
             /// Interpolation time index: 0x60C2:02.
+            ///
+            /// Power of ten of the time units:  3, milliseconds
+            ///
+            /// Constant: [`INTERPOLATION_TIME_INDEX`].
             pub fn interpolation_time_index(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, i8, rt::OnCanOpenAndCoE> {
@@ -36786,6 +43182,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x60C3:00, UNSIGNED8, ro, default 2.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of sub-entries
         ///
@@ -36801,6 +43198,7 @@ pub mod objects {
         /// Synchronize on group.
         ///
         /// 0x60C3:01, UNSIGNED8, rw, default 0, range 0 to 0.
+        /// Accessor: [`Accessors::synchronize_on_group`].
         ///
         /// Group of synchronisation; only 0 is possible
         ///
@@ -36818,6 +43216,7 @@ pub mod objects {
         /// Ip sync every n event.
         ///
         /// 0x60C3:02, UNSIGNED8, rw, default 1, range 1 to 1.
+        /// Accessor: [`Accessors::ip_sync_every_n_event`].
         ///
         /// Number of events between synchronisations; only 1 is possible
         ///
@@ -36836,18 +43235,30 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x60C3:00.
+            ///
+            /// Number of sub-entries
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Synchronize on group: 0x60C3:01.
+            ///
+            /// Group of synchronisation; only 0 is possible
+            ///
+            /// Constant: [`SYNCHRONIZE_ON_GROUP`].
             pub fn synchronize_on_group(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 SYNCHRONIZE_ON_GROUP.at(self.client)
             }
             /// Ip sync every n event: 0x60C3:02.
+            ///
+            /// Number of events between synchronisations; only 1 is possible
+            ///
+            /// Constant: [`IP_SYNC_EVERY_N_EVENT`].
             pub fn ip_sync_every_n_event(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
@@ -36863,6 +43274,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x60C4:00, UNSIGNED8, ro, default 6.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of sub-entries
         ///
@@ -36878,6 +43290,7 @@ pub mod objects {
         /// Maximum buffer size.
         ///
         /// 0x60C4:01, UNSIGNED8, ro, default 2, range 2 to 2.
+        /// Accessor: [`Accessors::maximum_buffer_size`].
         ///
         /// Number of places of the buffer
         ///
@@ -36893,6 +43306,7 @@ pub mod objects {
         /// Actual size.
         ///
         /// 0x60C4:02, UNSIGNED8, rw, default 0, range 0 to 2.
+        /// Accessor: [`Accessors::actual_size`].
         ///
         /// Number of places in use
         ///
@@ -36908,6 +43322,7 @@ pub mod objects {
         /// Buffer organisation.
         ///
         /// 0x60C4:03, UNSIGNED8, rw, default 0, range 0 to 0.
+        /// Accessor: [`Accessors::buffer_organisation`].
         ///
         /// How the buffer is organised; only 0 is possible
         ///
@@ -36923,6 +43338,7 @@ pub mod objects {
         /// Buffer position.
         ///
         /// 0x60C4:04, UNSIGNED8, rw, mappable into RPDOs, default 0, range 0 to 1.
+        /// Accessor: [`Accessors::buffer_position`].
         ///
         /// Place of the buffer that is accessed
         ///
@@ -36938,6 +43354,7 @@ pub mod objects {
         /// Size of data record.
         ///
         /// 0x60C4:05, UNSIGNED8, ro, default 1, range 1 to 1.
+        /// Accessor: [`Accessors::size_of_data_record`].
         ///
         /// Size of a record of the buffer
         ///
@@ -36955,6 +43372,7 @@ pub mod objects {
         /// Buffer clear.
         ///
         /// 0x60C4:06, UNSIGNED8, wo, default 0, range 0 to 1.
+        /// Accessor: [`Accessors::buffer_clear`]. Values: [`BufferClear`](super::super::types::BufferClear).
         ///
         /// Clears the buffer, or enables access to it
         ///
@@ -36978,42 +43396,70 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x60C4:00.
+            ///
+            /// Number of sub-entries
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Maximum buffer size: 0x60C4:01.
+            ///
+            /// Number of places of the buffer
+            ///
+            /// Constant: [`MAXIMUM_BUFFER_SIZE`].
             pub fn maximum_buffer_size(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 MAXIMUM_BUFFER_SIZE.at(self.client)
             }
             /// Actual size: 0x60C4:02.
+            ///
+            /// Number of places in use
+            ///
+            /// Constant: [`ACTUAL_SIZE`].
             pub fn actual_size(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 ACTUAL_SIZE.at(self.client)
             }
             /// Buffer organisation: 0x60C4:03.
+            ///
+            /// How the buffer is organised; only 0 is possible
+            ///
+            /// Constant: [`BUFFER_ORGANISATION`].
             pub fn buffer_organisation(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 BUFFER_ORGANISATION.at(self.client)
             }
             /// Buffer position: 0x60C4:04.
+            ///
+            /// Place of the buffer that is accessed
+            ///
+            /// Constant: [`BUFFER_POSITION`].
             pub fn buffer_position(
                 &mut self,
             ) -> super::ReadWriteAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 BUFFER_POSITION.at(self.client)
             }
             /// Size of data record: 0x60C4:05.
+            ///
+            /// Size of a record of the buffer
+            ///
+            /// Constant: [`SIZE_OF_DATA_RECORD`].
             pub fn size_of_data_record(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 SIZE_OF_DATA_RECORD.at(self.client)
             }
             /// Buffer clear: 0x60C4:06.
+            ///
+            /// Clears the buffer, or enables access to it
+            ///
+            /// Constant: [`BUFFER_CLEAR`]. Values: [`BufferClear`](super::super::types::BufferClear).
             pub fn buffer_clear(
                 &mut self,
             ) -> super::WriteOnlyAccess<
@@ -37029,6 +43475,7 @@ pub mod objects {
     /// Digital inputs.
     ///
     /// 0x60FD:00, UNSIGNED32, ro, mappable into TPDOs, default 0, range 0 to 4294902007.
+    /// Accessor: [`digital_inputs`](super::VectorStep::digital_inputs). Values: [`ProfileDigitalInputs`](super::types::ProfileDigitalInputs).
     ///
     /// Limit and home switches, and the 16 digital inputs
     ///
@@ -37054,6 +43501,7 @@ pub mod objects {
         /// Number of entries.
         ///
         /// 0x60FE:00, UNSIGNED8, ro, default 2.
+        /// Accessor: [`Accessors::number_of_entries`].
         ///
         /// Number of sub-entries
         ///
@@ -37069,6 +43517,7 @@ pub mod objects {
         /// Physical outputs.
         ///
         /// 0x60FE:01, UNSIGNED32, rw, mappable into RPDOs, default 0, range 0 to 16711680.
+        /// Accessor: [`Accessors::physical_outputs`]. Values: [`ProfileDigitalOutputs`](super::super::types::ProfileDigitalOutputs).
         ///
         /// Levels of the outputs; only those in the bit mask change
         ///
@@ -37089,6 +43538,7 @@ pub mod objects {
         /// Bit mask.
         ///
         /// 0x60FE:02, UNSIGNED32, rw, mappable into RPDOs, default 0xFF0000, range 0 to 4294967295.
+        /// Accessor: [`Accessors::bit_mask`]. Values: [`ProfileDigitalOutputs`](super::super::types::ProfileDigitalOutputs).
         ///
         /// Outputs that may be changed: those with 1; the others keep their level
         ///
@@ -37109,12 +43559,20 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x60FE:00.
+            ///
+            /// Number of sub-entries
+            ///
+            /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, u8, rt::OnCanOpenAndCoE> {
                 NUMBER_OF_ENTRIES.at(self.client)
             }
             /// Physical outputs: 0x60FE:01.
+            ///
+            /// Levels of the outputs; only those in the bit mask change
+            ///
+            /// Constant: [`PHYSICAL_OUTPUTS`]. Values: [`ProfileDigitalOutputs`](super::super::types::ProfileDigitalOutputs).
             pub fn physical_outputs(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -37126,6 +43584,10 @@ pub mod objects {
                 PHYSICAL_OUTPUTS.at(self.client)
             }
             /// Bit mask: 0x60FE:02.
+            ///
+            /// Outputs that may be changed: those with 1; the others keep their level
+            ///
+            /// Constant: [`BIT_MASK`]. Values: [`ProfileDigitalOutputs`](super::super::types::ProfileDigitalOutputs).
             pub fn bit_mask(
                 &mut self,
             ) -> super::ReadWriteAccess<
@@ -37141,6 +43603,7 @@ pub mod objects {
     /// Motor type.
     ///
     /// 0x6402:00, UNSIGNED16, rw, default 9, range 0 to 65535.
+    /// Accessor: [`motor_type`](super::VectorStep::motor_type). Values: [`MotorType`](super::types::MotorType).
     ///
     /// Kind of motor; 9 again after each power-on
     ///
@@ -37164,6 +43627,7 @@ pub mod objects {
     /// Supported drive modes.
     ///
     /// 0x6502:00, UNSIGNED32, ro, default 0x10021.
+    /// Accessor: [`supported_drive_modes`](super::VectorStep::supported_drive_modes). Values: [`SupportedDriveModes`](super::types::SupportedDriveModes).
     ///
     /// Modes of operation that the drive has
     ///
@@ -37186,6 +43650,7 @@ pub mod objects {
     /// Drive manufacturer.
     ///
     /// 0x6504:00, VISIBLE_STRING, rw, default "Aec srl...Italy".
+    /// Accessor: [`drive_manufacturer`](super::VectorStep::drive_manufacturer).
     ///
     /// Name of the manufacturer; what is written is lost at power-off
     ///
@@ -37203,6 +43668,7 @@ pub mod objects {
     /// http drive catalog address.
     ///
     /// 0x6505:00, VISIBLE_STRING, rw, default "www.aec-smd.it".
+    /// Accessor: [`http_drive_catalog_address`](super::VectorStep::http_drive_catalog_address).
     ///
     /// Web address of the data sheet; what is written is lost at power-off
     ///
@@ -37222,7 +43688,7 @@ pub mod objects {
 /// PDOs whose mapping can be changed: `lexibus::pdo!` looks them up here.
 pub mod remappable {
     use ::lexibus as rt;
-    /// RxPDO 0x1600: RxPDO1 Mapping Parameters.
+    /// RxPDO 0x1600: RxPDO1 Mapping Parameters. By default: [`RxPdo1`](super::pdo::RxPdo1).
     pub enum RxPdo1 {}
     impl rt::Remappable for RxPdo1 {
         type Direction = rt::Rpdo;
@@ -37236,7 +43702,7 @@ pub mod remappable {
         ];
         const COB_ID: rt::CobId = rt::CobId::from_node(0x200);
     }
-    /// RxPDO 0x1601: RxPDO2 Mapping Parameters.
+    /// RxPDO 0x1601: RxPDO2 Mapping Parameters. By default: [`RxPdo2`](super::pdo::RxPdo2).
     pub enum RxPdo2 {}
     impl rt::Remappable for RxPdo2 {
         type Direction = rt::Rpdo;
@@ -37278,7 +43744,7 @@ pub mod remappable {
         ];
         const COB_ID: rt::CobId = rt::CobId::from_node(0x500);
     }
-    /// TxPDO 0x1A00: TxPDO1 Mapping Parameters.
+    /// TxPDO 0x1A00: TxPDO1 Mapping Parameters. By default: [`TxPdo1`](super::pdo::TxPdo1).
     pub enum TxPdo1 {}
     impl rt::Remappable for TxPdo1 {
         type Direction = rt::Tpdo;
@@ -37294,7 +43760,7 @@ pub mod remappable {
         ];
         const COB_ID: rt::CobId = rt::CobId::from_node(0x180);
     }
-    /// TxPDO 0x1A01: TxPDO2 Mapping Parameters.
+    /// TxPDO 0x1A01: TxPDO2 Mapping Parameters. By default: [`TxPdo2`](super::pdo::TxPdo2).
     pub enum TxPdo2 {}
     impl rt::Remappable for TxPdo2 {
         type Direction = rt::Tpdo;
@@ -37614,12 +44080,17 @@ pub mod pdo {
     use ::lexibus as rt;
     /// RxPDO 0x1600: RxPDO1 Mapping Parameters.
     ///
-    /// Mapping 0x1600, 24 bits.
+    /// Mapping 0x1600, 24 bits, COB-ID 0x200 + node-ID, transmission type 254.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`controlword`](Self::controlword) | [0x6040:00](super::objects::CONTROLWORD) | [`Controlword`](super::types::Controlword) |
+    /// | 2 | [`modes_of_operation`](Self::modes_of_operation) | [0x6060:00](super::objects::MODES_OF_OPERATION) | [`ModesOfOperation`](super::types::ModesOfOperation) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo1 {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         pub controlword: super::types::Controlword,
-        /// Modes of operation: 0x6060:00, 8 bits from bit 16.
+        /// Modes of operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits from bit 16.
         pub modes_of_operation: super::types::ModesOfOperation,
     }
     impl RxPdo1 {
@@ -37696,12 +44167,17 @@ pub mod pdo {
     };
     /// RxPDO 0x1601: RxPDO2 Mapping Parameters.
     ///
-    /// Mapping 0x1601, 48 bits.
+    /// Mapping 0x1601, 48 bits, COB-ID 0x300 + node-ID, transmission type 254.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`controlword`](Self::controlword) | [0x6040:00](super::objects::CONTROLWORD) | [`Controlword`](super::types::Controlword) |
+    /// | 2–5 | [`target_position`](Self::target_position) | [0x607A:00](super::objects::TARGET_POSITION) | `i32` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RxPdo2 {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         pub controlword: super::types::Controlword,
-        /// Target position: 0x607A:00, 32 bits from bit 16.
+        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits from bit 16.
         pub target_position: i32,
     }
     impl RxPdo2 {
@@ -37776,12 +44252,17 @@ pub mod pdo {
     };
     /// TxPDO 0x1A00: TxPDO1 Mapping Parameters.
     ///
-    /// Mapping 0x1A00, 24 bits.
+    /// Mapping 0x1A00, 24 bits, COB-ID 0x180 + node-ID, transmission type 254.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`statusword`](Self::statusword) | [0x6041:00](super::objects::STATUSWORD) | [`Statusword`](super::types::Statusword) |
+    /// | 2 | [`modes_of_operation_display`](Self::modes_of_operation_display) | [0x6061:00](super::objects::MODES_OF_OPERATION_DISPLAY) | [`ModesOfOperation`](super::types::ModesOfOperation) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo1 {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         pub statusword: super::types::Statusword,
-        /// Modes of operation display: 0x6061:00, 8 bits from bit 16.
+        /// Modes of operation display: [0x6061:00](super::objects::MODES_OF_OPERATION_DISPLAY), 8 bits from bit 16.
         pub modes_of_operation_display: super::types::ModesOfOperation,
     }
     impl TxPdo1 {
@@ -37860,12 +44341,17 @@ pub mod pdo {
     };
     /// TxPDO 0x1A01: TxPDO2 Mapping Parameters.
     ///
-    /// Mapping 0x1A01, 48 bits.
+    /// Mapping 0x1A01, 48 bits, COB-ID 0x280 + node-ID, transmission type 254.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`statusword`](Self::statusword) | [0x6041:00](super::objects::STATUSWORD) | [`Statusword`](super::types::Statusword) |
+    /// | 2–5 | [`position_actual_value`](Self::position_actual_value) | [0x6064:00](super::objects::POSITION_ACTUAL_VALUE) | `i32` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct TxPdo2 {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         pub statusword: super::types::Statusword,
-        /// Position actual value: 0x6064:00, 32 bits from bit 16.
+        /// Position actual value: [0x6064:00](super::objects::POSITION_ACTUAL_VALUE), 32 bits from bit 16.
         pub position_actual_value: i32,
     }
     impl TxPdo2 {
@@ -37946,7 +44432,7 @@ pub mod view {
     use ::lexibus as rt;
     /// RxPDO 0x1600: RxPDO1 Mapping Parameters.
     ///
-    /// Mapping 0x1600, 24 bits.
+    /// Its layout: [`pdo::RxPdo1`](super::pdo::RxPdo1).
     pub struct RxPdo1<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -37971,14 +44457,14 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(24))?;
             Ok(Self { data, bit })
         }
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         #[inline]
         pub fn controlword(&self) -> super::types::Controlword {
             super::types::Controlword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Modes of operation: 0x6060:00, 8 bits from bit 16.
+        /// Modes of operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits from bit 16.
         #[inline]
         pub fn modes_of_operation(&self) -> super::types::ModesOfOperation {
             super::types::ModesOfOperation::from_raw(
@@ -37987,12 +44473,12 @@ pub mod view {
         }
     }
     impl<B: AsMut<[u8]>> RxPdo1<B> {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         #[inline]
         pub fn set_controlword(&mut self, value: super::types::Controlword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Modes of operation: 0x6060:00, 8 bits from bit 16.
+        /// Modes of operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits from bit 16.
         #[inline]
         pub fn set_modes_of_operation(&mut self, value: super::types::ModesOfOperation) {
             rt::bits::set(
@@ -38005,7 +44491,7 @@ pub mod view {
     }
     /// RxPDO 0x1601: RxPDO2 Mapping Parameters.
     ///
-    /// Mapping 0x1601, 48 bits.
+    /// Its layout: [`pdo::RxPdo2`](super::pdo::RxPdo2).
     pub struct RxPdo2<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -38030,26 +44516,26 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(48))?;
             Ok(Self { data, bit })
         }
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         #[inline]
         pub fn controlword(&self) -> super::types::Controlword {
             super::types::Controlword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Target position: 0x607A:00, 32 bits from bit 16.
+        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits from bit 16.
         #[inline]
         pub fn target_position(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 32) as i32
         }
     }
     impl<B: AsMut<[u8]>> RxPdo2<B> {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         #[inline]
         pub fn set_controlword(&mut self, value: super::types::Controlword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Target position: 0x607A:00, 32 bits from bit 16.
+        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits from bit 16.
         #[inline]
         pub fn set_target_position(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 32, value as u32 as u64);
@@ -38057,7 +44543,7 @@ pub mod view {
     }
     /// TxPDO 0x1A00: TxPDO1 Mapping Parameters.
     ///
-    /// Mapping 0x1A00, 24 bits.
+    /// Its layout: [`pdo::TxPdo1`](super::pdo::TxPdo1).
     pub struct TxPdo1<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -38082,14 +44568,14 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(24))?;
             Ok(Self { data, bit })
         }
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         #[inline]
         pub fn statusword(&self) -> super::types::Statusword {
             super::types::Statusword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Modes of operation display: 0x6061:00, 8 bits from bit 16.
+        /// Modes of operation display: [0x6061:00](super::objects::MODES_OF_OPERATION_DISPLAY), 8 bits from bit 16.
         #[inline]
         pub fn modes_of_operation_display(&self) -> super::types::ModesOfOperation {
             super::types::ModesOfOperation::from_raw(
@@ -38098,12 +44584,12 @@ pub mod view {
         }
     }
     impl<B: AsMut<[u8]>> TxPdo1<B> {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         #[inline]
         pub fn set_statusword(&mut self, value: super::types::Statusword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Modes of operation display: 0x6061:00, 8 bits from bit 16.
+        /// Modes of operation display: [0x6061:00](super::objects::MODES_OF_OPERATION_DISPLAY), 8 bits from bit 16.
         #[inline]
         pub fn set_modes_of_operation_display(
             &mut self,
@@ -38119,7 +44605,7 @@ pub mod view {
     }
     /// TxPDO 0x1A01: TxPDO2 Mapping Parameters.
     ///
-    /// Mapping 0x1A01, 48 bits.
+    /// Its layout: [`pdo::TxPdo2`](super::pdo::TxPdo2).
     pub struct TxPdo2<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -38144,26 +44630,26 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(48))?;
             Ok(Self { data, bit })
         }
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         #[inline]
         pub fn statusword(&self) -> super::types::Statusword {
             super::types::Statusword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Position actual value: 0x6064:00, 32 bits from bit 16.
+        /// Position actual value: [0x6064:00](super::objects::POSITION_ACTUAL_VALUE), 32 bits from bit 16.
         #[inline]
         pub fn position_actual_value(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 32) as i32
         }
     }
     impl<B: AsMut<[u8]>> TxPdo2<B> {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         #[inline]
         pub fn set_statusword(&mut self, value: super::types::Statusword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Position actual value: 0x6064:00, 32 bits from bit 16.
+        /// Position actual value: [0x6064:00](super::objects::POSITION_ACTUAL_VALUE), 32 bits from bit 16.
         #[inline]
         pub fn set_position_actual_value(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 32, value as u32 as u64);

@@ -101,52 +101,74 @@ impl<C> Ax1<C> {
         self.client
     }
     /// 0x2000.
+    /// Constants: [`objects::object_2000`].
     pub fn object_2000(&mut self) -> objects::object_2000::Accessors<'_, C> {
         objects::object_2000::Accessors {
             client: &mut self.client,
         }
     }
     /// 0x2001.
+    /// Constants: [`objects::object_2001`].
     pub fn object_2001(&mut self) -> objects::object_2001::Accessors<'_, C> {
         objects::object_2001::Accessors {
             client: &mut self.client,
         }
     }
-    /// Controlword: 0x6040.
+    /// Controlword: 0x6040:00.
+    ///
+    /// Commands of the state machine, and of the mode of operation.
+    ///
+    /// Constant: [`objects::CONTROLWORD`]. Values: [`Controlword`](types::Controlword). Carried by [`SetPoints`](pdo::SetPoints).
     pub fn controlword(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::Controlword> {
         objects::CONTROLWORD.at(&mut self.client)
     }
-    /// Statusword: 0x6041.
+    /// Statusword: 0x6041:00.
+    ///
+    /// The state, and what the mode of operation has to tell.
+    ///
+    /// Constant: [`objects::STATUSWORD`]. Values: [`Statusword`](types::Statusword). Carried by [`ActualValues`](pdo::ActualValues).
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
         objects::STATUSWORD.at(&mut self.client)
     }
-    /// Modes of operation: 0x6060.
+    /// Modes of operation: 0x6060:00.
+    ///
+    /// The mode wanted. The mode in force is in 0x6061.
+    ///
+    /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`ModesOfOperation`](types::ModesOfOperation). Carried by [`SetPoints`](pdo::SetPoints).
     pub fn modes_of_operation(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, types::ModesOfOperation> {
         objects::MODES_OF_OPERATION.at(&mut self.client)
     }
-    /// Position: 0x6064.
+    /// Position: 0x6064:00.
+    /// Constant: [`objects::POSITION`]. Carried by [`ActualValues`](pdo::ActualValues).
     pub fn position(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::POSITION.at(&mut self.client)
     }
-    /// Velocity: 0x606C.
+    /// Velocity: 0x606C:00.
+    /// Constant: [`objects::VELOCITY`]. Carried by [`ActualValues`](pdo::ActualValues).
     pub fn velocity(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
         objects::VELOCITY.at(&mut self.client)
     }
-    /// Target position: 0x607A.
+    /// Target position: 0x607A:00.
+    /// Constant: [`objects::TARGET_POSITION`]. Carried by [`SetPoints`](pdo::SetPoints).
     pub fn target_position(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::TARGET_POSITION.at(&mut self.client)
     }
-    /// Torque offset: 0x60B2.
+    /// Torque offset: 0x60B2:00.
+    ///
+    /// Added to the torque wanted, of the rated torque.
+    ///
+    /// Constant: [`objects::TORQUE_OFFSET`]. Carried by [`SetPoints`](pdo::SetPoints).
     pub fn torque_offset(
         &mut self,
     ) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 10>> {
         objects::TORQUE_OFFSET.at(&mut self.client)
     }
-    /// Target velocity: 0x60FF.
+    /// Target velocity: 0x60FF:00.
+    /// Constant: [`objects::TARGET_VELOCITY`]. Carried by [`SetPoints`](pdo::SetPoints).
     pub fn target_velocity(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
         objects::TARGET_VELOCITY.at(&mut self.client)
     }
@@ -155,6 +177,15 @@ impl<C> Ax1<C> {
 pub mod types {
     use ::lexibus as rt;
     /// Mode.
+    ///
+    /// Values of [`object_2000::MODE`](super::objects::object_2000::MODE), [`object_2001::MODE`](super::objects::object_2001::MODE).
+    ///
+    /// | Value | Name |
+    /// |---|---|
+    /// | 0 | [`Off`](Self::Off) |
+    /// | 1 | [`Position`](Self::Position) |
+    /// | 3 | [`Velocity`](Self::Velocity) |
+    /// | 4 | [`Torque`](Self::Torque) |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Mode {
         /// 0: Off.
@@ -200,6 +231,22 @@ pub mod types {
         }
     }
     /// ModesOfOperation.
+    ///
+    /// Values of [`MODES_OF_OPERATION`](super::objects::MODES_OF_OPERATION).
+    ///
+    /// | Value | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`NoMode`](Self::NoMode) |  |
+    /// | 1 | [`ProfilePosition`](Self::ProfilePosition) |  |
+    /// | 2 | [`Velocity`](Self::Velocity) |  |
+    /// | 3 | [`ProfileVelocity`](Self::ProfileVelocity) |  |
+    /// | 4 | [`ProfileTorque`](Self::ProfileTorque) |  |
+    /// | 6 | [`Homing`](Self::Homing) |  |
+    /// | 7 | [`InterpolatedPosition`](Self::InterpolatedPosition) |  |
+    /// | 8 | [`CyclicSynchronousPosition`](Self::CyclicSynchronousPosition) |  |
+    /// | 9 | [`CyclicSynchronousVelocity`](Self::CyclicSynchronousVelocity) |  |
+    /// | 10 | [`CyclicSynchronousTorque`](Self::CyclicSynchronousTorque) |  |
+    /// | 11 | [`CyclicSynchronousTorqueWithAngle`](Self::CyclicSynchronousTorqueWithAngle) | With the commutation angle from the controller. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum ModesOfOperation {
         /// 0: no mode.
@@ -274,7 +321,29 @@ pub mod types {
     }
     /// Controlword.
     ///
+    /// Values of [`CONTROLWORD`](super::objects::CONTROLWORD).
+    ///
     /// Bits 0x400 are written as 0.
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`switch_on`](Self::switch_on) |  |
+    /// | 1 | [`enable_voltage`](Self::enable_voltage) |  |
+    /// | 2 | [`quick_stop`](Self::quick_stop) | 0 asks for a quick stop. Holds while the bit is 0. |
+    /// | 3 | [`enable_operation`](Self::enable_operation) |  |
+    /// | 4 | [`in_profile_position().new_set_point()`](ControlwordInProfilePosition::new_set_point) | Takes the target position. Acts on the change from 0 to 1. |
+    /// | 4 | [`in_velocity().enable_ramp()`](ControlwordInVelocity::enable_ramp) |  |
+    /// | 4 | [`in_homing().homing_start()`](ControlwordInHoming::homing_start) | Starts homing, and interrupts it when 0. |
+    /// | 4 | [`in_interpolated_position().enable_interpolation()`](ControlwordInInterpolatedPosition::enable_interpolation) |  |
+    /// | 5 | [`in_profile_position().change_set_immediately()`](ControlwordInProfilePosition::change_set_immediately) | The set-point replaces the one under way; otherwise it follows it. |
+    /// | 5 | [`in_velocity().unlock_ramp()`](ControlwordInVelocity::unlock_ramp) |  |
+    /// | 6 | [`in_profile_position().relative()`](ControlwordInProfilePosition::relative) | The target position is a distance. |
+    /// | 6 | [`in_velocity().reference_ramp()`](ControlwordInVelocity::reference_ramp) |  |
+    /// | 7 | [`fault_reset`](Self::fault_reset) | Acts on the change from 0 to 1. |
+    /// | 8 | [`halt`](Self::halt) | Stops the axis as the halt option code says. |
+    /// | 9 | [`in_profile_position().change_on_set_point()`](ControlwordInProfilePosition::change_on_set_point) | The previous target is passed with its profile velocity. |
+    /// | 10 | reserved | Written as 0. |
+    /// | 11–15 | [`manufacturer_specific`](Self::manufacturer_specific) |  |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Controlword(u16);
     impl Controlword {
@@ -353,19 +422,19 @@ pub mod types {
         pub const fn with_manufacturer_specific(self, value: u8) -> Self {
             Self((self.0 & !0xF800) | (((value as u16) << 11) & 0xF800))
         }
-        /// The bits that have their meaning while Modes of operation is profile position (1).
+        /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
         pub const fn in_profile_position(self) -> ControlwordInProfilePosition {
             ControlwordInProfilePosition(self.0)
         }
-        /// The bits that have their meaning while Modes of operation is velocity (2).
+        /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
         pub const fn in_velocity(self) -> ControlwordInVelocity {
             ControlwordInVelocity(self.0)
         }
-        /// The bits that have their meaning while Modes of operation is homing (6).
+        /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
         pub const fn in_homing(self) -> ControlwordInHoming {
             ControlwordInHoming(self.0)
         }
-        /// The bits that have their meaning while Modes of operation is interpolated position (7).
+        /// The bits that have their meaning while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
         pub const fn in_interpolated_position(
             self,
         ) -> ControlwordInInterpolatedPosition {
@@ -407,7 +476,7 @@ pub mod types {
             bits.finish()
         }
     }
-    /// [`Controlword`] while Modes of operation is profile position (1).
+    /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is profile position (1).
     #[derive(Clone, Copy)]
     pub struct ControlwordInProfilePosition(u16);
     impl ControlwordInProfilePosition {
@@ -452,7 +521,7 @@ pub mod types {
             Self((self.0 & !0x200) | ((value as u16) << 9))
         }
     }
-    /// [`Controlword`] while Modes of operation is velocity (2).
+    /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is velocity (2).
     #[derive(Clone, Copy)]
     pub struct ControlwordInVelocity(u16);
     impl ControlwordInVelocity {
@@ -488,7 +557,7 @@ pub mod types {
             Self((self.0 & !0x40) | ((value as u16) << 6))
         }
     }
-    /// [`Controlword`] while Modes of operation is homing (6).
+    /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is homing (6).
     #[derive(Clone, Copy)]
     pub struct ControlwordInHoming(u16);
     impl ControlwordInHoming {
@@ -506,7 +575,7 @@ pub mod types {
             Self((self.0 & !0x10) | ((value as u16) << 4))
         }
     }
-    /// [`Controlword`] while Modes of operation is interpolated position (7).
+    /// [`Controlword`] while [Modes of operation](super::objects::MODES_OF_OPERATION) is interpolated position (7).
     #[derive(Clone, Copy)]
     pub struct ControlwordInInterpolatedPosition(u16);
     impl ControlwordInInterpolatedPosition {
@@ -525,6 +594,35 @@ pub mod types {
         }
     }
     /// Statusword.
+    ///
+    /// Values of [`STATUSWORD`](super::objects::STATUSWORD).
+    ///
+    /// | Bits | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`ready_to_switch_on`](Self::ready_to_switch_on) |  |
+    /// | 1 | [`switched_on`](Self::switched_on) |  |
+    /// | 2 | [`operation_enabled`](Self::operation_enabled) |  |
+    /// | 3 | [`fault`](Self::fault) |  |
+    /// | 4 | [`voltage_enabled`](Self::voltage_enabled) | The power stage is supplied. |
+    /// | 5 | [`quick_stop`](Self::quick_stop) | 0 while a quick stop is asked for. Holds while the bit is 0. |
+    /// | 6 | [`switch_on_disabled`](Self::switch_on_disabled) |  |
+    /// | 7 | [`warning`](Self::warning) |  |
+    /// | 8 | [`manufacturer_specific_8`](Self::manufacturer_specific_8) | manufacturer specific. |
+    /// | 9 | [`remote`](Self::remote) | The drive obeys the control word. |
+    /// | 10 | [`target_reached`](Self::target_reached) | In the cyclic modes the bit means nothing, or toggles with each cycle. |
+    /// | 11 | [`internal_limit_active`](Self::internal_limit_active) | A limit keeps the drive from doing what the set-point asks for. |
+    /// | 12 | [`in_0x6061_1().set_point_acknowledge()`](StatuswordIn0x6061_1::set_point_acknowledge) |  |
+    /// | 12 | [`in_0x6061_3().speed_zero()`](StatuswordIn0x6061_3::speed_zero) |  |
+    /// | 12 | [`in_0x6061_6().homing_attained()`](StatuswordIn0x6061_6::homing_attained) |  |
+    /// | 12 | [`in_0x6061_7().interpolation_active()`](StatuswordIn0x6061_7::interpolation_active) |  |
+    /// | 12 | [`in_0x6061_8().follows_command_value()`](StatuswordIn0x6061_8::follows_command_value) |  |
+    /// | 12 | [`in_0x6061_9().follows_command_value()`](StatuswordIn0x6061_9::follows_command_value) |  |
+    /// | 12 | [`in_0x6061_10().follows_command_value()`](StatuswordIn0x6061_10::follows_command_value) |  |
+    /// | 13 | [`in_0x6061_1().following_error()`](StatuswordIn0x6061_1::following_error) |  |
+    /// | 13 | [`in_0x6061_3().max_slippage_error()`](StatuswordIn0x6061_3::max_slippage_error) |  |
+    /// | 13 | [`in_0x6061_6().homing_error()`](StatuswordIn0x6061_6::homing_error) |  |
+    /// | 13 | [`in_0x6061_8().following_error()`](StatuswordIn0x6061_8::following_error) |  |
+    /// | 14–15 | [`manufacturer_specific_14`](Self::manufacturer_specific_14) | manufacturer specific. |
     #[derive(Clone, Copy, PartialEq)]
     pub struct Statusword(u16);
     impl Statusword {
@@ -886,7 +984,18 @@ pub mod types {
             Self((self.0 & !0x1000) | ((value as u16) << 12))
         }
     }
-    /// States of drive, as Statusword tells them.
+    /// States of drive, as [Statusword](super::objects::STATUSWORD) tells them.
+    ///
+    /// | State | Mask | Value |
+    /// |---|---|---|
+    /// | [`NotReadyToSwitchOn`](Self::NotReadyToSwitchOn) | 0x4F | 0 |
+    /// | [`SwitchOnDisabled`](Self::SwitchOnDisabled) | 0x4F | 0x40 |
+    /// | [`ReadyToSwitchOn`](Self::ReadyToSwitchOn) | 0x6F | 0x21 |
+    /// | [`SwitchedOn`](Self::SwitchedOn) | 0x6F | 0x23 |
+    /// | [`OperationEnabled`](Self::OperationEnabled) | 0x6F | 0x27 |
+    /// | [`QuickStopActive`](Self::QuickStopActive) | 0x6F | 0x7 |
+    /// | [`FaultReactionActive`](Self::FaultReactionActive) | 0x4F | 0xF |
+    /// | [`Fault`](Self::Fault) | 0x4F | 0x8 |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum State {
         /// not ready to switch on: 0 of the bits 0x4F.
@@ -1025,26 +1134,38 @@ pub mod types {
             rt::Step::toward(Self::TRANSITIONS, self as u8, target as u8)
         }
     }
-    /// Commands of drive, as Controlword takes them.
+    /// Commands of drive, as [Controlword](super::objects::CONTROLWORD) takes them.
+    ///
+    /// | Command | Mask | Value |
+    /// |---|---|---|
+    /// | [`Shutdown`](Self::Shutdown) | 0x87 | 0x6 |
+    /// | [`SwitchOn`](Self::SwitchOn) | 0x8F | 0x7 |
+    /// | [`EnableOperation`](Self::EnableOperation) | 0x8F | 0xF |
+    /// | [`DisableVoltage`](Self::DisableVoltage) | 0x82 | 0 |
+    /// | [`QuickStop`](Self::QuickStop) | 0x86 | 0x2 |
+    /// | [`DisableOperation`](Self::DisableOperation) | 0x8F | 0x7 |
+    /// | [`FaultReset`](Self::FaultReset) | 0x80 | 0x80 |
     ///
     /// Transitions:
     ///
-    /// - 1: not\_ready\_to\_switch\_on to switch\_on\_disabled, by itself
-    /// - 2: switch\_on\_disabled to ready\_to\_switch\_on, on shutdown
-    /// - 3: ready\_to\_switch\_on to switched\_on, on switch\_on
-    /// - 4: switched\_on to operation\_enabled, on enable\_operation
-    /// - 5: operation\_enabled to switched\_on, on disable\_operation
-    /// - 6: switched\_on to ready\_to\_switch\_on, on shutdown
-    /// - 7: ready\_to\_switch\_on to switch\_on\_disabled, on disable\_voltage
-    /// - 8: operation\_enabled to ready\_to\_switch\_on, on shutdown
-    /// - 9: operation\_enabled to switch\_on\_disabled, on disable\_voltage
-    /// - 10: switched\_on to switch\_on\_disabled, on disable\_voltage
-    /// - 11: operation\_enabled to quick\_stop\_active, on quick\_stop
-    /// - 12: quick\_stop\_active to switch\_on\_disabled, on disable\_voltage
-    /// - 14: fault\_reaction\_active to fault, by itself
-    /// - 15: fault to switch\_on\_disabled, on fault\_reset
-    /// - 16: quick\_stop\_active to operation\_enabled, on enable\_operation
-    /// - 13: any state to fault\_reaction\_active, by itself. After a fault.
+    /// | No. | From | To | By | Meaning |
+    /// |---|---|---|---|---|
+    /// | 1 | [`NotReadyToSwitchOn`](State::NotReadyToSwitchOn) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | itself |  |
+    /// | 2 | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`Shutdown`](Command::Shutdown) |  |
+    /// | 3 | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`SwitchedOn`](State::SwitchedOn) | [`SwitchOn`](Command::SwitchOn) |  |
+    /// | 4 | [`SwitchedOn`](State::SwitchedOn) | [`OperationEnabled`](State::OperationEnabled) | [`EnableOperation`](Command::EnableOperation) |  |
+    /// | 5 | [`OperationEnabled`](State::OperationEnabled) | [`SwitchedOn`](State::SwitchedOn) | [`DisableOperation`](Command::DisableOperation) |  |
+    /// | 6 | [`SwitchedOn`](State::SwitchedOn) | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`Shutdown`](Command::Shutdown) |  |
+    /// | 7 | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](Command::DisableVoltage) |  |
+    /// | 8 | [`OperationEnabled`](State::OperationEnabled) | [`ReadyToSwitchOn`](State::ReadyToSwitchOn) | [`Shutdown`](Command::Shutdown) |  |
+    /// | 9 | [`OperationEnabled`](State::OperationEnabled) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](Command::DisableVoltage) |  |
+    /// | 10 | [`SwitchedOn`](State::SwitchedOn) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](Command::DisableVoltage) |  |
+    /// | 11 | [`OperationEnabled`](State::OperationEnabled) | [`QuickStopActive`](State::QuickStopActive) | [`QuickStop`](Command::QuickStop) |  |
+    /// | 12 | [`QuickStopActive`](State::QuickStopActive) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`DisableVoltage`](Command::DisableVoltage) |  |
+    /// | 14 | [`FaultReactionActive`](State::FaultReactionActive) | [`Fault`](State::Fault) | itself |  |
+    /// | 15 | [`Fault`](State::Fault) | [`SwitchOnDisabled`](State::SwitchOnDisabled) | [`FaultReset`](Command::FaultReset) |  |
+    /// | 16 | [`QuickStopActive`](State::QuickStopActive) | [`OperationEnabled`](State::OperationEnabled) | [`EnableOperation`](Command::EnableOperation) |  |
+    /// | 13 | any state | [`FaultReactionActive`](State::FaultReactionActive) | itself | After a fault. |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Command {
         /// shutdown: 0x6 of the bits 0x87.
@@ -1100,6 +1221,8 @@ pub mod types {
 pub mod codes {
     use ::lexibus as rt;
     /// drive errors.
+    ///
+    /// As a type: [`DriveErrors`].
     pub static DRIVE_ERRORS: &[rt::codes::Code] = &[
         rt::codes::Code::new(0x2310, 0x2310, "continuous over-current", "", &[]),
         rt::codes::Code::new(0x2320, 0x2320, "short circuit or earth leakage", "", &[]),
@@ -1136,6 +1259,42 @@ pub mod codes {
         rt::codes::Code::new(0xF004, 0xF004, "control", "", &[]),
     ];
     /// A code of [`DRIVE_ERRORS`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0x2310 | [`ContinuousOverCurrent`](Self::ContinuousOverCurrent) |  |
+    /// | 0x2320 | [`ShortCircuitOrEarthLeakage`](Self::ShortCircuitOrEarthLeakage) |  |
+    /// | 0x2330 | [`EarthLeakage`](Self::EarthLeakage) |  |
+    /// | 0x3110 | [`MainsOverVoltage`](Self::MainsOverVoltage) |  |
+    /// | 0x3120 | [`MainsUnderVoltage`](Self::MainsUnderVoltage) |  |
+    /// | 0x3130 | [`PhaseFailure`](Self::PhaseFailure) |  |
+    /// | 0x3210 | [`DcLinkOverVoltage`](Self::DcLinkOverVoltage) |  |
+    /// | 0x3220 | [`DcLinkUnderVoltage`](Self::DcLinkUnderVoltage) |  |
+    /// | 0x4110 | [`AmbientTemperatureTooHigh`](Self::AmbientTemperatureTooHigh) |  |
+    /// | 0x4210 | [`DeviceTemperatureTooHigh`](Self::DeviceTemperatureTooHigh) |  |
+    /// | 0x4310 | [`DriveTemperatureTooHigh`](Self::DriveTemperatureTooHigh) |  |
+    /// | 0x5530 | [`NonVolatileMemory`](Self::NonVolatileMemory) |  |
+    /// | 0x6010 | [`SoftwareResetByTheWatchdog`](Self::SoftwareResetByTheWatchdog) |  |
+    /// | 0x6310 | [`LossOfParameters`](Self::LossOfParameters) |  |
+    /// | 0x6320 | [`ParameterError`](Self::ParameterError) |  |
+    /// | 0x7110 | [`BrakeChopper`](Self::BrakeChopper) |  |
+    /// | 0x7121 | [`MotorBlocked`](Self::MotorBlocked) |  |
+    /// | 0x7122 | [`MotorErrorOrCommutation`](Self::MotorErrorOrCommutation) | motor error, or commutation. |
+    /// | 0x7305 | [`IncrementalSensor1`](Self::IncrementalSensor1) |  |
+    /// | 0x7306 | [`IncrementalSensor2`](Self::IncrementalSensor2) |  |
+    /// | 0x7310 | [`SpeedSensor`](Self::SpeedSensor) |  |
+    /// | 0x7320 | [`PositionSensor`](Self::PositionSensor) |  |
+    /// | 0x8311 | [`TorqueTooHigh`](Self::TorqueTooHigh) |  |
+    /// | 0x8331 | [`TorqueFault`](Self::TorqueFault) |  |
+    /// | 0x8400 | [`VelocityController`](Self::VelocityController) |  |
+    /// | 0x8500 | [`PositionController`](Self::PositionController) |  |
+    /// | 0x8600 | [`PositioningController`](Self::PositioningController) |  |
+    /// | 0x8611 | [`FollowingError`](Self::FollowingError) |  |
+    /// | 0x8612 | [`ReferenceLimit`](Self::ReferenceLimit) |  |
+    /// | 0xF001 | [`Deceleration`](Self::Deceleration) |  |
+    /// | 0xF002 | [`SubSynchronousRun`](Self::SubSynchronousRun) |  |
+    /// | 0xF003 | [`StrokeOperation`](Self::StrokeOperation) |  |
+    /// | 0xF004 | [`Control`](Self::Control) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum DriveErrors {
         /// 0x2310: continuous over-current.
@@ -1290,6 +1449,8 @@ pub mod codes {
         }
     }
     /// emergency.
+    ///
+    /// As a type: [`Emergency`].
     pub static EMERGENCY: &[rt::codes::Code] = &[
         rt::codes::Code::new(0, 0, "no error", "Or an error is gone.", &[]),
         rt::codes::Code::new(0x1000, 0x10FF, "generic error", "", &[]),
@@ -1346,6 +1507,44 @@ pub mod codes {
         rt::codes::Code::new(0xFF00, 0xFFFF, "device specific", "", &[]),
     ];
     /// A code of [`EMERGENCY`].
+    ///
+    /// | Code | Name | Meaning |
+    /// |---|---|---|
+    /// | 0 | [`NoError`](Self::NoError) | Or an error is gone. |
+    /// | 0x1000 to 0x10FF | [`GenericError`](Self::GenericError) |  |
+    /// | 0x2000 to 0x20FF | [`Current`](Self::Current) |  |
+    /// | 0x2100 to 0x21FF | [`CurrentOnTheInputSide`](Self::CurrentOnTheInputSide) |  |
+    /// | 0x2200 to 0x22FF | [`CurrentInsideTheDevice`](Self::CurrentInsideTheDevice) |  |
+    /// | 0x2300 to 0x23FF | [`CurrentOnTheOutputSide`](Self::CurrentOnTheOutputSide) |  |
+    /// | 0x3000 to 0x30FF | [`Voltage`](Self::Voltage) |  |
+    /// | 0x3100 to 0x31FF | [`MainsVoltage`](Self::MainsVoltage) |  |
+    /// | 0x3200 to 0x32FF | [`VoltageInsideTheDevice`](Self::VoltageInsideTheDevice) |  |
+    /// | 0x3300 to 0x33FF | [`OutputVoltage`](Self::OutputVoltage) |  |
+    /// | 0x4000 to 0x40FF | [`Temperature`](Self::Temperature) |  |
+    /// | 0x4100 to 0x41FF | [`AmbientTemperature`](Self::AmbientTemperature) |  |
+    /// | 0x4200 to 0x42FF | [`DeviceTemperature`](Self::DeviceTemperature) |  |
+    /// | 0x5000 to 0x50FF | [`HardwareOfTheDevice`](Self::HardwareOfTheDevice) |  |
+    /// | 0x6000 to 0x60FF | [`SoftwareOfTheDevice`](Self::SoftwareOfTheDevice) |  |
+    /// | 0x6100 to 0x61FF | [`InternalSoftware`](Self::InternalSoftware) |  |
+    /// | 0x6200 to 0x62FF | [`UserSoftware`](Self::UserSoftware) |  |
+    /// | 0x6300 to 0x63FF | [`DataSet`](Self::DataSet) |  |
+    /// | 0x7000 to 0x70FF | [`AdditionalModules`](Self::AdditionalModules) |  |
+    /// | 0x8000 to 0x80FF | [`Monitoring`](Self::Monitoring) |  |
+    /// | 0x8100 | [`Communication`](Self::Communication) |  |
+    /// | 0x8110 | [`CanOverrun`](Self::CanOverrun) | Objects were lost. |
+    /// | 0x8120 | [`CanErrorPassive`](Self::CanErrorPassive) |  |
+    /// | 0x8130 | [`LifeGuardingOrHeartbeat`](Self::LifeGuardingOrHeartbeat) |  |
+    /// | 0x8140 | [`RecoveredFromBusOff`](Self::RecoveredFromBusOff) |  |
+    /// | 0x8150 | [`TwoNodesWithOneIdentifier`](Self::TwoNodesWithOneIdentifier) |  |
+    /// | 0x8200 | [`Protocol`](Self::Protocol) |  |
+    /// | 0x8210 | [`PdoTooShort`](Self::PdoTooShort) | It wasn't processed. |
+    /// | 0x8220 | [`PdoTooLong`](Self::PdoTooLong) | More was received than is mapped. |
+    /// | 0x8230 | [`DestinationOfAMultiplexedPdoDoesnTExist`](Self::DestinationOfAMultiplexedPdoDoesnTExist) | destination of a multiplexed PDO doesn't exist. |
+    /// | 0x8240 | [`SyncOfAnotherLength`](Self::SyncOfAnotherLength) |  |
+    /// | 0x8250 | [`RpdoTimeout`](Self::RpdoTimeout) |  |
+    /// | 0x9000 to 0x90FF | [`ExternalError`](Self::ExternalError) |  |
+    /// | 0xF000 to 0xF0FF | [`AdditionalFunctions`](Self::AdditionalFunctions) |  |
+    /// | 0xFF00 to 0xFFFF | [`DeviceSpecific`](Self::DeviceSpecific) |  |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub enum Emergency {
         /// 0: no error. Or an error is gone.
@@ -1539,6 +1738,7 @@ pub mod objects {
         /// Ready.
         ///
         /// 0x2000:01, BOOLEAN, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::ready`]. Carried by [`Encoder`](super::super::pdo::Encoder).
         pub const READY: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x01,
@@ -1548,6 +1748,7 @@ pub mod objects {
         /// Mode.
         ///
         /// 0x2000:02, UNSIGNED3, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::mode`]. Values: [`Mode`](super::super::types::Mode). Carried by [`Encoder`](super::super::pdo::Encoder).
         pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
             0x2000,
             0x02,
@@ -1557,6 +1758,7 @@ pub mod objects {
         /// Referenced.
         ///
         /// 0x2000:03, BOOLEAN, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::referenced`]. Carried by [`Encoder`](super::super::pdo::Encoder).
         pub const REFERENCED: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x03,
@@ -1566,6 +1768,7 @@ pub mod objects {
         /// Position.
         ///
         /// 0x2000:04, INTEGER24, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::position`]. Carried by [`Encoder`](super::super::pdo::Encoder).
         pub const POSITION: super::ReadOnly<rt::Int<24>> = super::ReadOnlyInt24::flagged_coe_object(
             0x2000,
             0x04,
@@ -1575,6 +1778,7 @@ pub mod objects {
         /// Overflow.
         ///
         /// 0x2000:05, BOOLEAN, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::overflow`]. Carried by [`Encoder`](super::super::pdo::Encoder).
         pub const OVERFLOW: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2000,
             0x05,
@@ -1584,6 +1788,7 @@ pub mod objects {
         /// Quality.
         ///
         /// 0x2000:06, UNSIGNED2, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::quality`]. Carried by [`Encoder`](super::super::pdo::Encoder).
         pub const QUALITY: super::ReadOnly<rt::Uint<2>> = super::ReadOnlyUint2::flagged_coe_object(
             0x2000,
             0x06,
@@ -1593,6 +1798,7 @@ pub mod objects {
         /// Speed.
         ///
         /// 0x2000:07, INTEGER16, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::speed`]. Carried by [`Encoder`](super::super::pdo::Encoder).
         pub const SPEED: super::ReadOnly<i16> = super::ReadOnlyI16::flagged_coe_object(
             0x2000,
             0x07,
@@ -1605,32 +1811,39 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Ready: 0x2000:01.
+            /// Constant: [`READY`]. Carried by [`Encoder`](super::super::pdo::Encoder).
             pub fn ready(&mut self) -> super::ReadOnlyAccess<'_, C, bool> {
                 READY.at(self.client)
             }
             /// Mode: 0x2000:02.
+            /// Constant: [`MODE`]. Values: [`Mode`](super::super::types::Mode). Carried by [`Encoder`](super::super::pdo::Encoder).
             pub fn mode(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::Mode> {
                 MODE.at(self.client)
             }
             /// Referenced: 0x2000:03.
+            /// Constant: [`REFERENCED`]. Carried by [`Encoder`](super::super::pdo::Encoder).
             pub fn referenced(&mut self) -> super::ReadOnlyAccess<'_, C, bool> {
                 REFERENCED.at(self.client)
             }
             /// Position: 0x2000:04.
+            /// Constant: [`POSITION`]. Carried by [`Encoder`](super::super::pdo::Encoder).
             pub fn position(&mut self) -> super::ReadOnlyAccess<'_, C, rt::Int<24>> {
                 POSITION.at(self.client)
             }
             /// Overflow: 0x2000:05.
+            /// Constant: [`OVERFLOW`]. Carried by [`Encoder`](super::super::pdo::Encoder).
             pub fn overflow(&mut self) -> super::ReadOnlyAccess<'_, C, bool> {
                 OVERFLOW.at(self.client)
             }
             /// Quality: 0x2000:06.
+            /// Constant: [`QUALITY`]. Carried by [`Encoder`](super::super::pdo::Encoder).
             pub fn quality(&mut self) -> super::ReadOnlyAccess<'_, C, rt::Uint<2>> {
                 QUALITY.at(self.client)
             }
             /// Speed: 0x2000:07.
+            /// Constant: [`SPEED`]. Carried by [`Encoder`](super::super::pdo::Encoder).
             pub fn speed(&mut self) -> super::ReadOnlyAccess<'_, C, i16> {
                 SPEED.at(self.client)
             }
@@ -1644,6 +1857,7 @@ pub mod objects {
         /// Limit.
         ///
         /// 0x2001:01, BOOLEAN, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::limit`]. Carried by [`ActualValues`](super::super::pdo::ActualValues).
         pub const LIMIT: super::ReadOnly<bool> = super::ReadOnlyBool::flagged_coe_object(
             0x2001,
             0x01,
@@ -1653,6 +1867,7 @@ pub mod objects {
         /// Mode.
         ///
         /// 0x2001:02, UNSIGNED3, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::mode`]. Values: [`Mode`](super::super::types::Mode). Carried by [`ActualValues`](super::super::pdo::ActualValues).
         pub const MODE: super::ReadOnly<super::super::types::Mode> = super::ReadOnlyNamedMode::flagged_coe_object(
             0x2001,
             0x02,
@@ -1662,6 +1877,7 @@ pub mod objects {
         /// Current.
         ///
         /// 0x2001:03, UNSIGNED12, ro, mappable into TPDOs.
+        /// Accessor: [`Accessors::current`]. Carried by [`ActualValues`](super::super::pdo::ActualValues).
         pub const CURRENT: super::ReadOnly<rt::Uint<12>> = super::ReadOnlyUint12::flagged_coe_object(
             0x2001,
             0x03,
@@ -1674,16 +1890,19 @@ pub mod objects {
         }
         impl<C> Accessors<'_, C> {
             /// Limit: 0x2001:01.
+            /// Constant: [`LIMIT`]. Carried by [`ActualValues`](super::super::pdo::ActualValues).
             pub fn limit(&mut self) -> super::ReadOnlyAccess<'_, C, bool> {
                 LIMIT.at(self.client)
             }
             /// Mode: 0x2001:02.
+            /// Constant: [`MODE`]. Values: [`Mode`](super::super::types::Mode). Carried by [`ActualValues`](super::super::pdo::ActualValues).
             pub fn mode(
                 &mut self,
             ) -> super::ReadOnlyAccess<'_, C, super::super::types::Mode> {
                 MODE.at(self.client)
             }
             /// Current: 0x2001:03.
+            /// Constant: [`CURRENT`]. Carried by [`ActualValues`](super::super::pdo::ActualValues).
             pub fn current(&mut self) -> super::ReadOnlyAccess<'_, C, rt::Uint<12>> {
                 CURRENT.at(self.client)
             }
@@ -1692,6 +1911,7 @@ pub mod objects {
     /// Controlword.
     ///
     /// 0x6040:00, UNSIGNED16, rw, mappable into RPDOs.
+    /// Accessor: [`controlword`](super::Ax1::controlword). Values: [`Controlword`](super::types::Controlword). Carried by [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Commands of the state machine, and of the mode of operation.
     pub const CONTROLWORD: ReadWrite<super::types::Controlword> = ReadWriteNamedControlword::flagged_coe_object(
@@ -1703,6 +1923,7 @@ pub mod objects {
     /// Statusword.
     ///
     /// 0x6041:00, UNSIGNED16, ro, mappable into TPDOs.
+    /// Accessor: [`statusword`](super::Ax1::statusword). Values: [`Statusword`](super::types::Statusword). Carried by [`ActualValues`](super::pdo::ActualValues).
     ///
     /// The state, and what the mode of operation has to tell.
     pub const STATUSWORD: ReadOnly<super::types::Statusword> = ReadOnlyNamedStatusword::flagged_coe_object(
@@ -1714,6 +1935,7 @@ pub mod objects {
     /// Modes of operation.
     ///
     /// 0x6060:00, INTEGER8, rw, mappable into RPDOs.
+    /// Accessor: [`modes_of_operation`](super::Ax1::modes_of_operation). Values: [`ModesOfOperation`](super::types::ModesOfOperation). Carried by [`SetPoints`](super::pdo::SetPoints).
     ///
     /// The mode wanted. The mode in force is in 0x6061.
     pub const MODES_OF_OPERATION: ReadWrite<super::types::ModesOfOperation> = ReadWriteNamedModesOfOperation::flagged_coe_object(
@@ -1725,6 +1947,7 @@ pub mod objects {
     /// Position.
     ///
     /// 0x6064:00, INTEGER32, ro, mappable into TPDOs.
+    /// Accessor: [`position`](super::Ax1::position). Carried by [`ActualValues`](super::pdo::ActualValues).
     pub const POSITION: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
         0x6064,
         0x00,
@@ -1734,6 +1957,7 @@ pub mod objects {
     /// Velocity.
     ///
     /// 0x606C:00, INTEGER32, ro, mappable into TPDOs.
+    /// Accessor: [`velocity`](super::Ax1::velocity). Carried by [`ActualValues`](super::pdo::ActualValues).
     pub const VELOCITY: ReadOnly<i32> = ReadOnlyI32::flagged_coe_object(
         0x606C,
         0x00,
@@ -1743,6 +1967,7 @@ pub mod objects {
     /// Target position.
     ///
     /// 0x607A:00, INTEGER32, rw, mappable into RPDOs.
+    /// Accessor: [`target_position`](super::Ax1::target_position). Carried by [`SetPoints`](super::pdo::SetPoints).
     pub const TARGET_POSITION: ReadWrite<i32> = ReadWriteI32::flagged_coe_object(
         0x607A,
         0x00,
@@ -1752,6 +1977,7 @@ pub mod objects {
     /// Torque offset.
     ///
     /// 0x60B2:00, INTEGER16, rw, mappable into RPDOs, in 0.1 %.
+    /// Accessor: [`torque_offset`](super::Ax1::torque_offset). Carried by [`SetPoints`](super::pdo::SetPoints).
     ///
     /// Added to the torque wanted, of the rated torque.
     pub const TORQUE_OFFSET: ReadWrite<rt::Scaled<i16, 1, 10>> = ReadWriteI16Times1Per10::new(
@@ -1765,6 +1991,7 @@ pub mod objects {
     /// Target velocity.
     ///
     /// 0x60FF:00, INTEGER32, rw, mappable into RPDOs.
+    /// Accessor: [`target_velocity`](super::Ax1::target_velocity). Carried by [`SetPoints`](super::pdo::SetPoints).
     pub const TARGET_VELOCITY: ReadWrite<i32> = ReadWriteI32::flagged_coe_object(
         0x60FF,
         0x00,
@@ -1778,17 +2005,26 @@ pub mod pdo {
     /// RxPDO 0x1600: Set points.
     ///
     /// Mapping 0x1600, 112 bits.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`controlword`](Self::controlword) | [0x6040:00](super::objects::CONTROLWORD) | [`Controlword`](super::types::Controlword) |
+    /// | 2 | [`modes_of_operation`](Self::modes_of_operation) | [0x6060:00](super::objects::MODES_OF_OPERATION) | [`ModesOfOperation`](super::types::ModesOfOperation) |
+    /// | 3 | padding |  |  |
+    /// | 4–7 | [`target_position`](Self::target_position) | [0x607A:00](super::objects::TARGET_POSITION) | `i32` |
+    /// | 8–11 | [`target_velocity`](Self::target_velocity) | [0x60FF:00](super::objects::TARGET_VELOCITY) | `i32` |
+    /// | 12–13 | [`torque_offset`](Self::torque_offset) | [0x60B2:00](super::objects::TORQUE_OFFSET) | `i16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct SetPoints {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         pub controlword: super::types::Controlword,
-        /// Modes of operation: 0x6060:00, 8 bits from bit 16.
+        /// Modes of operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits from bit 16.
         pub modes_of_operation: super::types::ModesOfOperation,
-        /// Target position: 0x607A:00, 32 bits from bit 32.
+        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits from bit 32.
         pub target_position: i32,
-        /// Target velocity: 0x60FF:00, 32 bits from bit 64.
+        /// Target velocity: [0x60FF:00](super::objects::TARGET_VELOCITY), 32 bits from bit 64.
         pub target_velocity: i32,
-        /// Torque offset: 0x60B2:00, 16 bits from bit 96.
+        /// Torque offset: [0x60B2:00](super::objects::TORQUE_OFFSET), 16 bits from bit 96.
         pub torque_offset: i16,
     }
     impl SetPoints {
@@ -1851,21 +2087,31 @@ pub mod pdo {
     /// TxPDO 0x1A00: Encoder.
     ///
     /// Mapping 0x1A00, 48 bits.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0.0 | [`ready`](Self::ready) | [0x2000:01](super::objects::object_2000::READY) | `bool` |
+    /// | 0.1–0.3 | [`mode`](Self::mode) | [0x2000:02](super::objects::object_2000::MODE) | [`Mode`](super::types::Mode) |
+    /// | 0.4 | [`referenced`](Self::referenced) | [0x2000:03](super::objects::object_2000::REFERENCED) | `bool` |
+    /// | 0.5–3.4 | [`position`](Self::position) | [0x2000:04](super::objects::object_2000::POSITION) | `Int<24>` |
+    /// | 3.5 | [`overflow`](Self::overflow) | [0x2000:05](super::objects::object_2000::OVERFLOW) | `bool` |
+    /// | 3.6–3.7 | [`quality`](Self::quality) | [0x2000:06](super::objects::object_2000::QUALITY) | `Uint<2>` |
+    /// | 4–5 | [`speed`](Self::speed) | [0x2000:07](super::objects::object_2000::SPEED) | `i16` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Encoder {
-        /// Ready: 0x2000:01, 1 bits from bit 0.
+        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bits from bit 0.
         pub ready: bool,
-        /// Mode: 0x2000:02, 3 bits from bit 1.
+        /// Mode: [0x2000:02](super::objects::object_2000::MODE), 3 bits from bit 1.
         pub mode: super::types::Mode,
-        /// Referenced: 0x2000:03, 1 bits from bit 4.
+        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bits from bit 4.
         pub referenced: bool,
-        /// Position: 0x2000:04, 24 bits from bit 5.
+        /// Position: [0x2000:04](super::objects::object_2000::POSITION), 24 bits from bit 5.
         pub position: rt::Int<24>,
-        /// Overflow: 0x2000:05, 1 bits from bit 29.
+        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bits from bit 29.
         pub overflow: bool,
-        /// Quality: 0x2000:06, 2 bits from bit 30.
+        /// Quality: [0x2000:06](super::objects::object_2000::QUALITY), 2 bits from bit 30.
         pub quality: rt::Uint<2>,
-        /// Speed: 0x2000:07, 16 bits from bit 32.
+        /// Speed: [0x2000:07](super::objects::object_2000::SPEED), 16 bits from bit 32.
         pub speed: i16,
     }
     impl Encoder {
@@ -1942,19 +2188,28 @@ pub mod pdo {
     /// TxPDO 0x1A01: Actual values.
     ///
     /// Mapping 0x1A01, 96 bits.
+    ///
+    /// | Bytes | Field | Object | Type |
+    /// |---|---|---|---|
+    /// | 0–1 | [`statusword`](Self::statusword) | [0x6041:00](super::objects::STATUSWORD) | [`Statusword`](super::types::Statusword) |
+    /// | 2.0 | [`limit`](Self::limit) | [0x2001:01](super::objects::object_2001::LIMIT) | `bool` |
+    /// | 2.1–2.3 | [`mode`](Self::mode) | [0x2001:02](super::objects::object_2001::MODE) | [`Mode`](super::types::Mode) |
+    /// | 2.4–6.3 | [`position`](Self::position) | [0x6064:00](super::objects::POSITION) | `i32` |
+    /// | 6.4–10.3 | [`velocity`](Self::velocity) | [0x606C:00](super::objects::VELOCITY) | `i32` |
+    /// | 10.4–11.7 | [`current`](Self::current) | [0x2001:03](super::objects::object_2001::CURRENT) | `Uint<12>` |
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct ActualValues {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         pub statusword: super::types::Statusword,
-        /// Limit: 0x2001:01, 1 bits from bit 16.
+        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bits from bit 16.
         pub limit: bool,
-        /// Mode: 0x2001:02, 3 bits from bit 17.
+        /// Mode: [0x2001:02](super::objects::object_2001::MODE), 3 bits from bit 17.
         pub mode: super::types::Mode,
-        /// Position: 0x6064:00, 32 bits from bit 20.
+        /// Position: [0x6064:00](super::objects::POSITION), 32 bits from bit 20.
         pub position: i32,
-        /// Velocity: 0x606C:00, 32 bits from bit 52.
+        /// Velocity: [0x606C:00](super::objects::VELOCITY), 32 bits from bit 52.
         pub velocity: i32,
-        /// Current: 0x2001:03, 12 bits from bit 84.
+        /// Current: [0x2001:03](super::objects::object_2001::CURRENT), 12 bits from bit 84.
         pub current: rt::Uint<12>,
     }
     impl ActualValues {
@@ -2022,7 +2277,7 @@ pub mod view {
     use ::lexibus as rt;
     /// RxPDO 0x1600: Set points.
     ///
-    /// Mapping 0x1600, 112 bits.
+    /// Its layout: [`pdo::SetPoints`](super::pdo::SetPoints).
     pub struct SetPoints<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -2047,43 +2302,43 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(112))?;
             Ok(Self { data, bit })
         }
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         #[inline]
         pub fn controlword(&self) -> super::types::Controlword {
             super::types::Controlword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Modes of operation: 0x6060:00, 8 bits from bit 16.
+        /// Modes of operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits from bit 16.
         #[inline]
         pub fn modes_of_operation(&self) -> super::types::ModesOfOperation {
             super::types::ModesOfOperation::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 16, 8) as i8,
             )
         }
-        /// Target position: 0x607A:00, 32 bits from bit 32.
+        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits from bit 32.
         #[inline]
         pub fn target_position(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 32, 32) as i32
         }
-        /// Target velocity: 0x60FF:00, 32 bits from bit 64.
+        /// Target velocity: [0x60FF:00](super::objects::TARGET_VELOCITY), 32 bits from bit 64.
         #[inline]
         pub fn target_velocity(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 64, 32) as i32
         }
-        /// Torque offset: 0x60B2:00, 16 bits from bit 96.
+        /// Torque offset: [0x60B2:00](super::objects::TORQUE_OFFSET), 16 bits from bit 96.
         #[inline]
         pub fn torque_offset(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 96, 16) as i16
         }
     }
     impl<B: AsMut<[u8]>> SetPoints<B> {
-        /// Controlword: 0x6040:00, 16 bits from bit 0.
+        /// Controlword: [0x6040:00](super::objects::CONTROLWORD), 16 bits from bit 0.
         #[inline]
         pub fn set_controlword(&mut self, value: super::types::Controlword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Modes of operation: 0x6060:00, 8 bits from bit 16.
+        /// Modes of operation: [0x6060:00](super::objects::MODES_OF_OPERATION), 8 bits from bit 16.
         #[inline]
         pub fn set_modes_of_operation(&mut self, value: super::types::ModesOfOperation) {
             rt::bits::set(
@@ -2093,17 +2348,17 @@ pub mod view {
                 value.raw() as u8 as u64,
             );
         }
-        /// Target position: 0x607A:00, 32 bits from bit 32.
+        /// Target position: [0x607A:00](super::objects::TARGET_POSITION), 32 bits from bit 32.
         #[inline]
         pub fn set_target_position(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 32, value as u32 as u64);
         }
-        /// Target velocity: 0x60FF:00, 32 bits from bit 64.
+        /// Target velocity: [0x60FF:00](super::objects::TARGET_VELOCITY), 32 bits from bit 64.
         #[inline]
         pub fn set_target_velocity(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 64, 32, value as u32 as u64);
         }
-        /// Torque offset: 0x60B2:00, 16 bits from bit 96.
+        /// Torque offset: [0x60B2:00](super::objects::TORQUE_OFFSET), 16 bits from bit 96.
         #[inline]
         pub fn set_torque_offset(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 96, 16, value as u16 as u64);
@@ -2111,7 +2366,7 @@ pub mod view {
     }
     /// TxPDO 0x1A00: Encoder.
     ///
-    /// Mapping 0x1A00, 48 bits.
+    /// Its layout: [`pdo::Encoder`](super::pdo::Encoder).
     pub struct Encoder<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -2136,76 +2391,76 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(48))?;
             Ok(Self { data, bit })
         }
-        /// Ready: 0x2000:01, 1 bits from bit 0.
+        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bits from bit 0.
         #[inline]
         pub fn ready(&self) -> bool {
             rt::bits::get(self.data.as_ref(), self.bit, 1) != 0
         }
-        /// Mode: 0x2000:02, 3 bits from bit 1.
+        /// Mode: [0x2000:02](super::objects::object_2000::MODE), 3 bits from bit 1.
         #[inline]
         pub fn mode(&self) -> super::types::Mode {
             super::types::Mode::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 1, 3) as u8,
             )
         }
-        /// Referenced: 0x2000:03, 1 bits from bit 4.
+        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bits from bit 4.
         #[inline]
         pub fn referenced(&self) -> bool {
             rt::bits::get(self.data.as_ref(), self.bit + 4, 1) != 0
         }
-        /// Position: 0x2000:04, 24 bits from bit 5.
+        /// Position: [0x2000:04](super::objects::object_2000::POSITION), 24 bits from bit 5.
         #[inline]
         pub fn position(&self) -> rt::Int<24> {
             rt::Int::from_raw(rt::bits::get(self.data.as_ref(), self.bit + 5, 24))
         }
-        /// Overflow: 0x2000:05, 1 bits from bit 29.
+        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bits from bit 29.
         #[inline]
         pub fn overflow(&self) -> bool {
             rt::bits::get(self.data.as_ref(), self.bit + 29, 1) != 0
         }
-        /// Quality: 0x2000:06, 2 bits from bit 30.
+        /// Quality: [0x2000:06](super::objects::object_2000::QUALITY), 2 bits from bit 30.
         #[inline]
         pub fn quality(&self) -> rt::Uint<2> {
             rt::Uint::from_raw(rt::bits::get(self.data.as_ref(), self.bit + 30, 2))
         }
-        /// Speed: 0x2000:07, 16 bits from bit 32.
+        /// Speed: [0x2000:07](super::objects::object_2000::SPEED), 16 bits from bit 32.
         #[inline]
         pub fn speed(&self) -> i16 {
             rt::bits::get(self.data.as_ref(), self.bit + 32, 16) as i16
         }
     }
     impl<B: AsMut<[u8]>> Encoder<B> {
-        /// Ready: 0x2000:01, 1 bits from bit 0.
+        /// Ready: [0x2000:01](super::objects::object_2000::READY), 1 bits from bit 0.
         #[inline]
         pub fn set_ready(&mut self, value: bool) {
             rt::bits::set(self.data.as_mut(), self.bit, 1, value as u64);
         }
-        /// Mode: 0x2000:02, 3 bits from bit 1.
+        /// Mode: [0x2000:02](super::objects::object_2000::MODE), 3 bits from bit 1.
         #[inline]
         pub fn set_mode(&mut self, value: super::types::Mode) {
             rt::bits::set(self.data.as_mut(), self.bit + 1, 3, value.raw() as u64);
         }
-        /// Referenced: 0x2000:03, 1 bits from bit 4.
+        /// Referenced: [0x2000:03](super::objects::object_2000::REFERENCED), 1 bits from bit 4.
         #[inline]
         pub fn set_referenced(&mut self, value: bool) {
             rt::bits::set(self.data.as_mut(), self.bit + 4, 1, value as u64);
         }
-        /// Position: 0x2000:04, 24 bits from bit 5.
+        /// Position: [0x2000:04](super::objects::object_2000::POSITION), 24 bits from bit 5.
         #[inline]
         pub fn set_position(&mut self, value: rt::Int<24>) {
             rt::bits::set(self.data.as_mut(), self.bit + 5, 24, value.raw());
         }
-        /// Overflow: 0x2000:05, 1 bits from bit 29.
+        /// Overflow: [0x2000:05](super::objects::object_2000::OVERFLOW), 1 bits from bit 29.
         #[inline]
         pub fn set_overflow(&mut self, value: bool) {
             rt::bits::set(self.data.as_mut(), self.bit + 29, 1, value as u64);
         }
-        /// Quality: 0x2000:06, 2 bits from bit 30.
+        /// Quality: [0x2000:06](super::objects::object_2000::QUALITY), 2 bits from bit 30.
         #[inline]
         pub fn set_quality(&mut self, value: rt::Uint<2>) {
             rt::bits::set(self.data.as_mut(), self.bit + 30, 2, value.raw());
         }
-        /// Speed: 0x2000:07, 16 bits from bit 32.
+        /// Speed: [0x2000:07](super::objects::object_2000::SPEED), 16 bits from bit 32.
         #[inline]
         pub fn set_speed(&mut self, value: i16) {
             rt::bits::set(self.data.as_mut(), self.bit + 32, 16, value as u16 as u64);
@@ -2213,7 +2468,7 @@ pub mod view {
     }
     /// TxPDO 0x1A01: Actual values.
     ///
-    /// Mapping 0x1A01, 96 bits.
+    /// Its layout: [`pdo::ActualValues`](super::pdo::ActualValues).
     pub struct ActualValues<B> {
         pub(super) data: B,
         pub(super) bit: usize,
@@ -2238,68 +2493,68 @@ pub mod view {
             rt::bits::check_length(data.as_ref(), bit.saturating_add(96))?;
             Ok(Self { data, bit })
         }
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         #[inline]
         pub fn statusword(&self) -> super::types::Statusword {
             super::types::Statusword::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit, 16) as u16,
             )
         }
-        /// Limit: 0x2001:01, 1 bits from bit 16.
+        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bits from bit 16.
         #[inline]
         pub fn limit(&self) -> bool {
             rt::bits::get(self.data.as_ref(), self.bit + 16, 1) != 0
         }
-        /// Mode: 0x2001:02, 3 bits from bit 17.
+        /// Mode: [0x2001:02](super::objects::object_2001::MODE), 3 bits from bit 17.
         #[inline]
         pub fn mode(&self) -> super::types::Mode {
             super::types::Mode::from_raw(
                 rt::bits::get(self.data.as_ref(), self.bit + 17, 3) as u8,
             )
         }
-        /// Position: 0x6064:00, 32 bits from bit 20.
+        /// Position: [0x6064:00](super::objects::POSITION), 32 bits from bit 20.
         #[inline]
         pub fn position(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 20, 32) as i32
         }
-        /// Velocity: 0x606C:00, 32 bits from bit 52.
+        /// Velocity: [0x606C:00](super::objects::VELOCITY), 32 bits from bit 52.
         #[inline]
         pub fn velocity(&self) -> i32 {
             rt::bits::get(self.data.as_ref(), self.bit + 52, 32) as i32
         }
-        /// Current: 0x2001:03, 12 bits from bit 84.
+        /// Current: [0x2001:03](super::objects::object_2001::CURRENT), 12 bits from bit 84.
         #[inline]
         pub fn current(&self) -> rt::Uint<12> {
             rt::Uint::from_raw(rt::bits::get(self.data.as_ref(), self.bit + 84, 12))
         }
     }
     impl<B: AsMut<[u8]>> ActualValues<B> {
-        /// Statusword: 0x6041:00, 16 bits from bit 0.
+        /// Statusword: [0x6041:00](super::objects::STATUSWORD), 16 bits from bit 0.
         #[inline]
         pub fn set_statusword(&mut self, value: super::types::Statusword) {
             rt::bits::set(self.data.as_mut(), self.bit, 16, value.raw() as u64);
         }
-        /// Limit: 0x2001:01, 1 bits from bit 16.
+        /// Limit: [0x2001:01](super::objects::object_2001::LIMIT), 1 bits from bit 16.
         #[inline]
         pub fn set_limit(&mut self, value: bool) {
             rt::bits::set(self.data.as_mut(), self.bit + 16, 1, value as u64);
         }
-        /// Mode: 0x2001:02, 3 bits from bit 17.
+        /// Mode: [0x2001:02](super::objects::object_2001::MODE), 3 bits from bit 17.
         #[inline]
         pub fn set_mode(&mut self, value: super::types::Mode) {
             rt::bits::set(self.data.as_mut(), self.bit + 17, 3, value.raw() as u64);
         }
-        /// Position: 0x6064:00, 32 bits from bit 20.
+        /// Position: [0x6064:00](super::objects::POSITION), 32 bits from bit 20.
         #[inline]
         pub fn set_position(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 20, 32, value as u32 as u64);
         }
-        /// Velocity: 0x606C:00, 32 bits from bit 52.
+        /// Velocity: [0x606C:00](super::objects::VELOCITY), 32 bits from bit 52.
         #[inline]
         pub fn set_velocity(&mut self, value: i32) {
             rt::bits::set(self.data.as_mut(), self.bit + 52, 32, value as u32 as u64);
         }
-        /// Current: 0x2001:03, 12 bits from bit 84.
+        /// Current: [0x2001:03](super::objects::object_2001::CURRENT), 12 bits from bit 84.
         #[inline]
         pub fn set_current(&mut self, value: rt::Uint<12>) {
             rt::bits::set(self.data.as_mut(), self.bit + 84, 12, value.raw());

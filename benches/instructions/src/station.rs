@@ -145,6 +145,11 @@ pub mod submodules {
         };
     }
     /// Standard telegram 1: submodule 0x00000001 of API 0x3A00.
+    ///
+    /// | Part | Length |
+    /// |---|---|
+    /// | [`Inputs`](standard_telegram_1::Inputs) | 4 bytes |
+    /// | [`Outputs`](standard_telegram_1::Outputs) | 4 bytes |
     pub mod standard_telegram_1 {
         use ::lexibus as rt;
         /// The submodule, as modules and plans name it.
@@ -161,6 +166,11 @@ pub mod submodules {
         /// Inputs: what the device sends to the controller.
         ///
         /// 4 bytes of user data, consistent as a whole.
+        ///
+        /// | Place | Field | Type |
+        /// |---|---|---|
+        /// | bytes 0 and 1 | [`zsw1`](Self::zsw1) | `u16` |
+        /// | bytes 2 and 3 | [`nist_a`](Self::nist_a) | `i16` |
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Inputs {
             /// ZSW1: ZSW1, bytes 0 and 1.
@@ -235,6 +245,11 @@ pub mod submodules {
         /// Outputs: what the controller sends to the device.
         ///
         /// 4 bytes of user data, consistent as a whole.
+        ///
+        /// | Place | Field | Type |
+        /// |---|---|---|
+        /// | bytes 0 and 1 | [`stw1`](Self::stw1) | `u16` |
+        /// | bytes 2 and 3 | [`nsoll_a`](Self::nsoll_a) | `i16` |
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Outputs {
             /// STW1: STW1, bytes 0 and 1.
@@ -337,6 +352,11 @@ pub mod submodules {
         }
     }
     /// Standard telegram 3: submodule 0x00000003 of API 0x3A00.
+    ///
+    /// | Part | Length |
+    /// |---|---|
+    /// | [`Inputs`](standard_telegram_3::Inputs) | 18 bytes |
+    /// | [`Outputs`](standard_telegram_3::Outputs) | 10 bytes |
     pub mod standard_telegram_3 {
         use ::lexibus as rt;
         /// The submodule, as modules and plans name it.
@@ -353,6 +373,18 @@ pub mod submodules {
         /// Inputs: what the device sends to the controller.
         ///
         /// 18 bytes of user data, consistent as a whole.
+        ///
+        /// | Place | Field | Type |
+        /// |---|---|---|
+        /// | bit 1 of byte 0 | [`control_requested`](Self::control_requested) | `bool` |
+        /// | bit 0 of byte 1 | [`ready_to_switch_on`](Self::ready_to_switch_on) | `bool` |
+        /// | bit 2 of byte 1 | [`operation_enabled`](Self::operation_enabled) | `bool` |
+        /// | bit 3 of byte 1 | [`fault`](Self::fault) | `bool` |
+        /// | bytes 2 to 5 | [`nist_b`](Self::nist_b) | `i32` |
+        /// | bytes 6 and 7 | [`zsw2`](Self::zsw2) | `u16` |
+        /// | bytes 8 and 9 | [`g1_zsw`](Self::g1_zsw) | `u16` |
+        /// | bytes 10 to 13 | [`g1_xist1`](Self::g1_xist1) | `u32` |
+        /// | bytes 14 to 17 | [`g1_xist2`](Self::g1_xist2) | `u32` |
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Inputs {
             /// Control requested: bit 1 of byte 0.
@@ -490,6 +522,20 @@ pub mod submodules {
         /// Outputs: what the controller sends to the device.
         ///
         /// 10 bytes of user data, consistent as a whole.
+        ///
+        /// | Place | Field | Type |
+        /// |---|---|---|
+        /// | bit 2 of byte 0 | [`control_by_plc`](Self::control_by_plc) | `bool` |
+        /// | bit 0 of byte 1 | [`on`](Self::on) | `bool` |
+        /// | bit 1 of byte 1 | [`no_coast_stop`](Self::no_coast_stop) | `bool` |
+        /// | bit 2 of byte 1 | [`no_quick_stop`](Self::no_quick_stop) | `bool` |
+        /// | bit 3 of byte 1 | [`enable_operation`](Self::enable_operation) | `bool` |
+        /// | bit 4 of byte 1 | [`enable_ramp_generator`](Self::enable_ramp_generator) | `bool` |
+        /// | bit 5 of byte 1 | [`unfreeze_ramp_generator`](Self::unfreeze_ramp_generator) | `bool` |
+        /// | bit 6 of byte 1 | [`enable_set_point`](Self::enable_set_point) | `bool` |
+        /// | bytes 2 to 5 | [`nsoll_b`](Self::nsoll_b) | `i32` |
+        /// | bytes 6 and 7 | [`stw2`](Self::stw2) | `u16` |
+        /// | bytes 8 and 9 | [`g1_stw`](Self::g1_stw) | `u16` |
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Outputs {
             /// Control by PLC: bit 2 of byte 0.

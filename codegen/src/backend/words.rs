@@ -6,14 +6,19 @@ use crate::ir::{
 };
 
 /// Makes sentences. Every text of a source goes through `escape` on its way into one.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Words {
+#[derive(Clone, Copy)]
+pub(crate) struct Words<'w> {
     /// The text as the output shows it literally, on one line.
     pub escape: fn(&str) -> String,
+    /// A link to the element of this name that shows the name; `None` where the output has no such element.
+    pub link: &'w dyn Fn(&str) -> Option<String>,
 }
 
+/// For an output without links.
+pub(crate) const NO_LINK: &dyn Fn(&str) -> Option<String> = &|_| None;
+
 /// Sentences as they are.
-pub(crate) const PLAIN: Words = Words { escape: one_line };
+pub(crate) const PLAIN: Words<'static> = Words { escape: one_line, link: NO_LINK };
 
 /// A text without breaks of lines.
 pub(crate) fn one_line(text: &str) -> String {
@@ -59,9 +64,14 @@ pub(super) fn bus_name(key: &str) -> &str {
     }
 }
 
-impl Words {
+impl Words<'_> {
     fn escaped(&self, text: &str) -> String {
         (self.escape)(text)
+    }
+
+    /// The name of another element.
+    fn name(&self, name: &str) -> String {
+        (self.link)(name).unwrap_or_else(|| self.escaped(name))
     }
 
     fn list(&self, names: &[CompactString]) -> String {
@@ -82,7 +92,7 @@ impl Words {
             Storage::Volatile => sentences.push("Lost at power-off.".to_owned()),
             Storage::Immediate => sentences.push("Kept over power-off.".to_owned()),
             Storage::OnCommand(command) => {
-                sentences.push(format!("Kept over power-off once {} was given.", self.escaped(command)));
+                sentences.push(format!("Kept over power-off once {} was given.", self.name(command)));
             }
         }
         if let Some(access) = behaviour.pdi_access {
@@ -111,7 +121,7 @@ impl Words {
     pub fn holds(&self, condition: &Condition) -> String {
         let mask = condition.mask.map(|mask| self.escaped(&format!("& {mask:#X}")).replacen("0X", "0x", 1));
         let mask = mask.map(|mask| format!(" {mask}")).unwrap_or_default();
-        format!("{}{mask} is {}", self.escaped(&condition.item), self.values(&condition.values))
+        format!("{}{mask} is {}", self.name(&condition.item), self.values(&condition.values))
     }
 
     fn values(&self, values: &[Value]) -> String {
@@ -190,7 +200,7 @@ impl Words {
             (None, None) => {}
         }
         if let Some(other) = &availability.replaced_by {
-            sentences.push(format!("Replaced by {}.", self.escaped(other)));
+            sentences.push(format!("Replaced by {}.", self.name(other)));
         }
         if !availability.buses.is_empty() {
             let buses: Vec<CompactString> = availability.buses.iter().map(|bus| bus_name(bus).into()).collect();
@@ -253,15 +263,15 @@ impl Words {
             }
             Scale::Exponent { exponent, base, fraction } => {
                 let part = if *fraction == 0 { String::new() } else { format!(" / 2^{fraction}") };
-                format!(", stands for raw{part} × {base}^{}{behind}", self.escaped(exponent))
+                format!(", stands for raw{part} × {base}^{}{behind}", self.name(exponent))
             }
             Scale::ByItem { item, factor } => {
                 let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
-                format!(", stands for raw{factor} / {}{behind}", self.escaped(item))
+                format!(", stands for raw{factor} / {}{behind}", self.name(item))
             }
             Scale::TimesItem { item, factor } => {
                 let factor = if *factor == 1.0 { String::new() } else { format!(" × {factor}") };
-                format!(", stands for raw{factor} × {}{behind}", self.escaped(item))
+                format!(", stands for raw{factor} × {}{behind}", self.name(item))
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Runs `rustc`, or clippy where it is installed, over generated code.
+//! Runs `rustc`, or clippy where it is installed, and rustdoc over generated code.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -10,6 +10,7 @@ use std::sync::OnceLock;
 /// # Errors
 ///
 /// What the compiler printed.
+#[allow(dead_code)] // Not every test compiles by this one.
 pub fn compile(name: &str, bindings: &str) -> Result<(), String> {
     compile_in("2021", name, bindings)
 }
@@ -21,9 +22,7 @@ pub fn compile(name: &str, bindings: &str) -> Result<(), String> {
 /// What the compiler printed.
 #[allow(dead_code)] // Not every test that compiles asks for an edition.
 pub fn compile_in(edition: &str, name: &str, bindings: &str) -> Result<(), String> {
-    static NUMBER: AtomicUsize = AtomicUsize::new(0);
-    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
-    let stem = folder().join(format!("{}_{number}", std::process::id()));
+    let stem = stem();
     let (module, root) = (stem.with_extension("module.rs"), stem.with_extension("rs"));
     let lints = "#![no_std]\n#![deny(warnings, missing_docs, clippy::all)]\n//! Bindings.\n/// The device.\n";
     std::fs::write(&module, bindings).expect("a temporary file");
@@ -45,6 +44,67 @@ pub fn compile_in(edition: &str, name: &str, bindings: &str) -> Result<(), Strin
     }
     let text = String::from_utf8_lossy(&output.stderr);
     Err(format!("{name} doesn't compile:\n{}", text.lines().take(40).collect::<Vec<_>>().join("\n")))
+}
+
+/// Documents `bindings` as modules of modules of a crate; every warning of rustdoc is an error: above all a link that leads
+/// nowhere, to two places, or to what isn't public.
+///
+/// # Errors
+///
+/// What rustdoc printed.
+#[allow(dead_code)] // Not every test that compiles documents, too.
+pub fn document(name: &str, bindings: &[&str]) -> Result<(), String> {
+    documented(name, bindings, |_| ())
+}
+
+/// A page of the documentation of `bindings`, by its path from that of their module.
+///
+/// # Errors
+///
+/// What rustdoc printed.
+#[allow(dead_code)]
+pub fn page(name: &str, bindings: &str, path: &str) -> Result<String, String> {
+    let read = |folder: &Path| std::fs::read_to_string(folder.join("bindings/outer_0/device").join(path));
+    documented(name, &[bindings], read)?.map_err(|error| format!("{path}: {error}"))
+}
+
+/// Hands the folder of the documentation to `read`.
+fn documented<T>(name: &str, bindings: &[&str], read: impl FnOnce(&Path) -> T) -> Result<T, String> {
+    let stem = stem();
+    let (folder, root) = (stem.with_extension("doc"), stem.with_extension("rs"));
+    let mut text = String::from("#![no_std]\n#![deny(warnings)]\n//! Bindings.\n");
+    let mut files = vec![root.clone()];
+    for (at, bindings) in bindings.iter().enumerate() {
+        let module = stem.with_extension(format!("module_{at}.rs"));
+        std::fs::write(&module, bindings).expect("a temporary file");
+        let content = format!("/// The device.\npub mod device {{\ninclude!({module:?});\n}}\n");
+        text += &format!("/// One.\npub mod outer_{at} {{\n{content}}}\n");
+        files.push(module);
+    }
+    std::fs::write(&root, text).expect("a temporary file");
+    let output = Command::new("rustdoc")
+        .args(["--edition", "2021", "--crate-type", "lib", "--crate-name", "bindings", "-o"])
+        .arg(&folder)
+        .arg("--extern")
+        .arg(format!("lexibus={}", runtime().display()))
+        .arg(&root)
+        .output()
+        .expect("rustdoc runs");
+    let result = output.status.success().then(|| read(&folder));
+    for path in &files {
+        let _ = std::fs::remove_file(path);
+    }
+    let _ = std::fs::remove_dir_all(&folder);
+    let text = String::from_utf8_lossy(&output.stderr);
+    result
+        .ok_or_else(|| format!("{name} can't be documented:\n{}", text.lines().take(40).collect::<Vec<_>>().join("\n")))
+}
+
+/// The start of a name for temporary files, which no other test has.
+fn stem() -> PathBuf {
+    static NUMBER: AtomicUsize = AtomicUsize::new(0);
+    let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+    folder().join(format!("{}_{number}", std::process::id()))
 }
 
 fn folder() -> &'static Path {

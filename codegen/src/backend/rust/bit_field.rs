@@ -1,8 +1,10 @@
 //! Bit fields: integers whose bits have names.
 
+use super::doc_table;
 use super::docs;
 use super::enumeration::EnumerationModel;
 use super::ethercat::beside;
+use super::links::Here;
 use super::literal;
 use super::manual;
 use super::method_names::method_allow;
@@ -61,7 +63,12 @@ pub(super) struct FieldModel {
     pub set: String,
     /// How `Debug` prints it.
     debug: String,
+    /// Its first bit, and its row in the table of the bit field.
+    row: Row,
 }
+
+/// The first bit of a field; its bits, its name and its meaning.
+type Row = (u8, [String; 3]);
 
 /// The bits that have their meaning under one condition.
 pub(super) struct ViewModel {
@@ -160,10 +167,10 @@ fn view(scope: &Scope<'_>, condition: &Condition) -> View {
             None => format!("in {} {numbers}", condition.item),
         },
     };
-    let what = docs::escape(&condition.item);
+    let what = scope.link(&condition.item, Here::TYPES).unwrap_or_else(|| docs::escape(&condition.item));
     let title = match &names {
         Some(names) => format!("while {what} is {} ({numbers})", docs::escape(&names.join(" or "))),
-        None => format!("while {}", docs::holds(condition)),
+        None => format!("while {}", docs::holds(condition, scope, Here::TYPES)),
     };
     View { condition: condition.clone(), words, title }
 }
@@ -194,17 +201,17 @@ pub(super) fn model(
     let methods = view_methods(views, &taken);
     let back = beside(&methods, snake(&name));
     taken.extend(methods.iter().map(String::as_str));
-    let fields = with.fields(&entries, None, &taken);
+    let fields = with.fields(&entries, None, &taken, &|name| format!("[`{name}`](Self::{name})"));
     let (zeros, ones) = reserved(&entries);
-    let mut docs = vec![docs::sentence(&docs::escape(&definition.name))];
-    docs::described(definition.documentation.as_deref(), &scope.manual, &mut docs);
+    let mut docs = docs::of_type(scope, position);
     for (bits, number) in [(zeros, 0), (ones, 1)] {
         if bits != 0 {
             docs.extend([String::new(), format!("Bits {} are written as {number}.", hexadecimal(bits))]);
         }
     }
     let views = views.iter().zip(view_names).zip(&methods).map(|((view, view_name), method)| {
-        let fields = with.fields(&entries, Some(&view.condition), &[&RESERVED[..], &[back.as_str()]].concat());
+        let link = |name: &str| format!("[`{method}().{name}()`]({view_name}::{name})");
+        let fields = with.fields(&entries, Some(&view.condition), &[&RESERVED[..], &[back.as_str()]].concat(), &link);
         ViewModel {
             allow: method_allow(fields.iter().map(|field| field.getter.as_str())),
             name: view_name,
@@ -214,6 +221,8 @@ pub(super) fn model(
             fields,
         }
     });
+    let views: Vec<ViewModel> = views.collect();
+    docs.extend(table(&entries, fields.iter().chain(views.iter().flat_map(|view| &view.fields))));
     BitFieldModel {
         docs,
         derives: RustOptions { debug: Presence::Never, ..options.clone() }.derives(true),
@@ -230,7 +239,7 @@ pub(super) fn model(
         },
         written: written(zeros, ones),
         allow: method_allow(fields.iter().map(|field| field.getter.as_str())),
-        views: views.collect(),
+        views,
         fields,
         name,
     }
@@ -239,6 +248,42 @@ pub(super) fn model(
 fn view_methods(views: &[View], taken: &[&str]) -> Vec<String> {
     let wishes = names_unique::numbered(views.iter().map(|view| view.words.as_str()), "view");
     names_unique::unique(&wishes, taken, Case::Snake)
+}
+
+/// The lines of the table of all bits.
+fn table<'f>(entries: &[&BitFieldEntry], fields: impl Iterator<Item = &'f FieldModel>) -> Vec<String> {
+    let reserved = |entry: &&BitFieldEntry| {
+        let BitMeaning::Reserved { write } = entry.meaning else { return None };
+        let written = match write {
+            Some(one) => format!("Written as {}.", u8::from(one)),
+            None => String::new(),
+        };
+        entry.when.is_none().then(|| (entry.offset, [span(entry), "reserved".to_owned(), written]))
+    };
+    let mut rows: Vec<Row> = fields.map(|field| field.row.clone()).chain(entries.iter().filter_map(reserved)).collect();
+    rows.sort_by_key(|(offset, _)| *offset);
+    let rows: Vec<[String; 3]> = rows.into_iter().map(|(_, row)| row).collect();
+    doc_table::table(["Bits", "Name", "Meaning"], &rows)
+}
+
+/// `3`, `4–6`.
+fn span(entry: &BitFieldEntry) -> String {
+    match entry.bits {
+        1 => entry.offset.to_string(),
+        bits => format!("{}–{}", entry.offset, entry.offset + bits - 1),
+    }
+}
+
+/// What makes a field act, and when it holds.
+fn marks(entry: &BitFieldEntry) -> impl Iterator<Item = String> {
+    let inverted = matches!(entry.meaning, BitMeaning::Flag { inverted: true });
+    let trigger = entry.trigger.map(|trigger| match trigger {
+        Trigger::Rising => "Acts on the change from 0 to 1.",
+        Trigger::Falling => "Acts on the change from 1 to 0.",
+        Trigger::Toggle => "Each change of the bit counts.",
+        Trigger::SelfClearing => "The device clears it by itself.",
+    });
+    inverted.then_some("Holds while the bit is 0.").into_iter().chain(trigger).map(str::to_owned)
 }
 
 /// The name of a type as that of a method.
@@ -309,8 +354,14 @@ impl Context<'_, '_> {
         self.native[1..].parse().unwrap_or(64)
     }
 
-    /// The fields that have their meaning under `condition`.
-    fn fields(&self, all: &[&BitFieldEntry], condition: Option<&Condition>, reserved: &[&str]) -> Vec<FieldModel> {
+    /// The fields that have their meaning under `condition`. The table shows `link` of their names.
+    fn fields(
+        &self,
+        all: &[&BitFieldEntry],
+        condition: Option<&Condition>,
+        reserved: &[&str],
+        link: &dyn Fn(&str) -> String,
+    ) -> Vec<FieldModel> {
         let is_field = |entry: &&&BitFieldEntry| {
             !matches!(entry.meaning, BitMeaning::Reserved { .. }) && entry.when.as_ref() == condition
         };
@@ -332,12 +383,12 @@ impl Context<'_, '_> {
         let fields = entries.iter().zip(&names).map(|(entry, name)| {
             let setter = beside(&taken, format!("with_{}", name.trim_start_matches('_')));
             taken.push(setter.clone());
-            self.field(entry, name, setter)
+            self.field(entry, name, setter, link(name))
         });
         fields.collect()
     }
 
-    fn field(&self, entry: &BitFieldEntry, name: &str, setter: String) -> FieldModel {
+    fn field(&self, entry: &BitFieldEntry, name: &str, setter: String, link: String) -> FieldModel {
         let code = self.code(entry);
         let getter = names_unique::escaped(name);
         let (text, place) = (literal::string(name), hexadecimal(mask(entry.bits.into()) << entry.offset));
@@ -346,12 +397,14 @@ impl Context<'_, '_> {
             BitMeaning::Flag { inverted: true } if entry.bits == 1 => format!("inverted(«bits¦ {text}¦ {place}»)"),
             _ => format!("field(«bits¦ {text}¦ {place}¦ &self.{getter}()»)"),
         };
-        let title = match getter.starts_with("r#") {
-            true => format!("`{name}`"),
-            false => format!("[`{name}`](Self::{name})"),
-        };
-        let (docs, Code { ty, get, set }) = (self.docs(entry), code);
-        FieldModel { docs, getter, title, setter, ty, get, set, debug }
+        let title = format!("[`{name}`](Self::{name})");
+        let (docs, Code { ty, get, set, is_named }) = (self.docs(entry), code);
+        let mut meaning = vec![doc_table::meaning(&entry.name, name, entry.documentation.as_deref())];
+        meaning.extend(is_named.then(|| format!("Values: [`{ty}`].")));
+        meaning.extend(marks(entry));
+        meaning.retain(|part| !part.is_empty());
+        let row = (entry.offset, [span(entry), link, meaning.join(" ")]);
+        FieldModel { docs, getter, title, setter, ty, get, set, debug, row }
     }
 
     fn code(&self, entry: &BitFieldEntry) -> Code {
@@ -360,6 +413,7 @@ impl Context<'_, '_> {
             let (is, not) = if *inverted { ("==", "!") } else { ("!=", "") };
             let place = hexadecimal(1 << offset);
             return Code {
+                is_named: false,
                 ty: "bool".to_owned(),
                 get: format!("self.0 & {place} {is} 0"),
                 set: self.joined(&place, &shifted_left(&format!("({not}value as {})", self.native), offset)),
@@ -391,8 +445,11 @@ impl Context<'_, '_> {
             self.joined(&place, &if is_cut { format!("({moved} & {place})") } else { moved })
         };
         match named {
-            Some(named) => Code { ty: named.name.clone(), get: format!("{}::from_raw(«{cast}»)", named.name), set },
-            None => Code { ty: number.to_owned(), get: cast, set },
+            Some(named) => {
+                let get = format!("{}::from_raw(«{cast}»)", named.name);
+                Code { ty: named.name.clone(), get, set, is_named: true }
+            }
+            None => Code { ty: number.to_owned(), get: cast, set, is_named: false },
         }
     }
 
@@ -410,16 +467,7 @@ impl Context<'_, '_> {
             true => format!("{place}."),
             false => format!("{place}: {}", docs::sentence(&docs::escape(&entry.name))),
         }];
-        if let BitMeaning::Flag { inverted: true } = entry.meaning {
-            sentences.push("Holds while the bit is 0.".to_owned());
-        }
-        let trigger = entry.trigger.map(|trigger| match trigger {
-            Trigger::Rising => "Acts on the change from 0 to 1.",
-            Trigger::Falling => "Acts on the change from 1 to 0.",
-            Trigger::Toggle => "Each change of the bit counts.",
-            Trigger::SelfClearing => "The device clears it by itself.",
-        });
-        sentences.extend(trigger.map(str::to_owned));
+        sentences.extend(marks(entry));
         docs::words(entry.documentation.as_deref(), &mut sentences);
         if let Some(access) = entry.access {
             sentences.push(format!("Access {}.", access.name()));
@@ -435,6 +483,8 @@ impl Context<'_, '_> {
 /// The code of a field.
 struct Code {
     ty: String,
+    /// Whether that is an enumeration.
+    is_named: bool,
     get: String,
     set: String,
 }

@@ -12,6 +12,8 @@ use crate::passes::names_unique::{self, Case};
 /// A table, ready to be written.
 pub(super) struct CodeTableModel {
     pub name: String,
+    /// A link to it from beside it.
+    pub link: String,
     pub docs: Vec<String>,
     pub rows: Vec<String>,
     /// The type of its codes.
@@ -43,7 +45,16 @@ fn model(table: &CodeTable, (name, ty): (String, String), manual: &Manual, optio
     }
     let rows = table.rows.iter().filter_map(|own| row(own, table.columns.len())).collect();
     let ty = code_type::model(table, manual, options).map(|own| CodeTypeModel { name: ty, ..own });
-    CodeTableModel { name, docs, rows, ty }
+    // Of one letter, both have the same name.
+    let link = |name: &str, kind: &str, other: &str| match name == other {
+        true => format!("[`{name}`]({kind}@{name})"),
+        false => format!("[`{name}`]"),
+    };
+    let static_link = link(&name, "static", ty.as_ref().map_or("", |own| own.name.as_str()));
+    if let Some(own) = &ty {
+        docs.extend([String::new(), format!("As a type: {}.", link(&own.name, "enum", &name))]);
+    }
+    CodeTableModel { name, link: static_link, docs, rows, ty }
 }
 
 /// `None` for a code beyond 64 bits.

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, HashSet};
 
+use super::doc_table;
 use super::docs;
 use super::manual::{self, Manual};
 use super::options::RustOptions;
@@ -11,6 +12,8 @@ use crate::passes::names_unique::{self, Case, Wish};
 /// A type, ready to be written.
 pub(super) struct CodeTypeModel {
     pub name: String,
+    /// The table of its codes.
+    pub table: Vec<String>,
     pub derives: Vec<String>,
     /// The integer of a code.
     pub native: &'static str,
@@ -65,7 +68,13 @@ pub(super) fn model<'a>(table: &'a CodeTable, manual: &Manual, options: &RustOpt
     let arms = pieces.iter().map(arm).collect();
     let variants = rows.iter().zip(&names).map(|((span, row), name)| variant(*span, row, name, manual)).collect();
     let complete = covered == i128::from(last) - i128::from(first) + 1;
-    Some(CodeTypeModel { name: String::new(), derives: options.derives(true), native, variants, arms, complete })
+    let row = |((span, row), name): (&(Span, &CodeRow), &String)| {
+        let meaning = doc_table::meaning(&row.name, name, row.documentation.as_deref());
+        [codes(*span), format!("[`{name}`](Self::{name})"), meaning]
+    };
+    let listed: Vec<[String; 3]> = rows.iter().zip(&names).take(doc_table::MAX_ROWS + 1).map(row).collect();
+    let table = doc_table::table(["Code", "Name", "Meaning"], &listed);
+    Some(CodeTypeModel { name: String::new(), table, derives: options.derives(true), native, variants, arms, complete })
 }
 
 fn span(row: &CodeRow) -> Option<Span> {
@@ -122,8 +131,17 @@ pub(super) fn number(code: i64) -> String {
     }
 }
 
+/// `0x8110`, `0x8110 to 0x81FF`.
+fn codes(span: Span) -> String {
+    if span.0 == span.1 {
+        number(span.0)
+    } else {
+        format!("{} to {}", number(span.0), number(span.1))
+    }
+}
+
 fn variant(span: Span, row: &CodeRow, name: &str, manual: &Manual) -> CodeVariant {
-    let codes = if span.0 == span.1 { number(span.0) } else { format!("{} to {}", number(span.0), number(span.1)) };
+    let codes = codes(span);
     let title = docs::escape(&row.name);
     let mut text = if title.is_empty() { format!("{codes}.") } else { format!("{codes}: {}", docs::sentence(&title)) };
     let mut sentences = Vec::new();

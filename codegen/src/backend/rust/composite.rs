@@ -3,26 +3,34 @@
 use super::bus_facts::{self, FactModel};
 use super::data::Data;
 use super::docs;
-use crate::ir::Composite;
+use super::links::Here;
+use super::scope::Scope;
+use crate::ir::{Composite, Device};
 use crate::passes::names_unique::{self, Case};
 
 /// Names of constants that stand beside them.
 const BESIDE: [&str; 6] = ["device", "axes", "module", "entries", "identity", "node_id"];
 
 /// `nest` is how far the text is moved to the right afterwards.
-pub(super) fn models(composites: &[Composite], nest: usize) -> Vec<FactModel> {
-    let wishes = names_unique::numbered(composites.iter().map(|own| own.name.as_str()), "composite");
-    let reserved: Vec<&str> = bus_facts::RESERVED.iter().chain(&BESIDE).copied().collect();
-    let names = names_unique::unique(&wishes, &reserved, Case::Snake);
-    composites.iter().zip(names).map(|(own, name)| model(own, &name.to_ascii_uppercase(), nest)).collect()
+pub(super) fn models(scope: &Scope<'_>, device: &Device, nest: usize) -> Vec<FactModel> {
+    device.composites.iter().zip(names(device)).map(|(own, name)| model(scope, own, &name, nest)).collect()
 }
 
-fn model(own: &Composite, name: &str, nest: usize) -> FactModel {
-    let parts: Vec<String> = own.parts.iter().map(|part| docs::escape(part)).collect();
+/// The names of the constants.
+pub(super) fn names(device: &Device) -> Vec<String> {
+    let wishes = names_unique::numbered(device.composites.iter().map(|own| own.name.as_str()), "composite");
+    let reserved: Vec<&str> = bus_facts::RESERVED.iter().chain(&BESIDE).copied().collect();
+    let names = names_unique::unique(&wishes, &reserved, Case::Snake);
+    names.iter().map(|name| name.to_ascii_uppercase()).collect()
+}
+
+fn model(scope: &Scope<'_>, own: &Composite, name: &str, nest: usize) -> FactModel {
+    let link = |name: &str| scope.link(name, Here::TOP).unwrap_or_else(|| docs::escape(name));
+    let parts: Vec<String> = own.parts.iter().map(|part| link(part)).collect();
     let mut sentences =
         vec![docs::sentence(&format!("{} in {} to the base {}", docs::escape(&own.name), parts.join(", "), own.base))];
     if let Some((item, value)) = &own.sign {
-        sentences.push(format!("{} is {value} below zero.", docs::escape(item)));
+        sentences.push(format!("{} is {value} below zero.", link(item)));
     }
     if !own.unit.is_empty() {
         sentences.push(format!("In {}.", docs::escape(&own.unit)));

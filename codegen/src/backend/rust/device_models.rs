@@ -6,7 +6,7 @@ use super::given::{in_unit, wish};
 use super::item::ItemType;
 use super::literal;
 use super::objects::ObjectModel;
-use super::reachable::{addressable, is_module, registers};
+use super::reachable::{addressable, is_module};
 use super::scope::Scope;
 use super::variant;
 use crate::ir::{Device, Item, Value, Variant};
@@ -40,7 +40,7 @@ pub(super) struct OwnItem {
 
 /// The models that have constants or items of their own. `objects` are the handles of all models.
 pub(super) fn models(scope: &Scope<'_>, device: &Device, objects: &[ObjectModel]) -> Vec<DeviceModel> {
-    let registers = registers(scope).into_iter().map(|(_, item)| Some(item));
+    let registers = scope.registers.iter().map(|(_, item)| Some(*item));
     let single = addressable(scope).map(|group| group.items.first().filter(|_| !is_module(group)));
     let items: Vec<Option<&Item>> = registers.chain(single).collect();
     let all = device.variants.iter().map(|own| {
@@ -74,7 +74,12 @@ fn own(scope: &Scope<'_>, item: &Item, object: &ObjectModel, model: &str) -> Opt
     facts.extend(on_model.default.as_ref().map(|value| format!("default {}", docs::value(value))));
     Some(OwnItem {
         name: handle.constant.clone(),
-        docs: format!("{}: {}.", docs::escape(&item.name), facts.join(", ")),
+        docs: format!(
+            "{}: {}. As all models have it: [`objects::{}`].",
+            docs::escape(&item.name),
+            facts.join(", "),
+            handle.constant
+        ),
         ty: format!("objects::{}<«{}»>", handle.access, handle.arguments_at_top),
         range: range.to_owned(),
         initial: initial.to_owned(),

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::links::Here;
 use super::literal;
 use super::manual::{self, Manual};
 use super::place::Place;
@@ -10,38 +11,50 @@ use super::scope::Scope;
 use super::value_type;
 use crate::backend::markdown;
 pub(super) use crate::backend::words::sentence;
-use crate::backend::words::Words;
+use crate::backend::words::{Words, NO_LINK};
 use crate::ir::{Binding, Condition, Documentation, Item, Limits, Type, Value};
 
 /// Sentences for doc comments.
-pub(super) const WORDS: Words = Words { escape };
+pub(super) const WORDS: Words<'static> = Words { escape, link: NO_LINK };
+
+/// Sentences for doc comments that link to the elements which they name.
+pub(super) fn linked(link: &dyn Fn(&str) -> Option<String>) -> Words<'_> {
+    Words { escape, link }
+}
 
 /// Text as one line of Markdown without any markup.
 pub(super) fn escape(text: &str) -> String {
     markdown::escape(text, literal::is_harmless)
 }
 
-/// The lines about an item: its name, then its address, type, access and values, then what else is known.
-pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope<'_>) -> Vec<String> {
-    let mut lines = Vec::with_capacity(4);
+/// The lines about an item, for the constant that stands `here`: its name, then its address, type, access and values, then what
+/// belongs to it, and what else is known.
+pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope<'_>, here: Here<'_>) -> Vec<String> {
+    // What replaces an item may be called the same.
+    let is_other = |name: &str| !scope.item(name).is_some_and(|own| std::ptr::eq(own, item));
+    let link = |name: &str| is_other(name).then(|| scope.link(name, here))?;
+    let words = linked(&link);
+    let mut lines = Vec::with_capacity(6);
     if !name.trim().is_empty() {
         lines.push(sentence(&escape(name)));
         lines.push(String::new());
     }
-    lines.push(facts(item, scope));
+    lines.push(facts(item, scope, &words));
+    let beside = scope.links.beside_constant(scope, item, here);
+    lines.extend(Some(beside).filter(|line| !line.is_empty()));
     documentation(item, &mut lines);
     let mut paragraphs = Vec::new();
     if let Some(quantity) = &item.quantity {
-        paragraphs.extend(quantity::notes(quantity));
+        paragraphs.extend(WORDS.notes(quantity));
     }
     if let Some(behaviour) = &item.behaviour {
-        paragraphs.push(WORDS.behaviour(behaviour).join(" "));
+        paragraphs.push(words.behaviour(behaviour).join(" "));
     }
     paragraphs.extend(item.bindings.iter().filter_map(elsewhere));
     let unit = item.quantity.as_ref().map_or("", |quantity| quantity.unit.as_str());
-    paragraphs.extend(item.variants.iter().map(|own| WORDS.variant(own, unit)));
+    paragraphs.extend(item.variants.iter().map(|own| words.variant(own, unit)));
     if let Some(availability) = &item.availability {
-        paragraphs.push(manual::availability(availability));
+        paragraphs.push(words.availability(availability));
     }
     let place = scope.manual.place(item.documentation.as_deref(), &item.names);
     let chapter = chapter.filter(|chapter| !chapter.trim().is_empty());
@@ -51,6 +64,17 @@ pub(super) fn item(item: &Item, name: &str, chapter: Option<&str>, scope: &Scope
     for paragraph in paragraphs.into_iter().filter(|paragraph| !paragraph.is_empty()) {
         lines.extend([String::new(), paragraph]);
     }
+    lines
+}
+
+/// The lines about an item, for the method that stands `here`: `heading`, what the source says, and what belongs to it.
+pub(super) fn method(item: &Item, heading: &str, scope: &Scope<'_>, here: Here<'_>) -> Vec<String> {
+    let mut lines = vec![heading.to_owned()];
+    documentation(item, &mut lines);
+    if lines.len() > 1 {
+        lines.push(String::new());
+    }
+    lines.push(scope.links.beside_method(scope, item, here));
     lines
 }
 
@@ -65,9 +89,9 @@ fn elsewhere(binding: &Binding) -> Option<String> {
     }
 }
 
-/// `Mode is 1 or 2`, `Status & 0x4 is 0`.
-pub(super) fn holds(condition: &Condition) -> String {
-    WORDS.holds(condition)
+/// `Mode is 1 or 2`, `Status & 0x4 is 0`, with a link from `here` to the item.
+pub(super) fn holds(condition: &Condition, scope: &Scope<'_>, here: Here<'_>) -> String {
+    linked(&|name| scope.link(name, here)).holds(condition)
 }
 
 /// The words of a description, as sentences.
@@ -85,7 +109,19 @@ pub(super) fn described(documentation: Option<&Documentation>, manual: &Manual, 
     }
 }
 
-fn facts(item: &Item, scope: &Scope<'_>) -> String {
+/// The first lines about the type at this position: its name, what the source says of it, and whose values are of it.
+pub(super) fn of_type(scope: &Scope<'_>, position: u32) -> Vec<String> {
+    let Some(definition) = scope.types.get(position as usize) else { return Vec::new() };
+    let mut lines = vec![sentence(&escape(&definition.name))];
+    described(definition.documentation.as_deref(), &scope.manual, &mut lines);
+    let users = scope.links.users(position, Here::TYPES);
+    if !users.is_empty() {
+        lines.extend([String::new(), users]);
+    }
+    lines
+}
+
+fn facts(item: &Item, scope: &Scope<'_>, words: &Words<'_>) -> String {
     let base = scope.base(item.ty);
     let mut line = String::with_capacity(64);
     let place = Place::of(scope, item).facts();
@@ -109,7 +145,7 @@ fn facts(item: &Item, scope: &Scope<'_>) -> String {
         }
     }
     if let Some(quantity) = &item.quantity {
-        line.push_str(&quantity::facts(quantity));
+        line.push_str(&words.quantity(quantity));
     }
     if let Some(configured) = item.configured.as_ref().and_then(|configured| configured.value.as_ref()) {
         let _ = write!(line, ", configured to {}", typed(configured, base));
@@ -118,7 +154,8 @@ fn facts(item: &Item, scope: &Scope<'_>) -> String {
     line
 }
 
-fn typed(shown: &Value, ty: Type) -> String {
+/// A value of this type.
+pub(super) fn typed(shown: &Value, ty: Type) -> String {
     match shown {
         Value::Int(number) => value_type::number(*number, matches!(ty, Type::Unsigned(_))),
         other => value(other),

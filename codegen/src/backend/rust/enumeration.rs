@@ -2,8 +2,10 @@
 
 use std::collections::HashSet;
 
+use super::doc_table;
 use super::docs;
-use super::manual::{self, Manual};
+use super::links::Here;
+use super::manual;
 use super::options::RustOptions;
 use super::scope::Scope;
 use super::value_type::{self, ValueType};
@@ -69,8 +71,14 @@ pub(super) fn model(
     }
     let bits = base.bits()?;
     let complete = in_field && bits <= COMPLETE && values.len() == 1 << bits;
-    let mut docs = vec![docs::sentence(&docs::escape(&definition.name))];
-    docs::described(definition.documentation.as_deref(), &scope.manual, &mut docs);
+    let variants = variants(&values, scope);
+    let mut docs = docs::of_type(scope, position);
+    let row = |(value, own): (&&EnumValue, &VariantModel)| {
+        let meaning = doc_table::meaning(&value.name, &own.name, value.documentation.as_deref());
+        [own.value.clone(), format!("[`{0}`](Self::{0})", own.name), meaning]
+    };
+    let rows: Vec<[String; 3]> = values.iter().zip(&variants).take(doc_table::MAX_ROWS + 1).map(row).collect();
+    docs.extend(doc_table::table(["Value", "Name", "Meaning"], &rows));
     Some(EnumerationModel {
         docs,
         derives: options.derives(true),
@@ -79,12 +87,12 @@ pub(super) fn model(
         ty: base,
         bits,
         complete: complete.then(|| format!("{:#X}", (1_u32 << bits) - 1).replacen("0X", "0x", 1)),
-        variants: variants(&values, &scope.manual),
+        variants,
         name: String::new(),
     })
 }
 
-fn variants(values: &[&EnumValue], manual: &Manual) -> Vec<VariantModel> {
+fn variants(values: &[&EnumValue], scope: &Scope<'_>) -> Vec<VariantModel> {
     let wishes: Vec<Wish<'_>> = values
         .iter()
         .map(|value| Wish::new(&value.name, "value", value.value.to_string().replace('-', "Minus")))
@@ -95,7 +103,7 @@ fn variants(values: &[&EnumValue], manual: &Manual) -> Vec<VariantModel> {
         let title = docs::escape(&value.name);
         let mut docs =
             if title.is_empty() { format!("{number}.") } else { format!("{number}: {}", docs::sentence(&title)) };
-        for more in about(value, manual) {
+        for more in about(value, scope) {
             docs.push(' ');
             docs.push_str(&more);
         }
@@ -105,7 +113,7 @@ fn variants(values: &[&EnumValue], manual: &Manual) -> Vec<VariantModel> {
 }
 
 /// What else is known of a value.
-fn about(value: &EnumValue, manual: &Manual) -> Vec<String> {
+fn about(value: &EnumValue, scope: &Scope<'_>) -> Vec<String> {
     let mut sentences = Vec::new();
     match value.zone {
         Some(Zone::Reserved) => sentences.push("Must not be used.".to_owned()),
@@ -114,11 +122,11 @@ fn about(value: &EnumValue, manual: &Manual) -> Vec<String> {
     }
     docs::words(value.documentation.as_deref(), &mut sentences);
     if let Some(condition) = &value.when {
-        sentences.push(format!("Only while {}.", docs::holds(condition)));
+        sentences.push(format!("Only while {}.", docs::holds(condition, scope, Here::TYPES)));
     }
     if let Some(availability) = &value.availability {
         sentences.push(manual::availability(availability));
     }
-    sentences.extend(manual.place(value.documentation.as_deref(), &value.names));
+    sentences.extend(scope.manual.place(value.documentation.as_deref(), &value.names));
     sentences
 }

@@ -3,6 +3,7 @@
 use super::constructor::Arguments;
 use super::docs;
 use super::handle::alias;
+use super::links::Here;
 use super::locations::Locations;
 use super::place::Place;
 use super::quantity::{self, QuantityType};
@@ -16,6 +17,8 @@ pub(super) struct ItemModel {
     pub constant: String,
     pub method: String,
     pub docs: Vec<String>,
+    /// What is said of the method.
+    pub method_docs: Vec<String>,
     pub heading: String,
     pub access: &'static str,
     /// The type of the value and, where there are others, that of the location, as the handle's place names them, and as
@@ -54,16 +57,29 @@ impl ItemModel {
     }
 }
 
-/// The handle that is called `name` in Rust and `original` in the source; `outer` leads from its place to the device's.
+/// What an item is called: in Rust, in the source, and the title of its chapter.
+#[derive(Clone, Copy)]
+pub(super) struct Title<'n> {
+    pub name: &'n str,
+    pub original: &'n str,
+    pub chapter: Option<&'n str>,
+}
+
+/// The handle of an item that stands in this module of objects, or beside these; `outer` leads from there to the device's place.
 pub(super) fn model(
     scope: &Scope<'_>,
     locations: &Locations,
     item: &Item,
-    name: &str,
-    original: &str,
-    outer: &str,
+    Title { name, original, chapter }: Title<'_>,
+    (module, outer): (Option<&str>, &str),
 ) -> ItemModel {
+    let path = module.map(|module| format!("objects::{module}::"));
+    let (here, of_method) = match &path {
+        Some(path) => (Here::new(outer, path), Here::new(outer, path)),
+        None => (Here::OBJECTS, Here::TOP),
+    };
     let place = Place::of(scope, item);
+    let heading = heading(original, &place.heading());
     let ty = ItemType::of(scope, item);
     let location = |outer: &str| locations.argument(place.buses(), outer);
     let on = if location("").is_empty() { String::new() } else { place.buses().word() };
@@ -71,8 +87,9 @@ pub(super) fn model(
     ItemModel {
         constant: name.to_ascii_uppercase(),
         method: names_unique::escaped(name),
-        docs: docs::item(item, original, None, scope),
-        heading: heading(original, &place.heading()),
+        docs: docs::item(item, original, chapter, scope, here),
+        method_docs: if scope.links.has_methods { docs::method(item, &heading, scope, of_method) } else { Vec::new() },
+        heading,
         access: alias(item.access),
         arguments: format!("{}{}", ty.path(outer), location(outer)),
         arguments_at_top: format!("{}{}", ty.path(""), location("")),

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::place::{Buses, Place};
-use super::reachable::{addressable, registers};
+use super::reachable::addressable;
 use super::scope::Scope;
 
 /// Where the windows are, as seen from the handles.
@@ -36,7 +36,7 @@ struct Shared {
 impl Locations {
     pub fn of(scope: &Scope<'_>) -> Self {
         let objects = addressable(scope).flat_map(|group| &group.items);
-        let items = objects.chain(registers(scope).into_iter().map(|(_, item)| item));
+        let items = objects.chain(scope.registers.iter().map(|(_, item)| *item));
         let places: Vec<Place<'_>> = items.map(|item| Place::of(scope, item)).collect();
         let mut each: BTreeMap<Buses, usize> = BTreeMap::new();
         for place in &places {

@@ -4,10 +4,14 @@ use std::collections::HashMap;
 
 use super::bit_field::BitFieldModel;
 use super::data::Data;
+use super::doc_table;
 use super::docs;
+use super::enumeration::EnumerationModel;
+use super::links::Here;
 use super::options::RustOptions;
 use super::scope::Scope;
-use crate::ir::{Pattern, StateMachine, Transition, Type};
+use super::value_type;
+use crate::ir::{Pattern, Shape, StateMachine, Transition, Type};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// A state machine, ready to be written.
@@ -53,6 +57,8 @@ pub(super) struct PatternModel {
     /// Its name in the source.
     original: String,
     pub docs: String,
+    /// What it is, in a cell.
+    meaning: String,
     pub mask: String,
     pub value: String,
 }
@@ -85,31 +91,134 @@ pub(super) fn models(
     machines: &[StateMachine],
     names: Vec<[String; 2]>,
     bit_fields: &[(u32, BitFieldModel)],
+    enumerations: &[(u32, EnumerationModel)],
     options: &RustOptions,
 ) -> Vec<MachineModel> {
     let model = |((machine, [states, commands]), [state, command]): ((&StateMachine, [String; 2]), [String; 2])| {
-        let about = |what: &str, item: &str, does: &str| {
-            let by = if item.is_empty() { String::new() } else { format!(", as {} {does} them", docs::escape(item)) };
-            vec![format!("{what} of {}{by}.", docs::escape(&machine.name))]
-        };
-        let state_docs = about("States", &machine.status_item, "tells");
-        let mut command_docs = about("Commands", &machine.control_item, "takes");
-        command_docs.extend(transitions(machine));
-        let patterns = |name, docs, list, item: &str, method| {
-            patterns(scope, (name, docs), list, (item, method), bit_fields, options)
-        };
+        let patterns =
+            |name, list, item: &str, method| patterns(scope, name, list, (item, method), bit_fields, options);
         // The values of an enumeration have a type already.
         let own_states = if machine.state_type.is_some() { &[] } else { machine.states.as_slice() };
-        let states = patterns(states, state_docs, own_states, &machine.status_item, state);
+        let mut states = patterns(states, own_states, &machine.status_item, state);
         let method = format!("with_{command}");
-        let commands = patterns(commands, command_docs, &machine.commands, &machine.control_item, method);
+        let mut commands = patterns(commands, &machine.commands, &machine.control_item, method);
         let transitions = states
             .as_ref()
             .zip(commands.as_ref())
             .and_then(|(states, commands)| steps(&machine.transitions, states, commands));
+        let named = Named {
+            scope,
+            states: states_of(scope, machine, states.as_ref(), enumerations),
+            commands: commands.as_ref().map(|own| (own.name.clone(), own.by_name())),
+        };
+        let listed = named.transitions(machine);
+        let has_commands = commands.is_some();
+        if let Some(own) = &mut commands {
+            own.docs = documentation(scope, machine, ("Commands", &machine.control_item, "takes"), own);
+            own.docs.extend(listed.iter().cloned());
+        }
+        if let Some(own) = &mut states {
+            own.docs = documentation(scope, machine, ("States", &machine.status_item, "tells"), own);
+            own.docs.extend(listed.into_iter().filter(|_| !has_commands));
+        }
         MachineModel { states, commands, transitions }
     };
     machines.iter().zip(names).zip(methods(machines)).map(model).collect()
+}
+
+/// The lines about states or commands, and their table.
+fn documentation(
+    scope: &Scope<'_>,
+    machine: &StateMachine,
+    (what, item, does): (&str, &str, &str),
+    own: &PatternsModel,
+) -> Vec<String> {
+    let item = match item {
+        "" => String::new(),
+        item => {
+            let item = scope.link(item, Here::TYPES).unwrap_or_else(|| docs::escape(item));
+            format!(", as {item} {does} them")
+        }
+    };
+    let mut lines = vec![format!("{what} of {}{item}.", docs::escape(&machine.name))];
+    docs::described(machine.documentation.as_deref(), &scope.manual, &mut lines);
+    let row = |own: &PatternModel| {
+        [format!("[`{0}`](Self::{0})", own.name), own.mask.clone(), own.value.clone(), own.meaning.clone()]
+    };
+    let rows: Vec<[String; 4]> = own.patterns.iter().map(row).collect();
+    lines.extend(doc_table::table([what.trim_end_matches('s'), "Mask", "Value", "Meaning"], &rows));
+    lines
+}
+
+/// The name of a type, and its variants by the names that the source has for them.
+pub(super) type Variants = (String, HashMap<String, String>);
+
+/// The type of a machine's states: its own one, or an enumeration.
+pub(super) fn states_of(
+    scope: &Scope<'_>,
+    machine: &StateMachine,
+    own: Option<&PatternsModel>,
+    enumerations: &[(u32, EnumerationModel)],
+) -> Option<Variants> {
+    let Some(name) = &machine.state_type else {
+        let own = own?;
+        return Some((own.name.clone(), own.by_name()));
+    };
+    let is_own = |at: &u32| scope.types.get(*at as usize).is_some_and(|own| own.name == *name);
+    let (at, own) = enumerations.iter().find(|(at, _)| is_own(at))?;
+    let Shape::Enumeration { values, .. } = &scope.types.get(*at as usize)?.shape else { return None };
+    let variant = |number: i128| {
+        let number = value_type::number(number, number > 0);
+        own.variants.iter().find(|variant| variant.value == number).map(|variant| variant.name.clone())
+    };
+    let named = values.iter().filter_map(|value| Some((value.name.to_string(), variant(value.value)?)));
+    Some((own.name.clone(), named.collect()))
+}
+
+/// What transitions name.
+struct Named<'n, 's> {
+    scope: &'n Scope<'s>,
+    states: Option<Variants>,
+    commands: Option<Variants>,
+}
+
+impl Named<'_, '_> {
+    /// A link to a variant, among the types; the name alone where there is none.
+    fn variant(own: Option<&Variants>, name: &str) -> Option<String> {
+        let (ty, variants) = own?;
+        let variant = variants.get(name)?;
+        Some(format!("[`{variant}`]({ty}::{variant})"))
+    }
+
+    fn state(&self, name: &str) -> String {
+        Named::variant(self.states.as_ref(), name).unwrap_or_else(|| docs::escape(name))
+    }
+
+    /// A command, or the message that is one.
+    fn command(&self, name: &str) -> String {
+        let message = || Some(Here::TYPES.text(&docs::escape(name), self.scope.links.message(name)?));
+        Named::variant(self.commands.as_ref(), name).or_else(message).unwrap_or_else(|| docs::escape(name))
+    }
+
+    /// The lines of the table of all transitions.
+    fn transitions(&self, machine: &StateMachine) -> Vec<String> {
+        let row = |own: &Transition| {
+            let text = own.documentation.as_ref().map_or("", |own| own.text.as_str());
+            [
+                own.number.map(|number| number.to_string()).unwrap_or_default(),
+                own.from.as_ref().map_or_else(|| "any state".to_owned(), |name| self.state(name)),
+                self.state(&own.to),
+                own.command.as_ref().map_or_else(|| "itself".to_owned(), |name| self.command(name)),
+                if text.is_empty() { String::new() } else { docs::sentence(&docs::escape(text)) },
+            ]
+        };
+        let rows: Vec<[String; 5]> = machine.transitions.iter().map(row).collect();
+        let table = doc_table::whole(["No.", "From", "To", "By", "Meaning"], &rows);
+        if table.is_empty() {
+            return table;
+        }
+        [String::new(), "Transitions:".to_owned()].into_iter().chain(table).collect()
+    }
 }
 
 /// The transitions that a controller can take, or wait for. One that leaves any state by itself is a fault, and no way to go.
@@ -140,26 +249,9 @@ fn steps(transitions: &[Transition], states: &PatternsModel, commands: &Patterns
     (!steps.is_empty()).then_some(Data::Slice(steps))
 }
 
-/// The transitions as a list.
-fn transitions(machine: &StateMachine) -> Vec<String> {
-    let mut lines = Vec::new();
-    for Transition { number, from, to, command, documentation } in &machine.transitions {
-        let from = from.as_ref().map_or_else(|| "any state".to_owned(), |from| docs::escape(from));
-        let cause = command.as_ref().map_or_else(|| "by itself".to_owned(), |own| format!("on {}", docs::escape(own)));
-        let number = number.map(|number| format!("{number}: ")).unwrap_or_default();
-        let text = documentation.as_ref().map_or("", |own| own.text.as_str());
-        let text = if text.is_empty() { String::new() } else { format!(". {}", docs::sentence(&docs::escape(text))) };
-        lines.push(format!("- {number}{from} to {}, {cause}{text}", docs::escape(to)));
-    }
-    if !lines.is_empty() {
-        lines.splice(0..0, [String::new(), "Transitions:".to_owned(), String::new()]);
-    }
-    lines
-}
-
 fn patterns(
     scope: &Scope<'_>,
-    (name, docs): (String, Vec<String>),
+    name: String,
     list: &[Pattern],
     (item, method): (&str, String),
     bit_fields: &[(u32, BitFieldModel)],
@@ -194,12 +286,14 @@ fn patterns(
         let text = own.documentation.as_ref().map_or("", |own| own.text.as_str());
         let text = if text.is_empty() { String::new() } else { format!(" {}", docs::sentence(&docs::escape(text))) };
         let original = own.name.to_string();
-        PatternModel { docs: format!("{title}: {value} of the bits {mask}.{text}"), name, original, mask, value }
+        let meaning = doc_table::meaning(&own.name, &name, own.documentation.as_deref());
+        let docs = format!("{title}: {value} of the bits {mask}.{text}");
+        PatternModel { docs, meaning, name, original, mask, value }
     };
     Some(PatternsModel {
         patterns: list.iter().zip(names).map(pattern).collect(),
         name,
-        docs,
+        docs: Vec::new(),
         derives: options.derives(true),
         native,
         bits: bits.map(|own| (own.name.clone(), method)),

@@ -15,6 +15,7 @@ mod constructor;
 mod data;
 mod device_models;
 mod device_names;
+mod doc_table;
 mod docs;
 mod enumeration;
 mod ethercat;
@@ -24,6 +25,7 @@ mod handle;
 mod identity;
 mod item;
 mod layout;
+mod links;
 mod literal;
 mod locations;
 mod machine;
@@ -104,7 +106,7 @@ fn render(model: Model<'_>) -> String {
 
 /// How a program reaches each item of a device: by the methods of its type, as in `identity().vendor_id()`.
 pub(super) fn calls(device: &Device) -> Vec<(&Item, String)> {
-    let (scope, _) = Scope::of_device(device, &RustOptions::default());
+    let (scope, _) = Scope::of_device(device, &RustOptions::default(), "");
     objects::calls(&scope)
 }
 

@@ -13,7 +13,6 @@ use super::handle::{self, Alias};
 use super::identity::IdentityModel;
 use super::literal;
 use super::locations::Locations;
-use super::manual::Manual;
 use super::messages::ProtocolModel;
 use super::method_names::{method_allow, BESIDE_MESSAGES, RESERVED};
 use super::named::Types;
@@ -98,24 +97,23 @@ pub(super) struct Model<'a> {
 impl<'a> Model<'a> {
     /// A device.
     pub(super) fn new(device: &'a Device, file: &'a FileInfo, options: &'a RustOptions, place: &Place) -> Self {
-        let (scope, types) = Scope::of_device(device, options);
+        let device_name = device_names::device_name(device, file, options.device_name.as_deref());
+        let (scope, types) = Scope::of_device(device, options, &device_name);
         let mut model = Model::of_scope(&scope, types, options);
         model.protocol = model.protocol_of(&scope);
-        let has_calls = model.protocol.as_ref().is_some_and(|own| !own.calls.is_empty());
-        let has_methods = !model.objects.is_empty() && has_object_access(device) || has_calls;
-        model.has_accessors = options.accessors && has_methods;
+        model.has_accessors = scope.links.has_methods;
         model.nest = place.nest;
-        model.device_name = device_names::device_name(device, file, options.device_name.as_deref());
+        model.device_name = device_name;
         model.title = docs::escape(&device_names::title(device));
         model.identity = (!device.dictionary_only).then(|| IdentityModel::new(device));
         model.procedures = procedure::models(&scope, device);
         model.models = device_models::models(&scope, device, &model.objects);
         model.given = given::model(&scope, device, options);
         model.ethercat = EtherCatModel::new(device, &model.pdos, &place.modules, place.nest);
-        model.code_tables = code_table::models(&device.code_tables, &Manual::of(device), options);
+        model.code_tables = code_table::models(&device.code_tables, &scope.manual, options);
         model.axes = axes::model(device, place.nest);
         model.bus_facts = bus_facts::models(device, place.nest);
-        model.bus_facts.extend(composite::models(&device.composites, place.nest));
+        model.bus_facts.extend(composite::models(&scope, device, place.nest));
         model.node_id = device.commissioning.as_ref().and_then(|own| own.node_id);
         model
     }
@@ -140,7 +138,7 @@ impl<'a> Model<'a> {
             has_locations: locations.several,
             locations: locations.own(),
             makers: locations.makers(),
-            windows: window::models(&scope.windows),
+            windows: window::models(scope),
             handles: reachable::handles(scope),
             types,
             accessor_derives: options.derives(false),
@@ -216,11 +214,4 @@ impl<'a> Model<'a> {
         let items: usize = self.objects.iter().map(|object| object.items.len()).sum();
         4096 + items * 900 + self.pdos.len() * 4096 + self.table.as_ref().map_or(0, |table| table.len() * 400)
     }
-}
-
-/// Whether a client can reach the objects: those that PDOs prove of a slave without CoE are nowhere but in its PDOs.
-fn has_object_access(device: &Device) -> bool {
-    let Some(ethercat) = &device.ethercat else { return true };
-    let coe = ethercat.mailbox.as_ref().is_some_and(|mailbox| mailbox.coe.is_some());
-    coe || device.groups.iter().any(|group| group.origin.line > 0)
 }

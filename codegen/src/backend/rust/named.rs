@@ -115,7 +115,7 @@ pub(super) fn types(scope: &Scope<'_>, machines: &[StateMachine], options: &Rust
         let model = bit_field::model(scope, at, name, views, &types.enumerations, &machine_methods, options);
         types.bit_fields.push((at, model));
     }
-    types.machines = machine::models(scope, machines, machine_names, &types.bit_fields, options);
+    types.machines = machine::models(scope, machines, machine_names, &types.bit_fields, &types.enumerations, options);
     types
 }
 

@@ -1,11 +1,12 @@
 //! The objects and registers, ready to be written: a handle each, or a module of handles.
 
 use super::docs;
-use super::item::{self, ItemModel};
+use super::item::{self, ItemModel, Title};
+use super::links::Here;
 use super::locations::Locations;
 use super::method_names::{method_allow, BESIDE_MESSAGES, RESERVED};
 use super::place::Place;
-use super::reachable::{addressable, is_module, registers};
+use super::reachable::{addressable, is_module};
 use super::scope::Scope;
 use crate::ir::{Group, Item, ObjectCode};
 use crate::passes::names_unique::{self, Case, Wish};
@@ -18,6 +19,8 @@ pub(super) struct ObjectModel {
     pub name: String,
     pub docs: Vec<String>,
     pub heading: String,
+    /// Of an object of several values, where its constants stand.
+    pub constants: String,
     pub items: Vec<ItemModel>,
     pub is_module: bool,
     pub method_allow: Option<String>,
@@ -35,35 +38,55 @@ impl ObjectModel {
     }
 }
 
-/// The registers of the chapters, and then the objects.
-pub(super) fn models(scope: &Scope<'_>, locations: &Locations) -> Vec<ObjectModel> {
-    let registers = registers(scope);
-    let groups: Vec<&Group> = addressable(scope).collect();
-    let mut names = names(scope, &registers, &groups).into_iter();
-    let mut models = Vec::with_capacity(names.len());
-    for ((chapter, own), name) in registers.iter().zip(&mut names) {
-        models.push(register(scope, locations, chapter, own, &name));
-    }
-    models.extend(groups.iter().zip(names).map(|(group, name)| object(scope, locations, group, &name)));
-    models
+/// The names of handles in Rust, as yet without an escape.
+#[derive(Default)]
+pub(super) struct Names {
+    /// Those of `Scope::registers`.
+    pub registers: Vec<String>,
+    /// Those of the objects that have values, and those of the values of each that is a module.
+    pub objects: Vec<(String, Vec<String>)>,
 }
 
-/// The names of the registers, and then those of the objects.
-fn names<'i>(scope: &Scope<'_>, registers: &[(&'i str, &'i Item)], groups: &[&'i Group]) -> Vec<String> {
-    let register = |(_, item): &(&'i str, &'i Item)| Wish::new(&item.name, "register", Place::of(scope, item).suffix());
-    let object = |group: &&'i Group| Wish::new(&group.name, "object", format!("{:04X}", group.index().unwrap_or(0)));
-    let wishes: Vec<Wish<'_>> = registers.iter().map(register).chain(groups.iter().map(object)).collect();
+impl Names {
+    /// Whether there is no handle.
+    pub(super) fn is_empty(&self) -> bool {
+        self.registers.is_empty() && self.objects.is_empty()
+    }
+}
+
+/// The names of the registers and of the objects.
+pub(super) fn names(scope: &Scope<'_>) -> Names {
+    let groups: Vec<&Group> = addressable(scope).collect();
+    let register = |(_, item): &(&'_ str, &Item)| Place::of(scope, item).suffix();
+    let suffixes: Vec<String> = scope.registers.iter().map(register).collect();
+    let registers = scope.registers.iter().zip(suffixes);
+    let registers = registers.map(|((_, item), suffix)| Wish::new(&item.name, "register", suffix));
+    let objects = groups.iter().copied();
+    let objects = objects.map(|own| Wish::new(&own.name, "object", format!("{:04X}", own.index().unwrap_or(0))));
+    let wishes: Vec<Wish<'_>> = registers.chain(objects).collect();
     let has_messages = scope.device.is_some_and(|device| !device.messages.is_empty());
     let beside = BESIDE_MESSAGES.into_iter().filter(|_| has_messages);
     let reserved: Vec<&str> = RESERVED.into_iter().chain(beside).collect();
-    names_unique::unique(&wishes, &reserved, Case::Snake)
+    let mut names = names_unique::unique(&wishes, &reserved, Case::Snake).into_iter();
+    let registers = names.by_ref().take(scope.registers.len()).collect();
+    let subs = |group: &Group| if is_module(group) { sub_names(group) } else { Vec::new() };
+    Names { registers, objects: names.zip(groups).map(|(name, group)| (name, subs(group))).collect() }
+}
+
+/// The registers of the chapters, and then the objects.
+pub(super) fn models(scope: &Scope<'_>, locations: &Locations) -> Vec<ObjectModel> {
+    let registers = scope.registers.iter().zip(&scope.names.registers);
+    let objects = addressable(scope).zip(&scope.names.objects);
+    let registers = registers.map(|((chapter, own), name)| register(scope, locations, chapter, own, name));
+    registers.chain(objects.map(|(group, (name, subs))| object(scope, locations, group, name, subs))).collect()
 }
 
 fn register(scope: &Scope<'_>, locations: &Locations, chapter: &str, own: &Item, name: &str) -> ObjectModel {
-    let mut model = item::model(scope, locations, own, name, &own.name, "super::");
-    model.docs = docs::item(own, &own.name, Some(chapter), scope);
+    let title = Title { name, original: &own.name, chapter: Some(chapter) };
+    let model = item::model(scope, locations, own, title, (None, "super::"));
     ObjectModel {
         docs: Vec::new(),
+        constants: String::new(),
         heading: model.heading.clone(),
         method_allow: None,
         name: names_unique::escaped(name),
@@ -72,21 +95,29 @@ fn register(scope: &Scope<'_>, locations: &Locations, chapter: &str, own: &Item,
     }
 }
 
-fn object(scope: &Scope<'_>, locations: &Locations, group: &Group, name: &str) -> ObjectModel {
+fn object(scope: &Scope<'_>, locations: &Locations, group: &Group, name: &str, subs: &[String]) -> ObjectModel {
     let index = group.index().unwrap_or(0);
     let address = format!("0x{index:04X}");
     let title = if group.name.trim().is_empty() { address.clone() } else { docs::escape(&group.name) };
     let is_module = is_module(group);
-    let items = if is_module {
-        sub_items(scope, locations, group)
+    let items: Vec<ItemModel> = if is_module {
+        let subs = group.items.iter().zip(subs);
+        let model = |(item, sub): (&Item, &String)| {
+            let title = Title { name: sub, original: &item.name, chapter: None };
+            item::model(scope, locations, item, title, (Some(name), "super::super::"))
+        };
+        subs.map(model).collect()
     } else {
-        let only = group.items.iter().map(|only| item::model(scope, locations, only, name, &group.name, "super::"));
+        let title = Title { name, original: &group.name, chapter: None };
+        let only = group.items.iter().map(|only| item::model(scope, locations, only, title, (None, "super::")));
         only.collect()
     };
     let code = group.object_code().map_or("", ObjectCode::name);
     ObjectModel {
         docs: vec![docs::sentence(&title), String::new(), format!("{code} {address}.")],
         heading: item::heading(&group.name, &address),
+        // A constant may be called the same.
+        constants: Here::TOP.whole(&format!("{}objects::{name}", if is_cased(name) { "" } else { "mod@" })),
         method_allow: method_allow(items.iter().map(|item| item.method.as_str())),
         name: names_unique::escaped(name),
         items,
@@ -94,28 +125,25 @@ fn object(scope: &Scope<'_>, locations: &Locations, group: &Group, name: &str) -
     }
 }
 
+/// Whether a constant is called otherwise than a module or a method.
+pub(super) fn is_cased(name: &str) -> bool {
+    name.to_ascii_uppercase() != name
+}
+
 /// How a program reaches each item: by the methods of the device's type, as in `identity().vendor_id()`.
 pub(super) fn calls<'a>(scope: &Scope<'a>) -> Vec<(&'a Item, String)> {
-    let registers = registers(scope);
-    let groups: Vec<&'a Group> = addressable(scope).collect();
-    let mut names = names(scope, &registers, &groups).into_iter();
     let call = |name: &str| format!("{}()", names_unique::escaped(name));
-    let mut calls: Vec<(&'a Item, String)> =
-        registers.iter().zip(&mut names).map(|((_, item), name)| (*item, call(&name))).collect();
-    for (group, name) in groups.iter().zip(names) {
+    let registers = scope.registers.iter().zip(&scope.names.registers);
+    let mut calls: Vec<(&'a Item, String)> = registers.map(|((_, item), name)| (*item, call(name))).collect();
+    for (group, (name, subs)) in addressable(scope).zip(&scope.names.objects) {
         if is_module(group) {
-            let subs = group.items.iter().zip(sub_names(group));
-            calls.extend(subs.map(|(item, sub)| (item, format!("{}.{}", call(&name), call(&sub)))));
+            let subs = group.items.iter().zip(subs);
+            calls.extend(subs.map(|(item, sub)| (item, format!("{}.{}", call(name), call(sub)))));
         } else {
-            calls.extend(group.items.first().map(|item| (item, call(&name))));
+            calls.extend(group.items.first().map(|item| (item, call(name))));
         }
     }
     calls
-}
-
-fn sub_items(scope: &Scope<'_>, locations: &Locations, group: &Group) -> Vec<ItemModel> {
-    let items = group.items.iter().zip(sub_names(group));
-    items.map(|(sub, name)| item::model(scope, locations, sub, &name, &sub.name, "super::super::")).collect()
 }
 
 fn sub_names(group: &Group) -> Vec<String> {

@@ -2,10 +2,12 @@
 
 use std::collections::HashSet;
 
+use super::doc_table;
 use super::docs;
 use super::ethercat::{beside, depends_on};
 use super::field_type::{field_type, FieldType};
 use super::layout;
+use super::links::Here;
 use super::manual;
 use super::options::RustOptions;
 use super::reachable::addressable;
@@ -26,6 +28,8 @@ const MAX_ENTRY: u32 = u16::MAX as u32;
 pub(super) struct PdoModel {
     pub name: String,
     pub docs: Vec<String>,
+    /// What is said of the view.
+    pub view_docs: Vec<String>,
     pub derives: Vec<String>,
     pub mapping_index: u16,
     /// The line on which it is declared.
@@ -48,6 +52,10 @@ pub(super) struct PdoModel {
 /// A field.
 pub(super) struct FieldModel {
     pub name: String,
+    /// Its object, as the table shows it.
+    object: String,
+    /// Its type, as the table shows it.
+    type_link: String,
     /// The names of its methods in a view.
     pub getter: String,
     pub setter: String,
@@ -119,17 +127,24 @@ fn prefix(direction: Direction) -> &'static str {
     }
 }
 
+/// Whether there is a struct for a PDO.
+pub(super) fn is_generated(pdo: &Pdo) -> bool {
+    let mut mapped = pdo.entries.iter().filter(|entry| is_field(entry)).peekable();
+    mapped.peek().is_some() && mapped.all(|entry| entry.bits <= MAX_ENTRY)
+}
+
 fn model(scope: &Scope<'_>, pdo: &Pdo, struct_name: String, options: &RustOptions) -> Option<PdoModel> {
-    let mapped: Vec<&PdoEntry> = pdo.entries.iter().filter(|entry| is_field(entry)).collect();
-    if mapped.is_empty() || mapped.iter().any(|entry| entry.bits > MAX_ENTRY) {
+    if !is_generated(pdo) {
         return None;
     }
+    let mapped: Vec<&PdoEntry> = pdo.entries.iter().filter(|entry| is_field(entry)).collect();
     let fields = fields(scope, &mapped);
     let is_constant = !mapped.iter().any(|entry| matches!(field_type(scope, entry.ty, entry.bits), FieldType::Real(_)));
     let word = pdo.bits() <= WORD;
     Some(PdoModel {
+        docs: documentation(scope, pdo, &fields),
+        view_docs: view_docs(scope, pdo, &struct_name),
         name: struct_name,
-        docs: documentation(scope, pdo),
         derives: options.derives(true),
         mapping_index: pdo.mapping_index,
         line: pdo.origin.line,
@@ -147,16 +162,69 @@ fn model(scope: &Scope<'_>, pdo: &Pdo, struct_name: String, options: &RustOption
 }
 
 /// The lines about a PDO.
-fn documentation(scope: &Scope<'_>, pdo: &Pdo) -> Vec<String> {
+fn documentation(scope: &Scope<'_>, pdo: &Pdo, fields: &[FieldModel]) -> Vec<String> {
     let mut lines = vec![title(scope, pdo)];
-    let mut sentences = vec![format!("Mapping 0x{:04X}, {} bits.", pdo.mapping_index, pdo.bits())];
+    let mut facts = vec![format!("Mapping 0x{:04X}, {} bits", pdo.mapping_index, pdo.bits())];
+    if let Some(own) = &pdo.communication {
+        facts.extend(own.cob_id.as_ref().map(|value| format!("COB-ID {}", identifier(value))));
+        facts.extend(own.transmission_type.map(|ty| format!("transmission type {ty}")));
+    }
+    let mut sentences = vec![docs::sentence(&facts.join(", "))];
     docs::words(pdo.documentation.as_deref(), &mut sentences);
     sentences.extend(scope.manual.place(pdo.documentation.as_deref(), &[]));
     sentences.extend(pdo.doubts.iter().map(manual::doubt));
     for sentence in sentences {
         lines.extend([String::new(), sentence]);
     }
+    lines.extend(table(pdo, fields));
     lines
+}
+
+/// The identifier of a PDO as people write it.
+fn identifier(value: &Value) -> String {
+    match value {
+        Value::Int(number @ 0..) => format!("0x{number:X}"),
+        Value::NodeId(offset @ 0..) => format!("0x{offset:X} + node-ID"),
+        other => docs::value(other),
+    }
+}
+
+/// The lines about the view of a PDO.
+fn view_docs(scope: &Scope<'_>, pdo: &Pdo, name: &str) -> Vec<String> {
+    vec![title(scope, pdo), String::new(), format!("Its layout: [`pdo::{name}`](super::pdo::{name}).")]
+}
+
+/// Methods of a struct that a field may be called as.
+const METHODS: [&str; 4] = ["pack", "unpack", "configuration", "configuration_as"];
+
+/// The lines of the table of all entries.
+fn table(pdo: &Pdo, fields: &[FieldModel]) -> Vec<String> {
+    let mut fields = fields.iter();
+    let row = |entry: &PdoEntry| {
+        let bytes = span(entry);
+        match is_field(entry).then(|| fields.next()).flatten() {
+            Some(own) => [bytes, doc_table::field_link(&own.name, &METHODS), own.object.clone(), own.type_link.clone()],
+            None => [bytes, "padding".to_owned(), String::new(), String::new()],
+        }
+    };
+    let rows: Vec<[String; 4]> = pdo.entries.iter().filter(|entry| entry.bits > 0).map(row).collect();
+    doc_table::table(["Bytes", "Field", "Object", "Type"], &rows)
+}
+
+/// Where an entry stands: its bytes, with first and last bit where it doesn't fill them.
+fn span(entry: &PdoEntry) -> String {
+    let last = entry.bit_offset.saturating_add(entry.bits) - 1;
+    let place = |bit: u32, whole: bool| match whole {
+        true => (bit / 8).to_string(),
+        false => format!("{}.{}", bit / 8, bit % 8),
+    };
+    let whole = entry.bit_offset.is_multiple_of(8) && entry.bits.is_multiple_of(8);
+    let (first, last) = (place(entry.bit_offset, whole), place(last, whole));
+    if first == last {
+        first
+    } else {
+        format!("{first}–{last}")
+    }
 }
 
 /// What the PDO is called, as a sentence.
@@ -271,11 +339,18 @@ fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str) -> FieldMo
     let ty = kind.path("super::");
     let (encode, decode) = (kind.encode(&own, entry.bits), kind.decode(&ty));
     let cut = kind.cut(entry.bits);
-    let object = match entry.kind {
-        PdoEntryKind::Unnumbered => "an object without a known index".to_owned(),
-        _ => format!("0x{:04X}:{:02X}", entry.index, entry.sub_index),
+    let address = format!("0x{:04X}:{:02X}", entry.index, entry.sub_index);
+    let object = match (entry.kind, scope.links.object((entry.index, entry.sub_index))) {
+        (PdoEntryKind::Unnumbered, _) => String::new(),
+        (PdoEntryKind::Item, Some(path)) => Here::PDO.text(&address, path),
+        _ => address,
     };
-    let facts = format!("{object}, {} bits from bit {}.", entry.bits, entry.bit_offset);
+    let where_from = if object.is_empty() { "an object without a known index" } else { object.as_str() };
+    let facts = format!("{where_from}, {} bits from bit {}.", entry.bits, entry.bit_offset);
+    let type_link = match &kind {
+        FieldType::Named(name, _) => Here::PDO.code(&format!("types::{name}")),
+        _ => format!("`{}`", ty.trim_start_matches("rt::")),
+    };
     let title = docs::escape(text);
     FieldModel {
         docs: if title.is_empty() {
@@ -286,6 +361,8 @@ fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str) -> FieldMo
         getter: name.clone(),
         setter: String::new(),
         name,
+        object,
+        type_link,
         ty,
         encode,
         decode,

@@ -1,6 +1,8 @@
 //! Procedures that are nothing but writes of objects, such as a start-up list: constants that a program sends as they are.
 
+use super::doc_table;
 use super::docs;
+use super::links::Here;
 use super::scope::{ObjectBus, Scope};
 use crate::ir::{Binding, Device, Item, Procedure, Step, Type, Value};
 use crate::passes::names_unique::{self, Case};
@@ -36,7 +38,16 @@ fn documentation(scope: &Scope<'_>, own: &Procedure) -> Vec<String> {
     }
     sentences.extend(scope.manual.place(own.documentation.as_deref(), &own.names));
     let paragraphs = sentences.into_iter().flat_map(|sentence| [String::new(), sentence]);
-    paragraphs.skip(1).collect()
+    let rows: Vec<[String; 2]> = own.steps.iter().filter_map(|step| row(scope, step)).collect();
+    paragraphs.skip(1).chain(doc_table::table(["Item", "Value"], &rows)).collect()
+}
+
+/// The item and the value of a write.
+fn row(scope: &Scope<'_>, step: &Step) -> Option<[String; 2]> {
+    let Step::Write(name, value) = step else { return None };
+    let item = scope.link(name, Here::BESIDE).unwrap_or_else(|| docs::escape(name));
+    let ty = scope.item(name).map_or(Type::Opaque(None), |item| scope.base(item.ty));
+    Some([item, docs::typed(value, ty)])
 }
 
 /// The writes of a procedure; `None` where it has other steps, or values that only the device knows.

@@ -146,11 +146,6 @@ fn rational(real: f64) -> Option<(i64, i64)> {
     }
 }
 
-/// `, in 0.01 rev/s`: unit and scale as a part of a sentence.
-pub(super) fn facts(quantity: &Quantity) -> String {
-    docs::WORDS.quantity(quantity)
-}
-
 /// Limits of a scaled number in its unit.
 pub(super) fn limits(item: &Item) -> Option<String> {
     let quantity = item.quantity.as_ref()?;
@@ -160,11 +155,6 @@ pub(super) fn limits(item: &Item) -> Option<String> {
     let (low, high) = (physical(item.limits.low.as_ref()?)?, physical(item.limits.high.as_ref()?)?);
     let unit = docs::escape(&quantity.unit);
     Some(format!("{low} to {high} {unit}").trim_end().to_owned())
-}
-
-/// What else is known: numbers that are none, and steps.
-pub(super) fn notes(quantity: &Quantity) -> Vec<String> {
-    docs::WORDS.notes(quantity)
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ pub(super) fn addressable<'a>(scope: &Scope<'a>) -> impl Iterator<Item = &'a Gro
     })
 }
 
-/// The items of chapters and images that a client can reach, with the titles of those.
+/// The items of chapters and images that a client can reach, with the titles of those: `Scope::registers`.
 pub(super) fn registers<'a>(scope: &Scope<'a>) -> Vec<(&'a str, &'a Item)> {
     let is_chapter = |group: &&Group| matches!(group.kind, GroupKind::Chapter | GroupKind::Image { .. });
     let chapters = scope.groups.iter().filter(is_chapter);
@@ -31,7 +31,7 @@ pub(super) fn is_module(group: &Group) -> bool {
 /// What the handles are of, and what one of them is of at the start of a sentence and within it.
 pub(super) fn handles(scope: &Scope<'_>) -> [&'static str; 3] {
     let has_objects = addressable(scope).next().is_some();
-    match (registers(scope).is_empty(), has_objects) {
+    match (scope.registers.is_empty(), has_objects) {
         (true, _) => ["entry of the object dictionary", "An entry", "an entry"],
         (false, true) => {
             ["register and every entry of the object dictionary", "A register or an entry", "a register or an entry"]

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use super::field_type;
+use super::links::Here;
 use super::objects::ObjectModel;
 use super::pdo;
 use super::reachable::addressable;
@@ -64,14 +65,17 @@ fn model(scope: &Scope<'_>, device: &Device, pdo: &Pdo, name: String) -> Option<
         constants.push(format!("KEPT: &'static [rt::MappedEntry] = &[«{}»]", kept.join("¦ ")));
     }
     Some(RemappableModel {
-        name,
-        title: pdo::title(scope, pdo),
+        title: match pdo::is_generated(pdo) {
+            true => format!("{} By default: {}.", pdo::title(scope, pdo), Here::BESIDE.code(&format!("pdo::{name}"))),
+            false => pdo::title(scope, pdo),
+        },
         direction: match pdo.direction {
             Direction::Receive => "rt::Rpdo",
             Direction::Transmit => "rt::Tpdo",
         },
         cob_id,
         constants,
+        name,
     })
 }
 

@@ -1,8 +1,14 @@
 //! What has objects and PDOs of its own: a device, or a module of a modular one.
 
+use std::cell::OnceCell;
+use std::collections::HashMap;
+
+use super::links::Links;
 use super::manual::Manual;
 use super::named::{self, NamedType, Types};
+use super::objects::{self, Names};
 use super::options::RustOptions;
+use super::reachable;
 use super::value_type::ValueType;
 use super::window::{self, Window};
 use crate::ir::{Device, Group, Item, Module, Pdo, ProcessImage, Shape, StateMachine, Type, TypeDef};
@@ -28,23 +34,31 @@ pub(super) struct Scope<'a> {
     pub windows: Vec<Window>,
     /// The enumerations and bit fields that an item, a PDO or a bit field has, by the position of their types.
     pub named: Vec<(u32, NamedType)>,
+    /// The items of chapters and images that a client can reach, with the titles of those.
+    pub registers: Vec<(&'a str, &'a Item)>,
+    /// The names of the handles.
+    pub names: Names,
+    /// What documentation can link to.
+    pub links: Links,
+    /// Items by their names: the first one of each.
+    by_name: OnceCell<HashMap<&'a str, &'a Item>>,
 }
 
 impl<'a> Scope<'a> {
     /// A device, and its types ready to be written.
-    pub fn of_device(device: &'a Device, options: &RustOptions) -> (Self, Types) {
+    pub fn of_device(device: &'a Device, options: &RustOptions, device_name: &str) -> (Self, Types) {
         let bus = if device.ethercat.is_some() || device.dictionary_only { ObjectBus::CoE } else { ObjectBus::CanOpen };
         let mut scope = Scope::new(bus, &device.groups, &device.types, &device.process_data.pdos);
         scope.manual = Manual::of(device);
         scope.device = Some(device);
         scope.windows = window::windows(&scope, device);
-        scope.with_types(&device.machines, options)
+        scope.with_types(&device.machines, options, device_name)
     }
 
     /// A module, and its types ready to be written.
     pub fn of_module(module: &'a Module, options: &RustOptions) -> (Self, Types) {
         let scope = Scope::new(ObjectBus::CoE, &module.groups, &module.types, &module.process_data.pdos);
-        scope.with_types(&[], options)
+        scope.with_types(&[], options, "")
     }
 
     fn new(bus: ObjectBus, groups: &'a [Group], types: &'a [TypeDef], pdos: &'a [Pdo]) -> Self {
@@ -57,10 +71,17 @@ impl<'a> Scope<'a> {
             manual: Manual::default(),
             windows: Vec::new(),
             named: Vec::new(),
+            registers: Vec::new(),
+            names: Names::default(),
+            links: Links::default(),
+            by_name: OnceCell::new(),
         }
     }
 
-    fn with_types(mut self, machines: &[StateMachine], options: &RustOptions) -> (Self, Types) {
+    fn with_types(mut self, machines: &[StateMachine], options: &RustOptions, device_name: &str) -> (Self, Types) {
+        self.registers = reachable::registers(&self);
+        self.names = objects::names(&self);
+        self.links = Links::of(&self, options, device_name);
         let types = named::types(&self, machines, options);
         self.named = types.named();
         (self, types)
@@ -119,13 +140,22 @@ impl<'a> Scope<'a> {
     /// The item that other elements of the description call so: by its name, its object's name, its address, or the names
     /// of its chapter and its own (`Chapter/Item`).
     pub fn item(&self, name: &str) -> Option<&'a Item> {
-        let mut items = self.groups.iter().flat_map(|group| &group.items);
         let by_group = || self.groups.iter().find(|group| group.name == name && group.index().is_some());
-        let found = items.find(|item| item.name == name).or_else(|| by_group()?.items.first()).or_else(|| {
+        let found = self.by_name().get(name).copied().or_else(|| by_group()?.items.first()).or_else(|| {
             let (index, sub) = name.split_once(':').unwrap_or((name, "0"));
             let index = u16::from_str_radix(index.trim().strip_prefix("0x")?, 16).ok()?;
             self.object(index)?.sub(sub.trim().parse().ok()?)
         });
         found.or_else(|| self.groups.iter().find_map(|group| group.by_path(name)))
+    }
+
+    fn by_name(&self) -> &HashMap<&'a str, &'a Item> {
+        self.by_name.get_or_init(|| {
+            let mut items = HashMap::new();
+            for item in self.groups.iter().flat_map(|group| &group.items) {
+                items.entry(item.name.as_str()).or_insert(item);
+            }
+            items
+        })
     }
 }

@@ -3,7 +3,7 @@
 use super::constructor::flags;
 use super::literal;
 use super::place::{ObjectAddress, Place};
-use super::reachable::{addressable, is_module, registers};
+use super::reachable::{addressable, is_module};
 use super::scope::Scope;
 use super::value_type::ValueType;
 use super::variant;
@@ -33,7 +33,7 @@ pub(super) fn models(scope: &Scope<'_>) -> Vec<EntryModel> {
             entries(scope, item, if by_object { &group.name } else { &item.name }, &mut rows);
         }
     }
-    for (_, item) in registers(scope) {
+    for (_, item) in &scope.registers {
         entries(scope, item, &item.name, &mut rows);
     }
     rows.sort_by_key(|(key, _)| *key);

@@ -1,6 +1,7 @@
 //! Windows: what takes the number of an item, and what has its value then.
 
 use super::docs;
+use super::links::Here;
 use super::place;
 use super::route::Net;
 use super::scope::Scope;
@@ -155,11 +156,11 @@ impl Told {
 }
 
 /// The windows as the template writes them.
-pub(super) fn models(windows: &[Window]) -> Vec<WindowModel> {
-    windows.iter().map(model).collect()
+pub(super) fn models(scope: &Scope<'_>) -> Vec<WindowModel> {
+    scope.windows.iter().map(|own| model(scope, own)).collect()
 }
 
-fn model(own: &Window) -> WindowModel {
+fn model(scope: &Scope<'_>, own: &Window) -> WindowModel {
     let (_, _, net, is_write) = own.key;
     let [number, value] = &own.addresses;
     let mut facts = vec![
@@ -172,11 +173,12 @@ fn model(own: &Window) -> WindowModel {
         facts.push(format!("is_number_first: {}", own.number_first));
     }
     facts.push(format!("handshake: {}", own.handshake));
-    let [number, value] = [&own.side.number, &own.side.value].map(|name| docs::escape(name));
+    let link = |name: &str| scope.link(name, Here::BESIDE).unwrap_or_else(|| format!("\"{}\"", docs::escape(name)));
+    let [number, value] = [&own.side.number, &own.side.value].map(|name| link(name));
     let verb = if is_write { "takes" } else { "gives" };
     let kind = if is_write { "rt::WriteWindow" } else { "rt::ReadWindow" };
     WindowModel {
-        docs: vec![format!("On {}: \"{number}\" takes a number, and \"{value}\" {verb} its value.", net.title())],
+        docs: vec![format!("On {}: {number} takes a number, and {value} {verb} its value.", net.title())],
         name: own.name.clone(),
         ty: format!("{kind}<«{}»>", net.address()),
         kind,

@@ -2,12 +2,13 @@
 
 use super::field::{self, Field};
 use crate::backend::rust::docs;
+use crate::backend::rust::links::Here;
 use crate::backend::rust::scope::Scope;
 use crate::ir::{Completion, Device, Message, MessageValue, Shape, Type, Value};
 use crate::passes::messages_shaped::Step;
 
 /// What documentation says of it.
-pub(super) fn sentence(message: &Message) -> Option<String> {
+pub(super) fn sentence(scope: &Scope<'_>, message: &Message, here: Here<'_>) -> Option<String> {
     let late = message.reply_time.map(|time| format!(", after about {time} ms")).unwrap_or_default();
     Some(match &message.completion {
         Completion::Immediate => return None,
@@ -15,7 +16,8 @@ pub(super) fn sentence(message: &Message) -> Option<String> {
         Completion::Delayed(milliseconds) => format!("The order is carried out after {milliseconds} ms."),
         Completion::Polled { item, in_reply, .. } => {
             let when = if *in_reply { "The reply tells it already" } else { "Poll it with a further message" };
-            format!("The order is carried out when {} says so. {when}.", docs::escape(item))
+            let item = scope.link(item, here).unwrap_or_else(|| docs::escape(item));
+            format!("The order is carried out when {item} says so. {when}.")
         }
     })
 }

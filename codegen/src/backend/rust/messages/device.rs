@@ -1,7 +1,8 @@
 //! The methods of a device that send messages.
 
 use super::rules::Rules;
-use super::MessageModel;
+use super::{DataModel, MessageModel};
+use crate::backend::rust::links::Here;
 use crate::backend::rust::literal;
 use crate::ir::Message;
 use crate::passes::messages_shaped::Shaped;
@@ -59,7 +60,7 @@ pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Ru
         let selector = selector(shaped, messages, after.map(|own| own.as_str()));
         calls.push(CallModel {
             method: names_unique::escaped(&name),
-            docs: request.docs.clone(),
+            docs: docs(model, request),
             ty: format!("{ty}{lifetime}"),
             arguments,
             build,
@@ -70,6 +71,12 @@ pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Ru
         });
     }
     calls
+}
+
+/// The lines about a method: those about the message, and what it sends.
+fn docs(model: &MessageModel, request: &DataModel) -> Vec<String> {
+    let sends = format!("Sends {}.", Here::TOP.whole(&format!("messages::{}", request.name)));
+    model.call_docs.iter().cloned().chain([String::new(), sends]).collect()
 }
 
 /// What is answered after power-on; `None` where nothing is said of it, or the selector isn't known.

@@ -4,6 +4,7 @@ use super::rules::Rules;
 use super::steps::number;
 use crate::backend::rust::docs;
 use crate::backend::rust::field_type::{field_type, FieldType};
+use crate::backend::rust::links::Here;
 use crate::backend::rust::quantity;
 use crate::backend::rust::scope::Scope;
 use crate::backend::rust::value_type::{native, ValueType};
@@ -171,17 +172,19 @@ fn constant(field: &str) -> String {
 }
 
 fn documentation(scope: &Scope<'_>, item: &Item, base: Type) -> Vec<String> {
+    let link = |name: &str| scope.link(name, Here::MESSAGES);
+    let words = docs::linked(&link);
     let mut facts = format!("{base}");
     if let Some(limits) = docs::limits(&item.limits) {
         facts += &format!(", {limits}");
         facts += &quantity::limits(item).map(|physical| format!(" ({physical})")).unwrap_or_default();
     }
-    facts += &item.quantity.as_ref().map(|own| quantity::facts(own)).unwrap_or_default();
+    facts += &item.quantity.as_ref().map(|own| words.quantity(own)).unwrap_or_default();
     let name = docs::escape(&item.name);
     let mut lines = vec![format!("{}: {facts}.", name.trim_end_matches(['.', ':']))];
     let mut sentences = Vec::new();
     docs::words(item.documentation.as_deref(), &mut sentences);
-    sentences.extend(item.quantity.iter().flat_map(|own| quantity::notes(own)).filter(|own| !own.is_empty()));
+    sentences.extend(item.quantity.iter().flat_map(|own| docs::WORDS.notes(own)).filter(|own| !own.is_empty()));
     sentences.extend(scope.manual.place(item.documentation.as_deref(), &item.names));
     sentences.extend(item.doubts.iter().map(crate::backend::rust::manual::doubt));
     for sentence in sentences {

@@ -9,10 +9,11 @@ mod parameters;
 mod rules;
 mod steps;
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use super::docs;
 use super::layout;
+use super::links::Here;
 use super::manual;
 use super::named::Types;
 use super::options::RustOptions;
@@ -50,6 +51,8 @@ pub(super) struct ProtocolModel {
 /// A request and its reply.
 pub(super) struct MessageModel {
     pub title: String,
+    /// What is said of the method that sends it.
+    pub call_docs: Vec<String>,
     /// None where only the device sends.
     pub request: Option<DataModel>,
     /// None where the reply isn't described.
@@ -102,7 +105,8 @@ impl ProtocolModel {
         let own_types: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
         let steps = shapes.iter().flat_map(|own| own.request.steps.iter().chain(&own.reply.steps));
         let rules = Rules::new(scope, device, steps, &own_types);
-        let make = Maker { scope, options, device, rules: &rules, shapes: &shapes, names: &names };
+        let states = outcomes::links(scope, device, types);
+        let make = Maker { scope, options, device, rules: &rules, shapes: &shapes, names: &names, states: &states };
         let mut outcomes = outcomes::models(scope, device, types);
         let mut messages: Vec<MessageModel> =
             shapes.iter().zip(&names).map(|(own, names)| make.message(own, names)).collect();
@@ -168,6 +172,32 @@ fn wished(message: &Message) -> Names {
     [request, reply, format!("{name} entry"), format!("{name} reply entry")]
 }
 
+/// The path of a message, from the device's place.
+pub(super) struct MessagePath {
+    /// The name of the message.
+    pub name: String,
+    /// Whether it is a request; else only the device sends it.
+    pub is_request: bool,
+    pub path: String,
+}
+
+/// The paths of all messages.
+pub(super) fn paths(device: &Device) -> Vec<MessagePath> {
+    let shapes = messages_shaped::shapes(device);
+    let names = names(&shapes);
+    let path = |(own, [request, reply, ..]): (&Shaped<'_>, &Names)| {
+        let is_request = !own.message.request.is_empty();
+        let path = format!("messages::{}", if is_request { request } else { reply });
+        MessagePath { name: own.message.name.to_string(), is_request, path }
+    };
+    shapes
+        .iter()
+        .zip(&names)
+        .filter(|(own, _)| !own.message.request.is_empty() || !own.message.reply.is_empty())
+        .map(path)
+        .collect()
+}
+
 /// What is needed to make models of messages.
 struct Maker<'m, 'a> {
     scope: &'m Scope<'a>,
@@ -176,6 +206,8 @@ struct Maker<'m, 'a> {
     rules: &'m Rules,
     shapes: &'m [Shaped<'a>],
     names: &'m [Names],
+    /// The paths of states, by their names.
+    states: &'m HashMap<String, String>,
 }
 
 impl Maker<'_, '_> {
@@ -186,13 +218,20 @@ impl Maker<'_, '_> {
         let has_request = !message.request.is_empty();
         let request = has_request.then(|| {
             let data = self.data(&own.request.steps, request_name, entry);
-            DataModel { docs: self.documentation(message), ..data }
+            let mut docs = self.documentation(message, Here::MESSAGES);
+            let reply = (!message.reply.is_empty()).then(|| format!("Answered by [`{reply_name}`]."));
+            let refused = refusal.map(|names| format!("Refused with [`{}`].", names[1]));
+            let answers: Vec<String> = reply.into_iter().chain(refused).collect();
+            if !answers.is_empty() {
+                docs.extend([String::new(), answers.join(" ")]);
+            }
+            DataModel { docs, ..data }
         });
         let reply = (!message.reply.is_empty()).then(|| {
             let data = self.data(&own.reply.steps, reply_name, reply_entry);
             let docs = match has_request {
                 true => vec![format!("What is answered to [`{request_name}`].")],
-                false => self.documentation(message),
+                false => self.documentation(message, Here::MESSAGES),
             };
             let polled = || completion::expression(self.scope, self.device, message, (&own.reply.steps, &data.fields));
             let is_complete = has_request.then(polled).flatten();
@@ -200,6 +239,7 @@ impl Maker<'_, '_> {
         });
         MessageModel {
             title: super::literal::string(&message.name),
+            call_docs: self.documentation(message, Here::TOP),
             request,
             reply,
             refusal: refusal.map_or_else(|| "core::convert::Infallible".to_owned(), |names| names[1].clone()),
@@ -254,24 +294,34 @@ impl Maker<'_, '_> {
         plain.derives(true)
     }
 
-    fn documentation(&self, message: &Message) -> Vec<String> {
+    /// The lines about a message, for a place.
+    fn documentation(&self, message: &Message, here: Here<'_>) -> Vec<String> {
+        let message_link = |name: &str| Some(here.text(&docs::escape(name), self.scope.links.message(name)?));
         let mut lines = vec![docs::sentence(&docs::escape(&message.name))];
         let mut sentences = Vec::new();
         docs::words(message.documentation.as_deref(), &mut sentences);
-        sentences.extend(completion::sentence(message));
+        sentences.extend(completion::sentence(self.scope, message, here));
         if !message.accepted_in.is_empty() {
-            let states: Vec<String> = message.accepted_in.iter().map(|state| docs::escape(state)).collect();
+            // The method leads to the message, which leads to the states.
+            let state = |name: &str| match self.states.get(name).filter(|_| !here.is_top()) {
+                Some(path) => here.code(path),
+                None => docs::escape(name),
+            };
+            let states: Vec<String> = message.accepted_in.iter().map(|name| state(name)).collect();
             sentences.push(format!("Accepted in the states: {}.", states.join(", ")));
         }
         for condition in &message.accepted_when {
-            sentences.push(format!("Accepted only while {}.", docs::holds(condition)));
+            sentences.push(format!("Accepted only while {}.", docs::holds(condition, self.scope, here)));
         }
         sentences.extend(message.side_effects.iter().map(|effect| docs::sentence(&docs::escape(effect))));
-        sentences.extend(message.after.iter().map(|other| format!("Means this after {}.", docs::escape(other))));
+        sentences.extend(message.after.iter().map(|other| {
+            let other = message_link(other).unwrap_or_else(|| docs::escape(other));
+            format!("Means this after {other}.")
+        }));
         if message.by_default {
             sentences.push("So it is after power-on, too.".to_owned());
         }
-        sentences.extend(message.availability.as_ref().map(|own| manual::availability(own)));
+        sentences.extend(message.availability.as_ref().map(|own| docs::linked(&message_link).availability(own)));
         sentences.extend(self.scope.manual.place(message.documentation.as_deref(), &message.names));
         sentences.extend(message.doubts.iter().map(manual::doubt));
         for sentence in sentences.into_iter().filter(|sentence| !sentence.is_empty()) {

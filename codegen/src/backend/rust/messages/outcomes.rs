@@ -3,11 +3,13 @@
 use std::collections::HashMap;
 
 use crate::backend::rust::data::Data;
+use crate::backend::rust::doc_table;
 use crate::backend::rust::docs;
+use crate::backend::rust::links::Here;
+use crate::backend::rust::machine::{self, Variants};
 use crate::backend::rust::named::Types;
 use crate::backend::rust::scope::Scope;
-use crate::backend::rust::value_type;
-use crate::ir::{CommandOutcomes, Device, Outcome, Shape, StateMachine};
+use crate::ir::{CommandOutcomes, Device, Outcome, StateMachine, StateOutcome};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// A row, ready to be written.
@@ -34,7 +36,12 @@ pub(super) fn models(scope: &Scope<'_>, device: &Device, types: &Types) -> HashM
     let machines: Vec<&StateMachine> = device.machines.iter().filter(|own| !own.outcomes.is_empty()).collect();
     let mut all: HashMap<String, Vec<OutcomesModel>> = HashMap::new();
     for machine in &machines {
-        let Some((states, variants)) = states(scope, device, machine, types) else { continue };
+        let Some((ty, variants)) = states(scope, device, machine, types) else { continue };
+        let states = format!("super::types::{ty}");
+        let link = |name: &str| match variants.get(name) {
+            Some(variant) => Here::MESSAGES.code(&format!("types::{ty}::{variant}")),
+            None => docs::escape(name),
+        };
         let name = match machines.len() {
             1 => "OUTCOMES".to_owned(),
             _ => constant(&machine.name),
@@ -42,7 +49,7 @@ pub(super) fn models(scope: &Scope<'_>, device: &Device, types: &Types) -> HashM
         for row in &machine.outcomes {
             for command in &row.commands {
                 let value = row_data(row, &states, &variants);
-                let docs = documentation(scope, machine, row);
+                let docs = documentation(scope, machine, row, &link);
                 let model = OutcomesModel { name: name.clone(), docs, states: states.clone(), value };
                 all.entry(command.to_string()).or_default().push(model);
             }
@@ -59,26 +66,21 @@ fn constant(machine: &str) -> String {
 }
 
 /// The type of a machine's states, and its variants by the names of the states.
-fn states(
-    scope: &Scope<'_>,
-    device: &Device,
-    machine: &StateMachine,
-    types: &Types,
-) -> Option<(String, HashMap<String, String>)> {
-    let Some(name) = &machine.state_type else {
-        let at = device.machines.iter().position(|own| own.name == machine.name)?;
-        let own = types.machines.get(at)?.states.as_ref()?;
-        return Some((format!("super::types::{}", own.name), own.by_name()));
-    };
-    let is_own = |at: &u32| scope.types.get(*at as usize).is_some_and(|own| own.name == *name);
-    let (at, own) = types.enumerations.iter().find(|(at, _)| is_own(at))?;
-    let Shape::Enumeration { values, .. } = &scope.types.get(*at as usize)?.shape else { return None };
-    let variant = |number: i128| {
-        let number = value_type::number(number, number > 0);
-        own.variants.iter().find(|variant| variant.value == number).map(|variant| variant.name.clone())
-    };
-    let named = values.iter().filter_map(|value| Some((value.name.to_string(), variant(value.value)?)));
-    Some((format!("super::types::{}", own.name), named.collect()))
+fn states(scope: &Scope<'_>, device: &Device, machine: &StateMachine, types: &Types) -> Option<Variants> {
+    let at = device.machines.iter().position(|own| own.name == machine.name);
+    let own = at.and_then(|at| types.machines.get(at)).and_then(|own| own.states.as_ref());
+    machine::states_of(scope, machine, own, &types.enumerations)
+}
+
+/// Links to the states of all machines from the messages, by the names of the states.
+pub(super) fn links(scope: &Scope<'_>, device: &Device, types: &Types) -> HashMap<String, String> {
+    let mut links = HashMap::new();
+    for (ty, variants) in device.machines.iter().filter_map(|machine| states(scope, device, machine, types)) {
+        for (name, variant) in variants {
+            links.entry(name).or_insert_with(|| format!("types::{ty}::{variant}"));
+        }
+    }
+    links
 }
 
 fn row_data(row: &CommandOutcomes, states: &str, variants: &HashMap<String, String>) -> Data {
@@ -98,18 +100,34 @@ fn row_data(row: &CommandOutcomes, states: &str, variants: &HashMap<String, Stri
     Data::Call("rt::message::Outcomes::new", vec![Data::Slice(cells.collect())])
 }
 
-fn documentation(scope: &Scope<'_>, machine: &StateMachine, row: &CommandOutcomes) -> Vec<String> {
+fn documentation(
+    scope: &Scope<'_>,
+    machine: &StateMachine,
+    row: &CommandOutcomes,
+    link: &dyn Fn(&str) -> String,
+) -> Vec<String> {
     let mut lines = vec![format!("What it does in each state of {}.", docs::escape(&machine.name))];
-    let mut sentences = Vec::new();
-    docs::words(row.documentation.as_deref(), &mut sentences);
-    sentences.extend(scope.manual.place(row.documentation.as_deref(), &[]));
-    for cell in &row.cells {
+    docs::described(row.documentation.as_deref(), &scope.manual, &mut lines);
+    let one = |own: &Outcome| match own {
+        Outcome::Unchanged => "nothing".to_owned(),
+        Outcome::Refused => "refused".to_owned(),
+        Outcome::States(to) => to.iter().map(|name| link(name)).collect::<Vec<_>>().join(", "),
+    };
+    let cell = |cell: &StateOutcome| {
         let mut words = Vec::new();
         docs::words(cell.documentation.as_deref(), &mut words);
-        if !words.is_empty() {
-            sentences.push(format!("In {}: {}", docs::escape(&cell.state), words.join(" ")));
+        [cell.outcomes.iter().map(one).collect::<Vec<_>>().join(" or "), words.join(" ")]
+    };
+    // States in which the same happens share a row.
+    let mut rows: Vec<[String; 3]> = Vec::new();
+    for own in &row.cells {
+        let [outcome, note] = cell(own);
+        match rows.iter_mut().find(|[_, other, words]| *other == outcome && *words == note) {
+            Some([states, ..]) => states.extend([", ", &link(&own.state)]),
+            None => rows.push([link(&own.state), outcome, note]),
         }
     }
-    lines.extend(sentences.into_iter().flat_map(|sentence| [String::new(), sentence]));
+    rows.retain(|[_, outcome, note]| !outcome.is_empty() || !note.is_empty());
+    lines.extend(doc_table::whole(["In", "Leads to", "Note"], &rows));
     lines
 }

@@ -1,8 +1,9 @@
 //! How parameters stand in messages: a constant for each space of numbers.
 
 use crate::backend::rust::docs;
+use crate::backend::rust::links::Here;
 use crate::backend::rust::scope::Scope;
-use crate::ir::{Device, Type};
+use crate::ir::{Device, ParameterSpace, Type};
 use crate::passes::messages_shaped::{numbered, Step};
 use crate::passes::names_unique::{self, Case, Wish};
 
@@ -13,7 +14,7 @@ const MAX_NAME: usize = 24;
 pub(in crate::backend::rust) struct RuleModel {
     pub name: String,
     pub space: String,
-    pub title: String,
+    pub docs: String,
     pub code_bits: u32,
     pub order: String,
     /// First and last number, and how many bytes their values have.
@@ -65,7 +66,7 @@ impl Rules {
             RuleModel {
                 name: name.to_ascii_uppercase(),
                 space: (*space).to_owned(),
-                title: docs::escape(space),
+                docs: documentation(scope, own, space),
                 code_bits: *bits,
                 order: order.unwrap_or_default(),
                 lengths: lengths(scope, device, space),
@@ -79,6 +80,18 @@ impl Rules {
         let fits = |own: &&RuleModel| own.space == space && bits.is_none_or(|bits| own.code_bits == bits);
         self.models.iter().find(fits).map_or("", |own| own.name.as_str())
     }
+}
+
+/// What is said of a constant.
+fn documentation(scope: &Scope<'_>, own: Option<&ParameterSpace>, space: &str) -> String {
+    let mut text = format!("How parameters of the space {} stand in messages.", docs::escape(space));
+    let messages = own.map_or([None, None], |own| [own.read.as_ref(), own.write.as_ref()]);
+    for (name, by) in messages.into_iter().zip(["Read", "Written"]) {
+        if let Some(path) = name.and_then(|name| scope.links.message(name)) {
+            text += &format!(" {by} by {}.", Here::MESSAGES.code(path));
+        }
+    }
+    text
 }
 
 /// Neighbouring numbers whose values have one length.

@@ -6,6 +6,7 @@ use super::image::{self, ImageModel};
 use super::literal;
 use super::record::{self, RecordModel};
 use super::scope::{AccessPoint, Scope};
+use crate::backend::rust::doc_table;
 use crate::ir::{Direction, IoData, Module, ModuleUse, Numbers, Places, Submodule, SubmoduleUse};
 
 /// A submodule, ready to be written.
@@ -39,7 +40,7 @@ pub(super) fn submodule<'s>(scope: &'s Scope<'_>, submodule: &'s Submodule, name
     let uses_values = types.map(|field| &field.ty).chain(constants).any(|ty| ty.starts_with("values::"));
     SubmoduleModel {
         name,
-        docs: submodule_docs(submodule),
+        docs: submodule_docs(submodule, name, &images, &records, f_record.is_some()),
         ident: submodule.ident,
         api: submodule.api,
         title: literal::string(&submodule.name),
@@ -55,7 +56,13 @@ pub(super) fn submodule<'s>(scope: &'s Scope<'_>, submodule: &'s Submodule, name
     }
 }
 
-fn submodule_docs(submodule: &Submodule) -> Vec<String> {
+fn submodule_docs(
+    submodule: &Submodule,
+    module: &str,
+    images: &[ImageModel],
+    records: &[RecordModel],
+    is_safe: bool,
+) -> Vec<String> {
     let api = if submodule.api == 0 { String::new() } else { format!(" of API 0x{:04X}", submodule.api) };
     let mut lines = vec![docs::titled(&submodule.name, &format!("submodule 0x{:08X}{api}", submodule.ident))];
     docs::paragraphs(&submodule.name, submodule.documentation.as_deref(), &mut lines);
@@ -68,6 +75,15 @@ fn submodule_docs(submodule: &Submodule) -> Vec<String> {
         let text = format!("{too_long} records without bytes, or of more than 65,535, are left out.");
         lines.extend([String::new(), text]);
     }
+    let images = images.iter().map(|image| (image.name, image.length));
+    let records = records.iter().map(|record| (record.name.as_str(), record.length));
+    let safe = is_safe.then_some(("F_PARAMETERS", 0));
+    let row = |(name, length): (&str, u32)| {
+        let length = if length == 0 { String::new() } else { docs::bytes(length) };
+        [format!("[`{name}`]({}::{name})", module.trim_start_matches("r#")), length]
+    };
+    let rows: Vec<[String; 2]> = images.chain(records).chain(safe).map(row).collect();
+    lines.extend(doc_table::table(["Part", "Length"], &rows));
     lines
 }
 
@@ -179,6 +195,7 @@ fn list_submodules(scope: &Scope<'_>, uses: &[SubmoduleUse], docs: &mut Vec<Stri
     docs.push(String::new());
     for (usage, (_, name)) in named {
         let built_in = if usage.places.fixed.is_empty() { "can be plugged in" } else { "built in" };
+        let name = name.trim_start_matches("r#");
         docs.push(format!("- [`{name}`](super::submodules::{name}), {built_in}"));
     }
 }

@@ -8,7 +8,7 @@ use super::image::{self, FieldModel};
 use super::literal;
 use super::values::Values;
 use super::RustOptions;
-use crate::ir::{Catalog, CodeRow, Type, UnitDiagnosis};
+use crate::ir::{Catalog, CodeRow, Type, UnitDiagnosis, UnitDiagnosisField};
 use crate::passes::names_unique::{self, Case, Wish};
 
 /// The longest user structure that becomes a struct: that of an alarm lies far below.
@@ -109,13 +109,16 @@ fn unit_model(unit: &UnitDiagnosis, name: String, values: &Values<'_>, options: 
         .collect();
     let wishes: Vec<Wish<'_>> = found.iter().map(|(entry, field)| image::wish(&entry.name, field)).collect();
     let names = names_unique::unique_up_to(&wishes, &["self", "super", "crate"], Case::Snake, 30);
-    let fields = found.iter().zip(names).map(|((entry, field), name)| {
+    let field = |((entry, field), name): (&(&_, Field<'_>), String)| {
+        let entry: &UnitDiagnosisField = entry;
         let facts = field.facts(values.types, entry.ty);
         FieldModel::new(field, &name, vec![docs::titled(&entry.name, &facts)], options)
-    });
+    };
+    let fields: Vec<FieldModel> = found.iter().zip(names).map(field).collect();
     let facts = format!("user structure 0x{:04X} of {}", unit.identifier, docs::bytes(length));
     let mut lines = vec![docs::titled(&unit.name, &facts)];
     docs::paragraphs(&unit.name, unit.documentation.as_deref(), &mut lines);
+    lines.extend(image::table(&fields, &["decode"], |_| String::new()));
     UnitModel {
         name: format!("{name}Diagnosis"),
         docs: lines,
@@ -123,7 +126,7 @@ fn unit_model(unit: &UnitDiagnosis, name: String, values: &Values<'_>, options: 
         api: unit.api,
         identifier: unit.identifier,
         length,
-        fields: fields.collect(),
+        fields,
     }
 }
 

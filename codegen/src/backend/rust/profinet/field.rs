@@ -114,6 +114,14 @@ impl<'v> Field<'v> {
         }
     }
 
+    /// Its type, as a table shows it.
+    pub(super) fn type_link(&self) -> String {
+        match self.enumeration {
+            Some(enumeration) => format!("[`{}`]({})", enumeration.name, enumeration.path),
+            None => format!("`{}`", self.rust_type().trim_start_matches("rt::")),
+        }
+    }
+
     /// Its type.
     pub(super) fn rust_type(&self) -> String {
         if let Some(enumeration) = self.enumeration {

@@ -4,6 +4,7 @@ use super::docs;
 use super::field::{Field, Use};
 use super::values::Values;
 use super::{Presence, RustOptions};
+use crate::backend::rust::doc_table;
 use crate::ir::{Direction, IoData, PdoEntry, PdoEntryKind, Submodule};
 use crate::passes::names_unique::{self, Case, Wish};
 
@@ -45,6 +46,8 @@ pub(super) struct FieldModel {
     pub name: String,
     pub docs: Vec<String>,
     pub heading: String,
+    /// Its place and its type, as a table shows them.
+    cells: [String; 2],
     pub ty: String,
     /// The attribute in front of it.
     pub attribute: Option<String>,
@@ -81,6 +84,7 @@ pub(super) fn model(
     let consistency = if data.consistent { "consistent as a whole" } else { "consistent item by item" };
     let length = super::docs::bytes(image.length);
     docs.push(format!("{length} of user data, {consistency}{}.", trailer(image.overhead)));
+    docs.extend(table(&fields, &["pack", "unpack"], |_| String::new()));
     (!fields.is_empty()).then(|| ImageModel {
         name,
         is_output: direction == Direction::Receive,
@@ -92,6 +96,20 @@ pub(super) fn model(
         allow: allow(fields.iter().map(|field| field.name.as_str())),
         fields,
     })
+}
+
+/// The lines of the table of all fields of a struct with these methods. `default` is the value of a field by default.
+pub(super) fn table<'f>(
+    fields: impl IntoIterator<Item = &'f FieldModel>,
+    methods: &[&str],
+    mut default: impl FnMut(usize) -> String,
+) -> Vec<String> {
+    let row = |(at, field): (usize, &FieldModel)| {
+        let [place, ty] = field.cells.clone();
+        [place, doc_table::field_link(&field.name, methods), ty, default(at)]
+    };
+    let rows: Vec<[String; 4]> = fields.into_iter().enumerate().map(row).collect();
+    doc_table::table(["Place", "Field", "Type", "Default"], &rows)
 }
 
 fn trailer(bytes: u32) -> String {
@@ -138,6 +156,7 @@ impl FieldModel {
         FieldModel {
             heading: docs.first().cloned().unwrap_or_default(),
             docs,
+            cells: [field.place.words(), field.type_link()],
             ty: field.rust_type(),
             attribute: field.byte_string().and_then(|length| serde_attribute(length, options)),
             get: field.read("self.0"),

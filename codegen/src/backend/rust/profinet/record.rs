@@ -103,10 +103,17 @@ fn model<'a>(
         let field = &parameter.field;
         FieldModel::new(field, name, facts(parameter, values), options)
     };
+    let models: Vec<FieldModel> = fields.iter().map(model).collect();
+    let default = |at: usize| {
+        let own = fields.get(at).and_then(|(parameter, _)| parameter.item.default.as_ref());
+        own.map(docs::value).unwrap_or_default()
+    };
+    let mut docs = record_docs(group, record, left_out);
+    docs.extend(image::table(&models, &["check", "encode", "decode"], default));
     RecordModel {
         name: format!("{name}Record"),
         title: literal::string(&group.name),
-        docs: record_docs(group, record, left_out),
+        docs,
         derives: options.derives(true),
         index: record.index,
         length: record.length,
@@ -115,7 +122,7 @@ fn model<'a>(
         defaults: free.iter().map(|parameter| value_of(&parameter.field, &bytes)).collect(),
         checks: fields.iter().filter_map(|(parameter, name)| check(parameter, &names_unique::escaped(name))).collect(),
         has_real: free.iter().chain(&fixed).any(|parameter| parameter.field.is_real()),
-        fields: fields.iter().map(model).collect(),
+        fields: models,
         constants,
     }
 }

@@ -6,6 +6,7 @@ use std::collections::HashSet;
 use super::docs;
 use super::types::resolve;
 use super::RustOptions;
+use crate::backend::rust::doc_table;
 use crate::backend::rust::value_type::native;
 use crate::ir::{EnumValue, Shape, Type, TypeDef};
 use crate::passes::names_unique::{self, Case, Wish};
@@ -120,6 +121,12 @@ fn model(definition: &TypeDef, base: Type, values: &[&EnumValue], name: String, 
     let mut lines =
         vec![format!("{} of {} bits.", if title.is_empty() { "Values" } else { &title }, base.bits().unwrap_or(0))];
     docs::paragraphs(&definition.name, definition.documentation.as_deref(), &mut lines);
+    let row = |(value, name): (&&EnumValue, &String)| {
+        let meaning = doc_table::meaning(&value.name, name, value.documentation.as_deref());
+        [value.value.to_string(), format!("[`{name}`](Self::{name})"), meaning]
+    };
+    let rows: Vec<[String; 3]> = values.iter().zip(&names).map(row).collect();
+    lines.extend(doc_table::table(["Value", "Name", "Meaning"], &rows));
     Enumeration {
         path: format!("values::{name}"),
         name,

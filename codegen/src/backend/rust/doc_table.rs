@@ -1,0 +1,125 @@
+//! Tables in doc comments.
+
+use super::docs;
+use crate::ir::Documentation;
+
+/// The most rows of a table. A longer one would hide what stands below it, and rustdoc lists fields and variants, each with its
+/// own documentation, all the same.
+pub(super) const MAX_ROWS: usize = 64;
+
+/// The most letters of a description in a cell; all of it stands at the element itself.
+const MAX_LETTERS: usize = 100;
+
+/// The lines of a table, behind an empty one; none where it has no rows, or more than [`MAX_ROWS`].
+pub(super) fn table<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Vec<String> {
+    if rows.len() > MAX_ROWS {
+        Vec::new()
+    } else {
+        whole(head, rows)
+    }
+}
+
+/// The same of any number of rows, for what stands nowhere else. A column without any text is left out.
+pub(super) fn whole<const N: usize>(head: [&str; N], rows: &[[String; N]]) -> Vec<String> {
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let used: Vec<usize> = (0..N).filter(|at| rows.iter().any(|row| !row[*at].is_empty())).collect();
+    let line = |cells: &dyn Fn(usize) -> String| {
+        let mut line = String::from("|");
+        for at in &used {
+            line.extend([" ", &cells(*at), " |"]);
+        }
+        line
+    };
+    let mut lines = vec![String::new(), line(&|at| head[at].to_owned())];
+    lines.push(format!("|{}", "---|".repeat(used.len())));
+    lines.extend(rows.iter().map(|row| line(&|at| row[at].clone())));
+    lines
+}
+
+/// A link from a struct to its field. A method called the same would be what the link leads to.
+pub(super) fn field_link(name: &str, methods: &[&str]) -> String {
+    match methods.contains(&name) {
+        true => format!("`{name}`"),
+        false => format!("[`{0}`](Self::{0})", name.trim_start_matches("r#")),
+    }
+}
+
+/// What an element is, in a cell: its name, where `rust` isn't the same words, and the start of what the source says of it.
+pub(super) fn meaning(name: &str, rust: &str, documentation: Option<&Documentation>) -> String {
+    let mut parts = Vec::new();
+    if !is_same(name, rust) {
+        parts.push(docs::sentence(&docs::escape(name)));
+    }
+    let text = documentation.map_or("", |own| own.text.as_str());
+    parts.push(start(text));
+    parts.retain(|part| !part.trim().is_empty());
+    parts.join(" ")
+}
+
+/// Whether a name in Rust says the same as the name that it was made of.
+fn is_same(name: &str, rust: &str) -> bool {
+    let letters = |text: &str| {
+        let own = text.chars().filter(|letter| letter.is_alphanumeric());
+        own.flat_map(char::to_lowercase).collect::<String>()
+    };
+    let is_plain = |letter: char| letter.is_alphanumeric() || matches!(letter, ' ' | '_' | '-' | '.');
+    name.chars().all(is_plain) && letters(name) == letters(rust)
+}
+
+/// The start of a text, on one line.
+fn start(text: &str) -> String {
+    let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    match text.char_indices().nth(MAX_LETTERS) {
+        None if text.is_empty() => text,
+        None => docs::sentence(&docs::escape(&text)),
+        Some((cut, _)) => {
+            let whole_words = text[..cut].rfind(' ').unwrap_or(cut);
+            format!("{} …", docs::escape(&text[..whole_words]))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(first: &str, second: &str) -> [String; 2] {
+        [first.to_owned(), second.to_owned()]
+    }
+
+    #[test]
+    fn columns_without_text_are_left_out() {
+        assert_eq!(table(["A", "B"], &[row("1", ""), row("2", "")]), ["", "| A |", "|---|", "| 1 |", "| 2 |"]);
+        assert_eq!(
+            table(["A", "B"], &[row("1", ""), row("2", "x")])[1..],
+            ["| A | B |", "|---|---|", "| 1 |  |", "| 2 | x |"]
+        );
+    }
+
+    #[test]
+    fn a_long_table_is_none() {
+        let rows = vec![row("1", "2"); MAX_ROWS + 1];
+        assert!(table(["A", "B"], &rows).is_empty());
+        assert_eq!(table(["A", "B"], &rows[1..]).len(), MAX_ROWS + 3);
+        assert!(table::<1>(["A"], &[]).is_empty());
+    }
+
+    #[test]
+    fn links_to_fields() {
+        assert_eq!(field_link("r#type", &["pack"]), "[`type`](Self::type)");
+        assert_eq!(field_link("pack", &["pack"]), "`pack`");
+    }
+
+    #[test]
+    fn meanings() {
+        let text = |text: &str| Documentation { text: text.to_owned(), ..Documentation::default() };
+        assert_eq!(meaning("Operation enabled", "operation_enabled", None), "");
+        assert_eq!(meaning("I/O", "io", None), "I/O.");
+        assert_eq!(meaning("Op. | enabled", "op_enabled_2", None), r"Op. \| enabled.");
+        assert_eq!(meaning("Fault", "fault", Some(&text("a\nb | c"))), r"a b \| c.");
+        let long = meaning("", "x", Some(&text(&"word ".repeat(50))));
+        assert!(long.ends_with("word …") && long.len() < 110, "{long}");
+    }
+}

@@ -1,0 +1,328 @@
+//! Links of documentation: the paths of what is generated, by the elements of the description that it is made of.
+//!
+//! Paths are relative, so that they hold wherever the generated module stands.
+
+use std::collections::HashMap;
+
+use super::composite;
+use super::docs;
+use super::messages;
+use super::objects::is_cased;
+use super::options::RustOptions;
+use super::pdo;
+use super::reachable::{addressable, is_module};
+use super::scope::Scope;
+use crate::ir::{Device, Item, PdoEntryKind, Type};
+
+/// Where a doc comment stands.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Here<'h> {
+    /// The way to the device's place: `super::`.
+    outer: &'h str,
+    /// The module, as seen from there: `objects::`.
+    module: &'h str,
+}
+
+impl<'h> Here<'h> {
+    /// At the device's place.
+    pub const TOP: Here<'static> = Here::new("", "");
+    pub const OBJECTS: Here<'static> = Here::new("super::", "objects::");
+    pub const TYPES: Here<'static> = Here::new("super::", "types::");
+    /// The views of PDOs stand in a module of their own, from which the way is the same.
+    pub const PDO: Here<'static> = Here::new("super::", "pdo::");
+    pub const MESSAGES: Here<'static> = Here::new("super::", "messages::");
+    /// Any other module at the device's place, which nothing is linked in.
+    pub const BESIDE: Here<'static> = Here::new("super::", "::");
+
+    pub const fn new(outer: &'h str, module: &'h str) -> Self {
+        Here { outer, module }
+    }
+
+    /// Whether this is the device's place.
+    pub fn is_top(self) -> bool {
+        self.outer.is_empty()
+    }
+
+    /// Whether a path leads to something of this module.
+    fn is_of(self, path: &str) -> bool {
+        !self.is_top() && path.starts_with(self.module)
+    }
+
+    /// The path from here of what has this one from the device's place. What precedes `@` tells elements of one name apart.
+    fn path(self, path: &str) -> String {
+        let (kind, path) = path.split_once('@').map_or(("", path), |(kind, path)| (kind, path));
+        let at = if kind.is_empty() { "" } else { "@" };
+        match path.strip_prefix(self.module) {
+            Some(own) => format!("{kind}{at}{own}"),
+            None => format!("{kind}{at}{}{path}", self.outer),
+        }
+    }
+
+    /// A link that shows the last name of a path as code.
+    pub fn code(self, path: &str) -> String {
+        self.code_as(last(path), path)
+    }
+
+    /// A link that shows `name` as code.
+    pub fn code_as(self, name: &str, path: &str) -> String {
+        let path = self.path(path);
+        if path == name {
+            format!("[`{name}`]")
+        } else {
+            format!("[`{name}`]({path})")
+        }
+    }
+
+    /// A link that shows the whole way from here.
+    pub fn whole(self, path: &str) -> String {
+        let path = self.path(path);
+        match path.split_once('@') {
+            Some((_, shown)) => format!("[`{shown}`]({path})"),
+            None => format!("[`{path}`]"),
+        }
+    }
+
+    /// A link that shows `text`, in which every markup is escaped.
+    pub fn text(self, text: &str, path: &str) -> String {
+        let own = self.path(path);
+        // Rustdoc minds the path of a link whose text leads there by itself.
+        if text.is_empty() || own == text.replace('\\', "") {
+            return self.code(path);
+        }
+        format!("[{text}]({own})")
+    }
+}
+
+/// The last name of a path.
+fn last(path: &str) -> &str {
+    path.rsplit(['@', ':']).next().unwrap_or(path)
+}
+
+/// The paths of an item's handle, from the device's place.
+#[derive(Clone, Debug)]
+struct Handle {
+    constant: String,
+    /// The method that reads and writes it.
+    method: Option<String>,
+}
+
+/// How many elements a sentence lists.
+const LISTED: usize = 8;
+
+/// The paths of what is generated for a device or a module, from its place.
+#[derive(Debug, Default)]
+pub(super) struct Links {
+    handles: HashMap<*const Item, Handle>,
+    /// Items by the object that PDOs name.
+    objects: HashMap<(u16, u8), *const Item>,
+    /// The names of the structs that carry an object by default.
+    carriers: HashMap<(u16, u8), Vec<String>>,
+    /// The items of each type, by its position.
+    users: HashMap<u32, Vec<*const Item>>,
+    /// The paths of requests, or of what only the device sends, by the names of the messages.
+    messages: HashMap<String, String>,
+    /// The constants of numbers that items are parts of.
+    wholes: HashMap<*const Item, Vec<String>>,
+    /// Whether the device has a type with methods.
+    pub has_methods: bool,
+}
+
+impl Links {
+    /// `device_name` is the name of the device's type.
+    pub fn of(scope: &Scope<'_>, options: &RustOptions, device_name: &str) -> Self {
+        let mut links = Links::default();
+        let has_objects = !scope.names.is_empty() && scope.device.is_some_and(has_object_access);
+        let requests = scope.device.map(|device| links.add_messages(device)).unwrap_or_default();
+        links.has_methods = options.accessors && (has_objects || requests > 0);
+        links.add_handles(scope, Some(device_name).filter(|_| links.has_methods));
+        if options.pdos {
+            links.add_pdos(scope);
+        }
+        if let Some(device) = scope.device {
+            links.add_wholes(scope, device, device_name);
+        }
+        links
+    }
+
+    /// How many requests there are.
+    fn add_messages(&mut self, device: &Device) -> usize {
+        let paths = messages::paths(device);
+        let requests = paths.iter().filter(|own| own.is_request).count();
+        self.messages = paths.into_iter().map(|own| (own.name, own.path)).collect();
+        requests
+    }
+
+    fn add_handles(&mut self, scope: &Scope<'_>, device: Option<&str>) {
+        for ((_, item), name) in scope.registers.iter().zip(&scope.names.registers) {
+            self.add_handle(scope, item, name, device);
+        }
+        for (group, (name, subs)) in addressable(scope).zip(&scope.names.objects) {
+            if !is_module(group) {
+                group.items.iter().for_each(|item| self.add_handle(scope, item, name, device));
+                continue;
+            }
+            for (item, sub) in group.items.iter().zip(subs) {
+                let constant = format!("objects::{name}::{}", sub.to_ascii_uppercase());
+                let method = device.map(|_| format!("objects::{name}::Accessors::{sub}"));
+                self.add(scope, item, Handle { constant, method });
+            }
+        }
+    }
+
+    fn add_handle(&mut self, scope: &Scope<'_>, item: &Item, name: &str, device: Option<&str>) {
+        // A module may be called the same.
+        let kind = if is_cased(name) { "" } else { "const@" };
+        let constant = format!("{kind}objects::{}", name.to_ascii_uppercase());
+        self.add(scope, item, Handle { constant, method: device.map(|device| format!("{device}::{name}")) });
+    }
+
+    fn add(&mut self, scope: &Scope<'_>, item: &Item, handle: Handle) {
+        if let (Type::Named(_), Some((position, _))) = (item.ty, scope.resolve(item.ty).1) {
+            self.users.entry(position).or_default().push(item);
+        }
+        if !scope.pdos.is_empty() {
+            if let Some(object) = item.object() {
+                self.objects.entry(object).or_insert(item);
+            }
+        }
+        self.handles.insert(item, handle);
+    }
+
+    fn add_pdos(&mut self, scope: &Scope<'_>) {
+        for (own, name) in scope.pdos.iter().zip(pdo::names(scope)).filter(|(own, _)| pdo::is_generated(own)) {
+            for entry in own.entries.iter().filter(|entry| entry.kind == PdoEntryKind::Item) {
+                let carriers = self.carriers.entry((entry.index, entry.sub_index)).or_default();
+                if carriers.last() != Some(&name) {
+                    carriers.push(name.clone());
+                }
+            }
+        }
+    }
+
+    fn add_wholes(&mut self, scope: &Scope<'_>, device: &Device, device_name: &str) {
+        for (own, name) in device.composites.iter().zip(composite::names(device)) {
+            let name = if name == device_name { format!("const@{name}") } else { name };
+            let parts = own.parts.iter().chain(own.sign.as_ref().map(|(item, _)| item));
+            for item in parts.filter_map(|part| scope.item(part)) {
+                self.wholes.entry(item).or_default().push(name.clone());
+            }
+        }
+    }
+
+    /// The path of the constant of an item.
+    pub fn constant(&self, item: &Item) -> Option<&str> {
+        Some(&self.handles.get(&std::ptr::from_ref(item))?.constant)
+    }
+
+    /// The path of the constant of what a PDO calls so.
+    pub fn object(&self, object: (u16, u8)) -> Option<&str> {
+        Some(&self.handles.get(self.objects.get(&object)?)?.constant)
+    }
+
+    /// The path of the type of the message called so.
+    pub fn message(&self, name: &str) -> Option<&str> {
+        self.messages.get(name).map(String::as_str)
+    }
+
+    /// A sentence about the items whose values have the type at this position; empty where none has a handle.
+    pub fn users(&self, position: u32, here: Here<'_>) -> String {
+        let users = self.users.get(&position).map_or(&[][..], Vec::as_slice);
+        let paths = users.iter().filter_map(|item| Some(self.handles.get(item)?.constant.as_str()));
+        sentence("Values of", &paths.collect::<Vec<_>>(), here)
+    }
+
+    /// What belongs to an item, for the method that reads and writes it: its constant, its type, and the PDOs that carry it.
+    pub fn beside_method(&self, scope: &Scope<'_>, item: &Item, here: Here<'_>) -> String {
+        let constant = self.constant(item).map(|path| format!("Constant: {}.", here.whole(path)));
+        self.beside(scope, item, constant, here)
+    }
+
+    /// The same for its constant, with its method.
+    pub fn beside_constant(&self, scope: &Scope<'_>, item: &Item, here: Here<'_>) -> String {
+        let method = self.handles.get(&std::ptr::from_ref(item)).and_then(|own| own.method.as_ref());
+        let link = |path: &String| if here.is_of(path) { here.whole(path) } else { here.code(path) };
+        self.beside(scope, item, method.map(|path| format!("Accessor: {}.", link(path))), here)
+    }
+
+    fn beside(&self, scope: &Scope<'_>, item: &Item, first: Option<String>, here: Here<'_>) -> String {
+        let ty = scope.enumeration(item.ty).map(|named| here.code(&format!("types::{}", named.name)));
+        let carriers = item.object().and_then(|object| self.carriers.get(&object));
+        let carriers: Vec<String> = carriers.into_iter().flatten().map(|name| format!("pdo::{name}")).collect();
+        let carriers: Vec<&str> = carriers.iter().map(String::as_str).collect();
+        let ty = ty.map(|ty| format!("Values: {ty}.")).unwrap_or_default();
+        let wholes = self.wholes.get(&std::ptr::from_ref(item)).into_iter().flatten();
+        let wholes = sentence("Part of", &wholes.map(String::as_str).collect::<Vec<_>>(), here);
+        let all = [first.unwrap_or_default(), ty, wholes, sentence("Carried by", &carriers, here)];
+        all.into_iter().filter(|one| !one.is_empty()).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// Whether a client can reach the objects: those that PDOs prove of a slave without CoE are nowhere but in its PDOs.
+fn has_object_access(device: &Device) -> bool {
+    let Some(ethercat) = &device.ethercat else { return true };
+    let coe = ethercat.mailbox.as_ref().is_some_and(|mailbox| mailbox.coe.is_some());
+    coe || device.groups.iter().any(|group| group.origin.line > 0)
+}
+
+/// `Carried by …, … and 3 more.`; empty where there is nothing to list.
+fn sentence(start: &str, paths: &[&str], here: Here<'_>) -> String {
+    if paths.is_empty() {
+        return String::new();
+    }
+    // Constants of objects share their names; modules at the device's place tell nothing.
+    let name = |path: &str| {
+        let path = path.split_once('@').map_or(path, |(_, path)| path);
+        path.split_once("::").map_or(path, |(_, name)| name).to_owned()
+    };
+    let shown: Vec<String> = paths.iter().take(LISTED).map(|path| here.code_as(&name(path), path)).collect();
+    let more = match paths.len() {
+        all if all > LISTED => format!(" and {} more", all - LISTED),
+        _ => String::new(),
+    };
+    format!("{start} {}{more}.", shown.join(", "))
+}
+
+impl Scope<'_> {
+    /// A link from `here` to the item, or else to the message, that the description calls so.
+    pub fn link(&self, name: &str, here: Here<'_>) -> Option<String> {
+        let item = self.item(name).and_then(|item| self.links.constant(item));
+        let path = item.or_else(|| self.links.message(name))?;
+        Some(here.text(&docs::escape(name), path))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_relative() {
+        let object = Here::new("super::super::", "objects::identity::");
+        assert_eq!(object.code("objects::identity::VENDOR_ID"), "[`VENDOR_ID`]");
+        assert_eq!(object.code("Drive::speed"), "[`speed`](super::super::Drive::speed)");
+        assert_eq!(Here::TOP.whole("objects::SPEED"), "[`objects::SPEED`]");
+        assert_eq!(Here::TYPES.code("types::Mode"), "[`Mode`]");
+        assert_eq!(Here::BESIDE.code("types::Mode"), "[`Mode`](super::types::Mode)");
+        assert_eq!(Here::OBJECTS.code("const@objects::_1"), "[`_1`](const@_1)");
+        assert_eq!(Here::TOP.whole("const@objects::_1"), "[`objects::_1`](const@objects::_1)");
+    }
+
+    #[test]
+    fn a_text_that_is_the_path_is_a_link_by_itself() {
+        assert_eq!(Here::OBJECTS.text("speed", "objects::SPEED"), "[speed](SPEED)");
+        assert_eq!(Here::OBJECTS.text("P\\_1", "objects::P_1"), "[`P_1`]");
+        assert_eq!(Here::OBJECTS.text("", "objects::P_1"), "[`P_1`]");
+        assert_eq!(Here::TYPES.text("P\\_1", "objects::P_1"), "[P\\_1](super::objects::P_1)");
+    }
+
+    #[test]
+    fn long_lists_are_cut() {
+        let names: Vec<String> = (0..10).map(|number| format!("pdo::P{number}")).collect();
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let listed = sentence("Carried by", &names, Here::PDO);
+        assert!(listed.starts_with("Carried by [`P0`], [`P1`]") && listed.ends_with("[`P7`] and 2 more."), "{listed}");
+        assert_eq!(sentence("Of", &[], Here::PDO), "");
+        let of_object = sentence("Of", &["objects::store::SAVE"], Here::TYPES);
+        assert_eq!(of_object, "Of [`store::SAVE`](super::objects::store::SAVE).");
+    }
+}

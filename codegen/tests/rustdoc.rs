@@ -1,0 +1,200 @@
+//! The documentation of generated Rust: rustdoc has nothing to say of it, every link leads somewhere, and no text of a
+//! description breaks out of its cell.
+
+mod compile_support;
+mod corpus_support;
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use compile_support::{document, page};
+use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::selection::Selection;
+use lexibus_codegen::source::Source;
+use lexibus_codegen::{Presence, RustOptions};
+
+fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The descriptions of two folders that are checked in.
+fn examples() -> Vec<PathBuf> {
+    let folders = ["tests/data", "dictionaries"].map(|name| repository().join(name));
+    let entries = folders.iter().flat_map(|folder| std::fs::read_dir(folder).expect("a folder of the repository"));
+    let is_description =
+        |path: &PathBuf| ["toml", "eds", "xml"].iter().any(|ending| path.extension().is_some_and(|own| own == *ending));
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("a file").path()).filter(is_description).collect();
+    paths.sort();
+    assert!(paths.len() >= 14, "{paths:?}");
+    paths
+}
+
+fn read(path: &Path, options: &Options) -> Compilation {
+    check(Source::read(path).expect("the example"), options)
+}
+
+/// Whatever is left out of the output, nothing links to it.
+#[test]
+fn rustdoc_has_nothing_to_say_of_the_examples() {
+    let everything = || RustOptions { table: Presence::Always, ..RustOptions::default() };
+    let choices = [
+        everything(),
+        RustOptions { accessors: false, ..everything() },
+        RustOptions { pdos: false, ..RustOptions::default() },
+    ];
+    for path in examples() {
+        let compilation = read(&path, &Options::default());
+        // What ships is documented with everything in it, too, as a crate of the workspace.
+        let chosen = if path.parent().is_some_and(|own| own.ends_with("data")) { &choices[..] } else { &choices[1..2] };
+        let texts: Vec<String> = chosen.iter().filter_map(|own| compilation.rust(own)).collect();
+        assert_eq!(texts.len(), chosen.len(), "{}", path.display());
+        let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+        document(&path.display().to_string(), &texts).unwrap_or_else(|message| panic!("{message}"));
+    }
+}
+
+#[test]
+fn what_is_not_selected_is_not_linked() {
+    let of = |name: &str, objects: &str| {
+        let objects = vec![objects.parse().expect("a range of objects")];
+        let select = Selection { objects, ..Selection::default() };
+        let compilation = read(&repository().join(name), &Options { select, ..Options::default() });
+        compilation.rust(&RustOptions::default()).expect("bindings")
+    };
+    let drive = of("dictionaries/demo-drive.eds", "0x6040..0x6060");
+    assert!(drive.contains("Carried by [`RxPdo1`](pdo::RxPdo1)") && !drive.contains("MODES_OF_OPERATION_DISPLAY"));
+    let press = of("tests/data/press.toml", "0x2000..0x2001");
+    document("selected", &[&drive, &press]).unwrap_or_else(|message| panic!("{message}"));
+}
+
+/// What a description refers to is linked, by a path from where the comment stands.
+#[test]
+fn references_are_links() {
+    let of = |name: &str| {
+        let compilation = read(&repository().join(name), &Options::default());
+        compilation.rust(&RustOptions::default()).expect("bindings")
+    };
+    for (name, lines) in [
+        (
+            "tests/data/press.toml",
+            &[
+                "    /// Constant: [`objects::CONTROL`]. Values: [`Control`](types::Control).",
+                "    /// [`Control`] while [mode](super::objects::MODE) is press (1).",
+                "    /// States of ram, as [status](super::objects::STATUS) tells them.",
+                "    /// | [`Ready`](Self::Ready) | 0x7 | 0x1 |",
+                "    /// 0x200C:01, holding register 12, INTEGER16, ro, stands for raw × 0.5 / [gain](GAIN) N.",
+                "    /// Before firmware 2\\.0. Replaced by [position](POSITION_8).",
+            ][..],
+        ),
+        (
+            "tests/data/hoist.toml",
+            &[
+                "    /// Means this after [Select load](messages::SelectLoad).",
+                "    /// Means this after [Select load](SelectLoad).",
+                "    /// Replaced by [Go](messages::Go).",
+                "    /// Sends [`messages::Go`].",
+            ],
+        ),
+        (
+            "tests/data/one-drive.toml",
+            &["    /// On CANopen: [Read address](super::objects::reading::READ_ADDRESS) takes a number, and \
+               [Read value](super::objects::reading::READ_VALUE) gives its value."],
+        ),
+        (
+            "dictionaries/eco.toml",
+            &["    /// Its layout: [`pdo::Velocity`](super::pdo::Velocity).", "    /// Constant: [`objects::P1`]. Part of [`PULSES_PER_TURN`]."],
+        ),
+        (
+            "dictionaries/demo-drive.eds",
+            &[
+                "    /// | 2–5 | [`target_position`](Self::target_position) | [0x607A:00](super::objects::TARGET_POSITION) | `i32` |",
+                "        /// Accessor: [`Accessors::vendor_id`].",
+            ],
+        ),
+    ] {
+        let text = of(name);
+        for line in lines {
+            assert!(text.lines().any(|own| own == *line), "{name}: {line}");
+        }
+    }
+}
+
+const HOSTILE: &str = r#"
+lexibus = 1
+[device]
+name = "X"
+[spaces.register]
+modbus = { table = "holding" }
+[[chapters]]
+title = "C | [x](y)"
+[chapters.registers]
+mode = { reg = 0, type = "u8", access = "rw", enum = "Mode" }
+"P|1" = { reg = 1, type = "u16", access = "rw", bits = "Status", doc = "a | b [`mode`](Self::mode) <b>" }
+MODE_2 = { reg = 2, type = "u8", access = "rw", doc = "ends with \\", when = { "P|1" = [1] } }
+[enums.Mode.values]
+0 = "a | b"
+1 = { name = "\\| [mode](mode) `x", doc = "\\" }
+2 = { name = "| - | - |", doc = "| 7 | [`Mode`] |\n\n| x |" }
+[bits.Status.at]
+0 = { name = "x || y", doc = "`|` \\| $[`mode`] <script> &#124; https://x.y" }
+1 = "] (Self::x) |"
+"3-2" = { name = "m", values = { 0 = "type", 1 = "]|[" } }
+4 = { reserved = 0 }
+"#;
+
+/// The cells of the first table of a page, row by row.
+fn cells(page: &str) -> Vec<Vec<&str>> {
+    let table = page.split_once("<tbody>").and_then(|(_, rest)| rest.split_once("</tbody>")).expect("a table").0;
+    let rows = table.split("<tr>").skip(1);
+    rows.map(|row| row.split("<td>").skip(1).map(|cell| cell.split_once("</td>").expect("a cell").0).collect())
+        .collect()
+}
+
+#[test]
+fn no_text_breaks_out_of_its_cell() {
+    let compilation = check(Source::new("hostile.toml", HOSTILE.into()), &Options::default());
+    let said: Vec<String> = compilation.diagnostics.list().iter().map(|own| compilation.one_line(own)).collect();
+    let text = compilation.rust(&RustOptions::default()).unwrap_or_else(|| panic!("{said:#?}"));
+    let of_type =
+        |name: &str| page("hostile", &text, &format!("types/{name}.html")).unwrap_or_else(|own| panic!("{own}"));
+    let (values, bits) = (of_type("enum.Mode"), of_type("struct.Status"));
+    let values = cells(&values);
+    assert_eq!(values.iter().map(Vec::len).collect::<Vec<_>>(), [3, 3, 3], "{values:#?}");
+    assert_eq!(values[0][2], "a | b.");
+    assert!(values[1][2].starts_with(r"\| [mode](mode) `x. \"), "{values:#?}");
+    assert_eq!(values[2][2], "| - | - |. | 7 | [`Mode`] | | x |.");
+    let bits = cells(&bits);
+    assert_eq!(bits.iter().map(Vec::len).collect::<Vec<_>>(), [3; 4], "{bits:#?}");
+    assert_eq!(bits[0][2], r"x || y. `|` \| $[`mode`] &lt;script&gt; &amp;#124; https://x.y.");
+    assert!(bits[2][2].contains("enum.StatusM.html"), "the values of a field are linked: {bits:#?}");
+    assert_eq!(bits[3][1..], ["reserved", "Written as 0."]);
+}
+
+/// For how long descriptions of the corpus are documented.
+const TIME: Duration = Duration::from_secs(25);
+
+/// Of each file, so many devices.
+const DEVICES: usize = 2;
+
+#[test]
+fn rustdoc_has_nothing_to_say_of_a_sample_of_the_corpus() {
+    let end = Instant::now() + TIME;
+    for (format, step) in [("eds", 9), ("esi", 7), ("gsdml", 5)] {
+        let Some(files) = corpus_support::files_of(format) else { return };
+        let files = files.into_iter().step_by(step).collect();
+        let (seen, documented) = (Mutex::new(HashMap::<String, usize>::new()), AtomicUsize::new(0));
+        corpus_support::bindings::each(files, &Options::default(), |name, text| {
+            let number =
+                { *seen.lock().expect("the files").entry(name.to_owned()).and_modify(|own| *own += 1).or_insert(1) };
+            if number > DEVICES || Instant::now() > end && documented.load(Ordering::Relaxed) >= 5 {
+                return Ok(());
+            }
+            documented.fetch_add(1, Ordering::Relaxed);
+            document(name, &[text])
+        });
+        println!("{format}: {} devices", documented.into_inner());
+    }
+}
