@@ -6,7 +6,7 @@ use super::anchor::Names;
 use super::bits::{self, Bits, Label};
 use super::findings::{Finding, Findings};
 use super::words::{self, PLAIN};
-use crate::backend::words::Manual;
+use crate::backend::words::{sentence, Manual};
 use crate::ir::{Item, Type, TypeDef};
 
 /// An item, ready to be written.
@@ -160,9 +160,9 @@ impl Rows<'_> {
 /// Doubts, ready to be written.
 pub(super) fn doubts(doubts: &[crate::ir::Doubt]) -> Vec<Doubt> {
     let doubt = |own: &crate::ir::Doubt| Doubt {
-        says: own.says.clone(),
-        chosen: own.chosen.clone(),
-        why: own.why.clone(),
+        says: sentence(&own.says),
+        chosen: sentence(&own.chosen),
+        why: if own.why.is_empty() { String::new() } else { sentence(&own.why) },
         cite: own.cite.as_ref().map(ToString::to_string).unwrap_or_default(),
     };
     doubts.iter().map(doubt).collect()
