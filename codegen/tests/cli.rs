@@ -445,7 +445,7 @@ fn pages_of_markdown() {
     assert_eq!(code(&call(&[])), 0);
     assert_eq!(code(&call(&["--check"])), 0);
     let summary = std::fs::read_to_string(out.join("SUMMARY.md")).expect("a summary");
-    assert!(summary.contains("\n- [Demo Drive](demo-drive/README.md)\n  - [Communication objects]"), "{summary}");
+    assert!(summary.contains("\n- [Demo Drive](demo-drive/index.md)\n  - [Communication objects]"), "{summary}");
     let page = out.join("demo-drive/profile-objects.md");
     std::fs::write(&page, "<!-- Written by lexibus docs -->\n# Old\n").expect("a page");
     let output = call(&["--check"]);

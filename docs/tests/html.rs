@@ -3,13 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
 
-use mdbook_driver::MDBook;
 use mdbook_driver::config::Config;
-use tracing::field::{Field, Visit};
-use tracing::span::{Attributes, Id, Record};
-use tracing::{Event, Level, Metadata, Subscriber};
+use support::{attributes, build_into};
+
+mod support;
 
 /// Links to files of the repository begin so; they are looked for on the disk.
 const REPOSITORY: &str = "https://github.com/lexibus/lexibus/blob/main/";
@@ -18,65 +16,14 @@ fn docs() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Keeps what mdBook warns of.
-#[derive(Clone, Default)]
-struct Warnings(Arc<Mutex<Vec<String>>>);
-
-impl Subscriber for Warnings {
-    fn enabled(&self, metadata: &Metadata<'_>) -> bool {
-        *metadata.level() <= Level::WARN
-    }
-
-    fn new_span(&self, _: &Attributes<'_>) -> Id {
-        Id::from_u64(1)
-    }
-
-    fn record(&self, _: &Id, _: &Record<'_>) {}
-
-    fn record_follows_from(&self, _: &Id, _: &Id) {}
-
-    fn event(&self, event: &Event<'_>) {
-        let mut message = Message::default();
-        event.record(&mut message);
-        if let Ok(mut list) = self.0.lock() {
-            list.push(message.0);
-        }
-    }
-
-    fn enter(&self, _: &Id) {}
-
-    fn exit(&self, _: &Id) {}
-}
-
-/// The fields of an event, in a line.
-#[derive(Default)]
-struct Message(String);
-
-impl Visit for Message {
-    fn record_debug(&mut self, _: &Field, value: &dyn std::fmt::Debug) {
-        self.0 += &format!("{value:?} ");
-    }
-}
-
 /// Builds the book into a folder of this test's own.
 fn build() -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("book");
     let _ = fs::remove_dir_all(&folder);
     let mut config = Config::from_disk(docs().join("book.toml")).expect("the configuration of the book");
     config.build.build_dir = folder.clone();
-    let warnings = Warnings::default();
-    tracing::subscriber::with_default(warnings.clone(), || {
-        MDBook::load_with_config(docs(), config).and_then(|book| book.build()).expect("the book is built");
-    });
-    let list = warnings.0.lock().expect("the warnings");
-    assert!(list.is_empty(), "{list:#?}");
+    build_into(docs(), config);
     folder
-}
-
-/// The values of an attribute in a page.
-fn attributes<'p>(page: &'p str, name: &str) -> Vec<&'p str> {
-    let start = format!(" {name}=\"");
-    page.split(&start).skip(1).filter_map(|rest| rest.split('"').next()).collect()
 }
 
 /// The chapters as they were built, by their names; each has what `SUMMARY.md` named.

@@ -19,6 +19,9 @@ use crate::backend::rust;
 use crate::backend::words::Manual;
 use crate::ir::{Catalog, Device};
 
+/// The name of the first page of a folder, without ending.
+const FIRST: &str = "index";
+
 /// The folder of a catalogue.
 pub(super) struct Folder {
     pub format: &'static dyn Pages,
@@ -42,7 +45,7 @@ struct Parts {
 impl Folder {
     pub fn new(format: &'static dyn Pages, findings: Findings) -> Self {
         let mut files = Names::default();
-        files.file(format.first());
+        files.file(FIRST);
         Folder { format, files, pages: Vec::new(), index: Index::default(), listed: Catalogue::default(), findings }
     }
 
@@ -90,7 +93,7 @@ impl Folder {
 
     fn device(&mut self, device: &Device, catalog: &Catalog, is_alone: bool) {
         let (format, title) = (self.format, title(device));
-        let own = if is_alone { format.first().to_owned() } else { self.files.file(&title) };
+        let own = if is_alone { FIRST.to_owned() } else { self.files.file(&title) };
         let first = own.clone() + format.ending();
         let prefix = if is_alone { String::new() } else { format!("{own}-") };
         let manual = Manual::of(device);
@@ -202,7 +205,7 @@ impl Folder {
 
     /// The first page of a catalogue of several devices.
     fn list(&mut self, set: &Frameset) {
-        let file = format!("{}{}", self.format.first(), self.format.ending());
+        let file = format!("{FIRST}{}", self.format.ending());
         let list = List { devices: &self.listed.devices, root: "..", index: "" };
         let text = self.format.list(Around { set, file: &file }, list);
         self.page(&file, text);

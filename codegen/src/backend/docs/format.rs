@@ -93,8 +93,8 @@ pub(super) struct List<'p> {
 pub(super) trait Pages {
     /// How names of files end, with the dot.
     fn ending(&self) -> &'static str;
-    /// The name of the first page of a folder, without ending.
-    fn first(&self) -> &'static str;
+    /// The name of the first page of all, without ending.
+    fn front(&self) -> &'static str;
 
     fn overview(&self, around: Around<'_>, own: &Overview, contents: &Contents) -> String;
     fn area(&self, around: Around<'_>, own: &Area) -> String;

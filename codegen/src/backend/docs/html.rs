@@ -113,7 +113,7 @@ impl Pages for Html {
         ".html"
     }
 
-    fn first(&self) -> &'static str {
+    fn front(&self) -> &'static str {
         "index"
     }
 

@@ -125,7 +125,9 @@ impl Pages for Markdown {
         ".md"
     }
 
-    fn first(&self) -> &'static str {
+    /// What repositories show of a folder. Further down, links to a page of that name lead nowhere in `mdBook`, which calls it
+    /// otherwise.
+    fn front(&self) -> &'static str {
         "README"
     }
 
