@@ -462,7 +462,7 @@ impl<C> Akd<C> {
     }
     /// AL control: memory 0x0120.
     ///
-    /// State that the master asks for
+    /// State that the master asks for.
     ///
     /// Constant: [`objects::AL_CONTROL`]. Values: [`AlControl`](types::AlControl).
     pub fn al_control(
@@ -472,7 +472,7 @@ impl<C> Akd<C> {
     }
     /// AL status: memory 0x0130.
     ///
-    /// State that the drive is in
+    /// State that the drive is in.
     ///
     /// Constant: [`objects::AL_STATUS`]. Values: [`AlStatus`](types::AlStatus).
     pub fn al_status(
@@ -482,7 +482,7 @@ impl<C> Akd<C> {
     }
     /// AL status code: memory 0x0134.
     ///
-    /// Why a change of state was refused; all bits of both bytes are the code
+    /// Why a change of state was refused; all bits of both bytes are the code.
     ///
     /// Constant: [`objects::AL_STATUS_CODE`]. Values: [`AlStatusCode`](types::AlStatusCode).
     pub fn al_status_code(
@@ -492,7 +492,7 @@ impl<C> Akd<C> {
     }
     /// Interrupt enable: memory 0x0204.
     ///
-    /// Which events of the slave controller the drive has switched on, by bits that are 1; EEPROM emulation and SyncManager 2 interrupt its processor
+    /// Which events of the slave controller the drive has switched on, by bits that are 1; EEPROM emulation and SyncManager 2 interrupt its processor.
     ///
     /// Constant: [`objects::INTERRUPT_ENABLE`]. Values: [`InterruptEnable`](types::InterruptEnable).
     pub fn interrupt_enable(
@@ -502,7 +502,7 @@ impl<C> Akd<C> {
     }
     /// AL event request: memory 0x0220.
     ///
-    /// Events that the slave controller signals to the drive
+    /// Events that the slave controller signals to the drive.
     ///
     /// Constant: [`objects::AL_EVENT_REQUEST`]. Values: [`AlEventRequest`](types::AlEventRequest).
     pub fn al_event_request(
@@ -512,7 +512,7 @@ impl<C> Akd<C> {
     }
     /// SyncManager 0: memory 0x0800.
     ///
-    /// Sync manager of the mailbox to the drive
+    /// Sync manager of the mailbox to the drive.
     ///
     /// Constant: [`objects::SYNC_MANAGER_0`].
     pub fn sync_manager_0(
@@ -522,7 +522,7 @@ impl<C> Akd<C> {
     }
     /// SyncManager 1: memory 0x0808.
     ///
-    /// Sync manager of the mailbox from the drive
+    /// Sync manager of the mailbox from the drive.
     ///
     /// Constant: [`objects::SYNC_MANAGER_1`].
     pub fn sync_manager_1(
@@ -532,7 +532,7 @@ impl<C> Akd<C> {
     }
     /// SyncManager 2: memory 0x0810.
     ///
-    /// Sync manager of the set-points
+    /// Sync manager of the set-points.
     ///
     /// Constant: [`objects::SYNC_MANAGER_2`].
     pub fn sync_manager_2(
@@ -542,7 +542,7 @@ impl<C> Akd<C> {
     }
     /// SyncManager 3: memory 0x0818.
     ///
-    /// Sync manager of the actual values
+    /// Sync manager of the actual values.
     ///
     /// Constant: [`objects::SYNC_MANAGER_3`].
     pub fn sync_manager_3(
@@ -587,7 +587,7 @@ impl<C> Akd<C> {
     }
     /// ProcOut buffer: memory 0x1100.
     ///
-    /// Set-points from the master: 64 bytes at most, as many as the assigned PDOs have
+    /// Set-points from the master: 64 bytes at most, as many as the assigned PDOs have.
     ///
     /// Constant: [`objects::PROC_OUT_BUFFER`].
     pub fn proc_out_buffer(
@@ -597,7 +597,7 @@ impl<C> Akd<C> {
     }
     /// ProcIn buffer: memory 0x1140.
     ///
-    /// Actual values of the drive: 64 bytes at most, as many as the assigned PDOs have
+    /// Actual values of the drive: 64 bytes at most, as many as the assigned PDOs have.
     ///
     /// Constant: [`objects::PROC_IN_BUFFER`].
     pub fn proc_in_buffer(
@@ -607,7 +607,7 @@ impl<C> Akd<C> {
     }
     /// Mailbox out buffer: memory 0x1800.
     ///
-    /// Requests to the drive, of which it reads 16 bytes
+    /// Requests to the drive, of which it reads 16 bytes.
     ///
     /// Constant: [`objects::MAILBOX_OUT_BUFFER`].
     pub fn mailbox_out_buffer(
@@ -617,7 +617,7 @@ impl<C> Akd<C> {
     }
     /// Mailbox in buffer: memory 0x1C00.
     ///
-    /// Replies of the drive, of 16 bytes
+    /// Replies of the drive, of 16 bytes.
     ///
     /// Constant: [`objects::MAILBOX_IN_BUFFER`].
     pub fn mailbox_in_buffer(
@@ -708,7 +708,7 @@ impl<C> Akd<C> {
     }
     /// Latch position, rising edge: 0x20A0:00.
     ///
-    /// Position captured on the rising edge
+    /// Position captured on the rising edge.
     ///
     /// Constant: [`objects::LATCH_POSITION_RISING_EDGE`]. Carried by [`TxPdo1B20`](pdo::TxPdo1B20).
     pub fn latch_position_rising_edge(
@@ -4460,7 +4460,7 @@ pub mod objects {
     /// UNSIGNED16, rw.
     /// Accessor: [`al_control`](super::Akd::al_control). Values: [`AlControl`](super::types::AlControl).
     ///
-    /// State that the master asks for
+    /// State that the master asks for.
     ///
     /// The device's own side has it ro.
     ///
@@ -4482,7 +4482,7 @@ pub mod objects {
     /// UNSIGNED16, ro.
     /// Accessor: [`al_status`](super::Akd::al_status). Values: [`AlStatus`](super::types::AlStatus).
     ///
-    /// State that the drive is in
+    /// State that the drive is in.
     ///
     /// The device's own side has it rw.
     ///
@@ -4504,7 +4504,7 @@ pub mod objects {
     /// UNSIGNED16, ro.
     /// Accessor: [`al_status_code`](super::Akd::al_status_code). Values: [`AlStatusCode`](super::types::AlStatusCode).
     ///
-    /// Why a change of state was refused; all bits of both bytes are the code
+    /// Why a change of state was refused; all bits of both bytes are the code.
     ///
     /// The device's own side has it rw.
     ///
@@ -4526,7 +4526,7 @@ pub mod objects {
     /// UNSIGNED16, ro.
     /// Accessor: [`interrupt_enable`](super::Akd::interrupt_enable). Values: [`InterruptEnable`](super::types::InterruptEnable).
     ///
-    /// Which events of the slave controller the drive has switched on, by bits that are 1; EEPROM emulation and SyncManager 2 interrupt its processor
+    /// Which events of the slave controller the drive has switched on, by bits that are 1; EEPROM emulation and SyncManager 2 interrupt its processor.
     ///
     /// The device's own side has it rw.
     ///
@@ -4548,7 +4548,7 @@ pub mod objects {
     /// UNSIGNED16, rw.
     /// Accessor: [`al_event_request`](super::Akd::al_event_request). Values: [`AlEventRequest`](super::types::AlEventRequest).
     ///
-    /// Events that the slave controller signals to the drive
+    /// Events that the slave controller signals to the drive.
     ///
     /// The device's own side has it ro.
     ///
@@ -4570,7 +4570,7 @@ pub mod objects {
     /// OCTET_STRING, rw.
     /// Accessor: [`sync_manager_0`](super::Akd::sync_manager_0).
     ///
-    /// Sync manager of the mailbox to the drive
+    /// Sync manager of the mailbox to the drive.
     ///
     /// The device's own side has it ro.
     ///
@@ -4590,7 +4590,7 @@ pub mod objects {
     /// OCTET_STRING, rw.
     /// Accessor: [`sync_manager_1`](super::Akd::sync_manager_1).
     ///
-    /// Sync manager of the mailbox from the drive
+    /// Sync manager of the mailbox from the drive.
     ///
     /// The device's own side has it ro.
     ///
@@ -4610,7 +4610,7 @@ pub mod objects {
     /// OCTET_STRING, rw.
     /// Accessor: [`sync_manager_2`](super::Akd::sync_manager_2).
     ///
-    /// Sync manager of the set-points
+    /// Sync manager of the set-points.
     ///
     /// The device's own side has it ro.
     ///
@@ -4630,7 +4630,7 @@ pub mod objects {
     /// OCTET_STRING, rw.
     /// Accessor: [`sync_manager_3`](super::Akd::sync_manager_3).
     ///
-    /// Sync manager of the actual values
+    /// Sync manager of the actual values.
     ///
     /// The device's own side has it ro.
     ///
@@ -4744,7 +4744,7 @@ pub mod objects {
     /// OCTET_STRING, rw.
     /// Accessor: [`proc_out_buffer`](super::Akd::proc_out_buffer).
     ///
-    /// Set-points from the master: 64 bytes at most, as many as the assigned PDOs have
+    /// Set-points from the master: 64 bytes at most, as many as the assigned PDOs have.
     ///
     /// The device's own side has it ro.
     ///
@@ -4764,7 +4764,7 @@ pub mod objects {
     /// OCTET_STRING, ro.
     /// Accessor: [`proc_in_buffer`](super::Akd::proc_in_buffer).
     ///
-    /// Actual values of the drive: 64 bytes at most, as many as the assigned PDOs have
+    /// Actual values of the drive: 64 bytes at most, as many as the assigned PDOs have.
     ///
     /// The device's own side has it rw.
     ///
@@ -4784,7 +4784,7 @@ pub mod objects {
     /// OCTET_STRING, rw.
     /// Accessor: [`mailbox_out_buffer`](super::Akd::mailbox_out_buffer).
     ///
-    /// Requests to the drive, of which it reads 16 bytes
+    /// Requests to the drive, of which it reads 16 bytes.
     ///
     /// The device's own side has it ro.
     ///
@@ -4806,7 +4806,7 @@ pub mod objects {
     /// OCTET_STRING, ro.
     /// Accessor: [`mailbox_in_buffer`](super::Akd::mailbox_in_buffer).
     ///
-    /// Replies of the drive, of 16 bytes
+    /// Replies of the drive, of 16 bytes.
     ///
     /// The device's own side has it rw.
     ///
@@ -4833,7 +4833,7 @@ pub mod objects {
         /// 0x1600:00, UNSIGNED8, rw, range 0 to 4.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// 0 clears the mapping
+        /// 0 clears the mapping.
         ///
         /// Manual, line 808, 933, 936, 937-939.
         pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
@@ -4891,7 +4891,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1600:00.
             ///
-            /// 0 clears the mapping
+            /// 0 clears the mapping.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -4959,7 +4959,7 @@ pub mod objects {
         /// 0x1601:00, UNSIGNED8, rw, range 0 to 4.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// 0 clears the mapping
+        /// 0 clears the mapping.
         ///
         /// Manual, line 808, 933, 936, 937-939.
         pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
@@ -5017,7 +5017,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1601:00.
             ///
-            /// 0 clears the mapping
+            /// 0 clears the mapping.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -5085,7 +5085,7 @@ pub mod objects {
         /// 0x1602:00, UNSIGNED8, rw, range 0 to 4.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// 0 clears the mapping
+        /// 0 clears the mapping.
         ///
         /// Manual, line 808, 933, 936, 937-939.
         pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
@@ -5143,7 +5143,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1602:00.
             ///
-            /// 0 clears the mapping
+            /// 0 clears the mapping.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -5211,7 +5211,7 @@ pub mod objects {
         /// 0x1603:00, UNSIGNED8, rw, range 0 to 4.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// 0 clears the mapping
+        /// 0 clears the mapping.
         ///
         /// Manual, line 808, 933, 936, 937-939.
         pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
@@ -5269,7 +5269,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1603:00.
             ///
-            /// 0 clears the mapping
+            /// 0 clears the mapping.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -5337,7 +5337,7 @@ pub mod objects {
         /// 0x1A00:00, UNSIGNED8, rw, range 0 to 4.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// 0 clears the mapping
+        /// 0 clears the mapping.
         ///
         /// Manual, line 808, 926, 929, 930-932.
         pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
@@ -5395,7 +5395,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A00:00.
             ///
-            /// 0 clears the mapping
+            /// 0 clears the mapping.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -5463,7 +5463,7 @@ pub mod objects {
         /// 0x1A01:00, UNSIGNED8, rw, range 0 to 4.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// 0 clears the mapping
+        /// 0 clears the mapping.
         ///
         /// Manual, line 808, 926, 929, 930-932.
         pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
@@ -5521,7 +5521,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A01:00.
             ///
-            /// 0 clears the mapping
+            /// 0 clears the mapping.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -5589,7 +5589,7 @@ pub mod objects {
         /// 0x1A02:00, UNSIGNED8, rw, range 0 to 4.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// 0 clears the mapping
+        /// 0 clears the mapping.
         ///
         /// Manual, line 808, 926, 929, 930-932.
         pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
@@ -5647,7 +5647,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A02:00.
             ///
-            /// 0 clears the mapping
+            /// 0 clears the mapping.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -5715,7 +5715,7 @@ pub mod objects {
         /// 0x1A03:00, UNSIGNED8, rw, range 0 to 4.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// 0 clears the mapping
+        /// 0 clears the mapping.
         ///
         /// Manual, line 808, 926, 929, 930-932.
         pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
@@ -5773,7 +5773,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A03:00.
             ///
-            /// 0 clears the mapping
+            /// 0 clears the mapping.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -5841,7 +5841,7 @@ pub mod objects {
         /// 0x1C12:00, UNSIGNED8, rw, range 0 to 4.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// 0 clears the assignment
+        /// 0 clears the assignment.
         ///
         /// Manual, line 772, 774, 811, 924, 941.
         pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
@@ -5857,7 +5857,7 @@ pub mod objects {
         /// 0x1C12:01, UNSIGNED16, rw, default 5889.
         /// Accessor: [`Accessors::pdo_1`].
         ///
-        /// The only one of a fixed mapping
+        /// The only one of a fixed mapping.
         ///
         /// Manual, line 768, 773, 809, 815, 940.
         pub const PDO_1: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object_with_default(
@@ -5906,7 +5906,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1C12:00.
             ///
-            /// 0 clears the assignment
+            /// 0 clears the assignment.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -5916,7 +5916,7 @@ pub mod objects {
             }
             /// PDO 1: 0x1C12:01.
             ///
-            /// The only one of a fixed mapping
+            /// The only one of a fixed mapping.
             ///
             /// Constant: [`PDO_1`].
             pub fn pdo_1(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
@@ -5949,7 +5949,7 @@ pub mod objects {
         /// 0x1C13:00, UNSIGNED8, rw, range 0 to 4.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// 0 clears the assignment
+        /// 0 clears the assignment.
         ///
         /// Manual, line 811, 925, 943.
         pub const NUMBER_OF_ENTRIES: super::ReadWrite<u8, rt::OnCoE> = super::ReadWriteU8OnCoE::new(
@@ -5965,7 +5965,7 @@ pub mod objects {
         /// 0x1C13:01, UNSIGNED16, rw, default 6913.
         /// Accessor: [`Accessors::pdo_1`].
         ///
-        /// The only one of a fixed mapping
+        /// The only one of a fixed mapping.
         ///
         /// Manual, line 768, 810, 815, 942.
         pub const PDO_1: super::ReadWrite<u16, rt::OnCoE> = super::ReadWriteU16OnCoE::coe_object_with_default(
@@ -6014,7 +6014,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1C13:00.
             ///
-            /// 0 clears the assignment
+            /// 0 clears the assignment.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -6024,7 +6024,7 @@ pub mod objects {
             }
             /// PDO 1: 0x1C13:01.
             ///
-            /// The only one of a fixed mapping
+            /// The only one of a fixed mapping.
             ///
             /// Constant: [`PDO_1`].
             pub fn pdo_1(&mut self) -> super::ReadWriteAccess<'_, C, u16, rt::OnCoE> {
@@ -6066,7 +6066,7 @@ pub mod objects {
     /// 0x20A0:00, INTEGER32, ro, mappable into TPDOs.
     /// Accessor: [`latch_position_rising_edge`](super::Akd::latch_position_rising_edge). Carried by [`TxPdo1B20`](super::pdo::TxPdo1B20).
     ///
-    /// Position captured on the rising edge
+    /// Position captured on the rising edge.
     ///
     /// Manual, line 998: Fronte positivo della posizione di blocco.
     pub const LATCH_POSITION_RISING_EDGE: ReadOnly<i32, rt::OnCoE> = ReadOnlyI32OnCoE::flagged_coe_object(
@@ -6210,7 +6210,7 @@ pub mod objects {
         /// 0x60C1:01, INTEGER32, rw, mappable into RPDOs.
         /// Accessor: [`Accessors::position_command_value`]. Carried by [`RxPdo1701`](super::super::pdo::RxPdo1701), [`RxPdo1720`](super::super::pdo::RxPdo1720), [`RxPdo1721`](super::super::pdo::RxPdo1721), [`RxPdo1722`](super::super::pdo::RxPdo1722), [`RxPdo1723`](super::super::pdo::RxPdo1723).
         ///
-        /// Set-point of interpolated position
+        /// Set-point of interpolated position.
         ///
         /// Manual, line 982: Valore di comando di posizione.
         pub const POSITION_COMMAND_VALUE: super::ReadWrite<i32, rt::OnCoE> = super::ReadWriteI32OnCoE::flagged_coe_object(
@@ -6226,7 +6226,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Position command value: 0x60C1:01.
             ///
-            /// Set-point of interpolated position
+            /// Set-point of interpolated position.
             ///
             /// Constant: [`POSITION_COMMAND_VALUE`]. Carried by [`RxPdo1701`](super::super::pdo::RxPdo1701), [`RxPdo1720`](super::super::pdo::RxPdo1720), [`RxPdo1721`](super::super::pdo::RxPdo1721), [`RxPdo1722`](super::super::pdo::RxPdo1722), [`RxPdo1723`](super::super::pdo::RxPdo1723).
             pub fn position_command_value(
@@ -6246,7 +6246,7 @@ pub mod objects {
         /// 0x60C2:01, UNSIGNED8, rw, stands for raw × 10^[Interpolation time index](INTERPOLATION_TIME_INDEX) s.
         /// Accessor: [`Accessors::interpolation_time_units`].
         ///
-        /// Number of units of time
+        /// Number of units of time.
         ///
         /// Manual, line 945, 1014, 1016, 1020, 1024: unità di tempo di interpolazione.
         ///
@@ -6271,7 +6271,7 @@ pub mod objects {
         /// 0x60C2:02, INTEGER8, rw.
         /// Accessor: [`Accessors::interpolation_time_index`].
         ///
-        /// Power of ten: -3 for milliseconds
+        /// Power of ten: -3 for milliseconds.
         ///
         /// Manual, line 946, 1014, 1016, 1020, 1024: indice di tempo di interpolazione.
         ///
@@ -6288,7 +6288,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Interpolation time units: 0x60C2:01.
             ///
-            /// Number of units of time
+            /// Number of units of time.
             ///
             /// Constant: [`INTERPOLATION_TIME_UNITS`].
             pub fn interpolation_time_units(
@@ -6298,7 +6298,7 @@ pub mod objects {
             }
             /// Interpolation time index: 0x60C2:02.
             ///
-            /// Power of ten: -3 for milliseconds
+            /// Power of ten: -3 for milliseconds.
             ///
             /// Constant: [`INTERPOLATION_TIME_INDEX`].
             pub fn interpolation_time_index(

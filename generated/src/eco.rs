@@ -211,7 +211,7 @@ impl<C> Eco<C> {
     }
     /// cyclic read value: bytes 16 to 19 of the image to the master.
     ///
-    /// At least 3 ms after the address
+    /// At least 3 ms after the address.
     ///
     /// Constant: [`objects::CYCLIC_READ_VALUE`].
     pub fn cyclic_read_value(
@@ -221,7 +221,7 @@ impl<C> Eco<C> {
     }
     /// cyclic read address: bytes 24 to 25 of the image from the master.
     ///
-    /// Which variable is read: 1 to 99 a parameter, 0x8000 to 0x8FFF a register
+    /// Which variable is read: 1 to 99 a parameter, 0x8000 to 0x8FFF a register.
     ///
     /// Constant: [`objects::CYCLIC_READ_ADDRESS`].
     pub fn cyclic_read_address(
@@ -231,7 +231,7 @@ impl<C> Eco<C> {
     }
     /// cyclic write address: bytes 26 to 27 of the image from the master.
     ///
-    /// Which variable is written: 1 to 99 a parameter, 0x8000 to 0x8FFF a register
+    /// Which variable is written: 1 to 99 a parameter, 0x8000 to 0x8FFF a register.
     ///
     /// Constant: [`objects::CYCLIC_WRITE_ADDRESS`].
     pub fn cyclic_write_address(
@@ -248,7 +248,7 @@ impl<C> Eco<C> {
     }
     /// control\_word: register 32768.
     ///
-    /// Commands of the vendor's own bits, which the mode of operation gives their meaning. On CANopen and EtherCAT, 0x6040 has others
+    /// Commands of the vendor's own bits, which the mode of operation gives their meaning. On CANopen and EtherCAT, 0x6040 has others.
     ///
     /// Constant: [`objects::CONTROL_WORD`]. Values: [`DriveCommand`](types::DriveCommand).
     pub fn control_word(
@@ -263,7 +263,7 @@ impl<C> Eco<C> {
     }
     /// modes\_of\_operation: 0x6060:00, register 32769.
     ///
-    /// The mode that is wanted; 0x6061 and the image show the one that is
+    /// The mode that is wanted; 0x6061 and the image show the one that is.
     ///
     /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`Mode`](types::Mode). Carried by [`Mode`](pdo::Mode).
     pub fn modes_of_operation(
@@ -278,7 +278,7 @@ impl<C> Eco<C> {
     }
     /// following\_error\_window: 0x6065:00, register 32771.
     ///
-    /// Largest distance between set-point and position. That the unit is the user's isn't said of it
+    /// Largest distance between set-point and position. That the unit is the user's isn't said of it.
     ///
     /// Constant: [`objects::FOLLOWING_ERROR_WINDOW`].
     pub fn following_error_window(
@@ -293,7 +293,7 @@ impl<C> Eco<C> {
     }
     /// following\_error\_timeout: 0x6066:00, register 32772.
     ///
-    /// How long the following error may be too large
+    /// How long the following error may be too large.
     ///
     /// Constant: [`objects::FOLLOWING_ERROR_TIMEOUT`].
     pub fn following_error_timeout(
@@ -303,7 +303,7 @@ impl<C> Eco<C> {
     }
     /// status\_word: register 32773.
     ///
-    /// The vendor's own bits. On CANopen and EtherCAT, 0x6041 has others
+    /// The vendor's own bits. On CANopen and EtherCAT, 0x6041 has others.
     ///
     /// Constant: [`objects::STATUS_WORD`]. Values: [`DriveStatus`](types::DriveStatus).
     pub fn status_word(
@@ -318,7 +318,7 @@ impl<C> Eco<C> {
     }
     /// position\_actual\_value: 0x6064:00, register 32774.
     ///
-    /// Position in user units. Before 3.00 the drive refreshes it each millisecond, so that its time is uncertain by 1 ms
+    /// Position in user units. Before 3.00 the drive refreshes it each millisecond, so that its time is uncertain by 1 ms.
     ///
     /// Constant: [`objects::POSITION_ACTUAL_VALUE`]. Carried by [`ActualPosition`](pdo::ActualPosition).
     pub fn position_actual_value(
@@ -333,7 +333,7 @@ impl<C> Eco<C> {
     }
     /// latched\_position: 0x2001:00, register 32775.
     ///
-    /// The position where the latch input rose; a bit of the status word tells a new one
+    /// The position where the latch input rose; a bit of the status word tells a new one.
     ///
     /// Constant: [`objects::LATCHED_POSITION`].
     pub fn latched_position(
@@ -348,7 +348,7 @@ impl<C> Eco<C> {
     }
     /// velocity\_actual\_value: 0x606C:00, register 32776.
     ///
-    /// Speed in user units a second
+    /// Speed in user units a second.
     ///
     /// Constant: [`objects::VELOCITY_ACTUAL_VALUE`]. Carried by [`ActualVelocity`](pdo::ActualVelocity).
     pub fn velocity_actual_value(
@@ -363,7 +363,7 @@ impl<C> Eco<C> {
     }
     /// target\_position: 0x607A:00, register 32777.
     ///
-    /// Where the positioner goes; the distance, where it is incremental
+    /// Where the positioner goes; the distance, where it is incremental.
     ///
     /// Constant: [`objects::TARGET_POSITION`]. Carried by [`Position`](pdo::Position).
     pub fn target_position(
@@ -378,7 +378,7 @@ impl<C> Eco<C> {
     }
     /// profile\_acceleration: 0x6083:00, register 32778.
     ///
-    /// Acceleration in user units a second, each millisecond
+    /// Acceleration in user units a second, each millisecond.
     ///
     /// Constant: [`objects::PROFILE_ACCELERATION`].
     pub fn profile_acceleration(
@@ -393,7 +393,7 @@ impl<C> Eco<C> {
     }
     /// profile\_deceleration: 0x6084:00, register 32779.
     ///
-    /// Deceleration in user units a second, each millisecond
+    /// Deceleration in user units a second, each millisecond.
     ///
     /// Constant: [`objects::PROFILE_DECELERATION`].
     pub fn profile_deceleration(
@@ -408,7 +408,7 @@ impl<C> Eco<C> {
     }
     /// profile\_velocity: 0x6081:00, register 32780.
     ///
-    /// Speed of positioning in user units a second
+    /// Speed of positioning in user units a second.
     ///
     /// Constant: [`objects::PROFILE_VELOCITY`].
     pub fn profile_velocity(
@@ -423,7 +423,7 @@ impl<C> Eco<C> {
     }
     /// target\_velocity: 0x60FF:00, register 32781.
     ///
-    /// Speed wanted in velocity mode
+    /// Speed wanted in velocity mode.
     ///
     /// Constant: [`objects::TARGET_VELOCITY`]. Carried by [`Velocity`](pdo::Velocity).
     pub fn target_velocity(
@@ -438,7 +438,7 @@ impl<C> Eco<C> {
     }
     /// velocity\_window: 0x606D:00, register 32782.
     ///
-    /// Largest following error of the speed
+    /// Largest following error of the speed.
     ///
     /// Constant: [`objects::VELOCITY_WINDOW`].
     pub fn velocity_window(
@@ -453,7 +453,7 @@ impl<C> Eco<C> {
     }
     /// velocity\_window\_time: 0x606E:00, register 32783.
     ///
-    /// Time of the speed's window
+    /// Time of the speed's window.
     ///
     /// Constant: [`objects::VELOCITY_WINDOW_TIME`].
     pub fn velocity_window_time(
@@ -463,7 +463,7 @@ impl<C> Eco<C> {
     }
     /// velocity\_threshold: 0x606F:00, register 32784.
     ///
-    /// What the speed is compared with
+    /// What the speed is compared with.
     ///
     /// Constant: [`objects::VELOCITY_THRESHOLD`].
     pub fn velocity_threshold(
@@ -478,7 +478,7 @@ impl<C> Eco<C> {
     }
     /// velocity\_threshold\_time: 0x6070:00, register 32785.
     ///
-    /// Time of the speed's threshold
+    /// Time of the speed's threshold.
     ///
     /// Constant: [`objects::VELOCITY_THRESHOLD_TIME`].
     pub fn velocity_threshold_time(
@@ -488,7 +488,7 @@ impl<C> Eco<C> {
     }
     /// homing\_method: 0x6098:00, register 32786.
     ///
-    /// How the axis looks for its zero
+    /// How the axis looks for its zero.
     ///
     /// Constant: [`objects::HOMING_METHOD`]. Values: [`HomingMethod`](types::HomingMethod).
     pub fn homing_method(
@@ -503,7 +503,7 @@ impl<C> Eco<C> {
     }
     /// home\_offset: 0x607C:00, register 32787.
     ///
-    /// Distance from the home position to zero: -1000 makes the position 1000 (L4265)
+    /// Distance from the home position to zero: -1000 makes the position 1000 (L4265).
     ///
     /// Constant: [`objects::HOME_OFFSET`].
     pub fn home_offset(
@@ -518,7 +518,7 @@ impl<C> Eco<C> {
     }
     /// homing\_acceleration: 0x609A:00, register 32790.
     ///
-    /// Acceleration and deceleration of homing
+    /// Acceleration and deceleration of homing.
     ///
     /// Constant: [`objects::HOMING_ACCELERATION`].
     pub fn homing_acceleration(
@@ -533,7 +533,7 @@ impl<C> Eco<C> {
     }
     /// velocity\_master\_sensor: register 32791.
     ///
-    /// Speed of the master's sensor, by its name
+    /// Speed of the master's sensor, by its name.
     ///
     /// Constant: [`objects::VELOCITY_MASTER_SENSOR`].
     pub fn velocity_master_sensor(
@@ -548,7 +548,7 @@ impl<C> Eco<C> {
     }
     /// master\_encoder\_increments: 0x3000:00, register 32792.
     ///
-    /// Pulses a turn of the master encoder, for the electric axis
+    /// Pulses a turn of the master encoder, for the electric axis.
     ///
     /// Constant: [`objects::MASTER_ENCODER_INCREMENTS`].
     pub fn master_encoder_increments(
@@ -558,7 +558,7 @@ impl<C> Eco<C> {
     }
     /// gear\_ratio\_numerator: 0x3001:00, register 32793.
     ///
-    /// Numerator of the ratio to the master, for the electric axis
+    /// Numerator of the ratio to the master, for the electric axis.
     ///
     /// Constant: [`objects::GEAR_RATIO_NUMERATOR`].
     pub fn gear_ratio_numerator(
@@ -568,7 +568,7 @@ impl<C> Eco<C> {
     }
     /// gear\_ratio\_divisor: 0x3002:00, register 32794.
     ///
-    /// Denominator of the ratio to the master, for the electric axis
+    /// Denominator of the ratio to the master, for the electric axis.
     ///
     /// Constant: [`objects::GEAR_RATIO_DIVISOR`].
     pub fn gear_ratio_divisor(
@@ -578,7 +578,7 @@ impl<C> Eco<C> {
     }
     /// motion\_profile\_type: 0x6086:00, register 32795.
     ///
-    /// Shape of the ramps
+    /// Shape of the ramps.
     ///
     /// Constant: [`objects::MOTION_PROFILE_TYPE`]. Values: [`MotionProfile`](types::MotionProfile).
     pub fn motion_profile_type(
@@ -593,7 +593,7 @@ impl<C> Eco<C> {
     }
     /// acceleration\_jerk: 0x3100:00, register 32796.
     ///
-    /// Jerk while accelerating; not every profile uses it
+    /// Jerk while accelerating; not every profile uses it.
     ///
     /// Constant: [`objects::ACCELERATION_JERK`].
     pub fn acceleration_jerk(
@@ -603,7 +603,7 @@ impl<C> Eco<C> {
     }
     /// deceleration\_jerk: 0x3101:00, register 32797.
     ///
-    /// Jerk while decelerating; not every profile uses it
+    /// Jerk while decelerating; not every profile uses it.
     ///
     /// Constant: [`objects::DECELERATION_JERK`].
     pub fn deceleration_jerk(
@@ -613,7 +613,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_1: 0x3201:00, register 32798.
     ///
-    /// For any purpose. While the input Select is high, the target of the positioner, and the speed wanted (L1713, L1740)
+    /// For any purpose. While the input Select is high, the target of the positioner, and the speed wanted (L1713, L1740).
     ///
     /// Constant: [`objects::AUX_IN_1`].
     pub fn aux_in_1(
@@ -623,7 +623,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_2: 0x3202:00, register 32799.
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Constant: [`objects::AUX_IN_2`].
     pub fn aux_in_2(
@@ -633,7 +633,7 @@ impl<C> Eco<C> {
     }
     /// aux\_out\_1: 0x3301:00, register 32800.
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Constant: [`objects::AUX_OUT_1`].
     pub fn aux_out_1(
@@ -643,7 +643,7 @@ impl<C> Eco<C> {
     }
     /// aux\_out\_2: 0x3302:00, register 32801.
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Constant: [`objects::AUX_OUT_2`].
     pub fn aux_out_2(
@@ -653,7 +653,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_3: 0x3401:00, register 32802.
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Constant: [`objects::AUX_IN_3`].
     pub fn aux_in_3(
@@ -663,7 +663,7 @@ impl<C> Eco<C> {
     }
     /// torque\_max: 0x3402:00, register 32803.
     ///
-    /// Largest torque; as an object, an input for any purpose
+    /// Largest torque; as an object, an input for any purpose.
     ///
     /// Constant: [`objects::TORQUE_MAX`].
     pub fn torque_max(
@@ -673,7 +673,7 @@ impl<C> Eco<C> {
     }
     /// aux16\_out\_3: 0x3501:00, register 32804.
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Constant: [`objects::AUX16_OUT_3`].
     pub fn aux16_out_3(
@@ -683,7 +683,7 @@ impl<C> Eco<C> {
     }
     /// aux16\_out\_4: 0x3502:00, register 32805.
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Constant: [`objects::AUX16_OUT_4`].
     pub fn aux16_out_4(
@@ -693,7 +693,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_5: 0x3601:00, register 32806.
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Constant: [`objects::AUX_IN_5`].
     pub fn aux_in_5(
@@ -703,7 +703,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_6: 0x3602:00, register 32807.
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Constant: [`objects::AUX_IN_6`].
     pub fn aux_in_6(
@@ -713,7 +713,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_7: 0x3603:00, register 32808.
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Constant: [`objects::AUX_IN_7`].
     pub fn aux_in_7(
@@ -723,7 +723,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_8: 0x3604:00, register 32809.
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Constant: [`objects::AUX_IN_8`].
     pub fn aux_in_8(
@@ -733,7 +733,7 @@ impl<C> Eco<C> {
     }
     /// aux16\_in\_9: 0x3701:00, register 32810.
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Constant: [`objects::AUX16_IN_9`].
     pub fn aux16_in_9(
@@ -743,7 +743,7 @@ impl<C> Eco<C> {
     }
     /// aux16\_in\_10: 0x3702:00, register 32811.
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Constant: [`objects::AUX16_IN_10`].
     pub fn aux16_in_10(
@@ -753,7 +753,7 @@ impl<C> Eco<C> {
     }
     /// aux16\_in\_11: 0x3703:00, register 32812.
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Constant: [`objects::AUX16_IN_11`].
     pub fn aux16_in_11(
@@ -763,7 +763,7 @@ impl<C> Eco<C> {
     }
     /// aux16\_in\_12: 0x3704:00, register 32813.
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Constant: [`objects::AUX16_IN_12`].
     pub fn aux16_in_12(
@@ -773,7 +773,7 @@ impl<C> Eco<C> {
     }
     /// alarm\_code: register 32814.
     ///
-    /// The alarm that there is; \`general\_alarms\` has the codes, and EtherCAT and PROFINET have further ones. EtherCAT shows another code in 0x603F
+    /// The alarm that there is; \`general\_alarms\` has the codes, and EtherCAT and PROFINET have further ones. EtherCAT shows another code in 0x603F.
     ///
     /// Constant: [`objects::ALARM_CODE`].
     pub fn alarm_code(
@@ -788,7 +788,7 @@ impl<C> Eco<C> {
     }
     /// digital\_inputs: 0x60FD:00, register 32816.
     ///
-    /// Levels of the inputs of connector CN2
+    /// Levels of the inputs of connector CN2.
     ///
     /// Constant: [`objects::DIGITAL_INPUTS`]. Values: [`DigitalInputs`](types::DigitalInputs).
     pub fn digital_inputs(
@@ -803,7 +803,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_13: register 32819.
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Constant: [`objects::AUX_IN_13`].
     pub fn aux_in_13(
@@ -818,7 +818,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_14: register 32820.
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Constant: [`objects::AUX_IN_14`].
     pub fn aux_in_14(
@@ -833,7 +833,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_15: register 32821.
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Constant: [`objects::AUX_IN_15`].
     pub fn aux_in_15(
@@ -848,7 +848,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_16: register 32822.
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Constant: [`objects::AUX_IN_16`].
     pub fn aux_in_16(
@@ -863,7 +863,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_17: register 32823.
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Constant: [`objects::AUX_IN_17`].
     pub fn aux_in_17(
@@ -878,7 +878,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_18: register 32824.
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Constant: [`objects::AUX_IN_18`].
     pub fn aux_in_18(
@@ -893,7 +893,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_19: register 32825.
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Constant: [`objects::AUX_IN_19`].
     pub fn aux_in_19(
@@ -908,7 +908,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_20: register 32826.
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Constant: [`objects::AUX_IN_20`].
     pub fn aux_in_20(
@@ -923,7 +923,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_21: register 32827.
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Constant: [`objects::AUX_IN_21`].
     pub fn aux_in_21(
@@ -938,7 +938,7 @@ impl<C> Eco<C> {
     }
     /// aux\_in\_22: register 32828.
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Constant: [`objects::AUX_IN_22`].
     pub fn aux_in_22(
@@ -953,7 +953,7 @@ impl<C> Eco<C> {
     }
     /// target\_window: register 32829.
     ///
-    /// How near to its target the axis has to be for the output Target, which drives have from 2.40 on, in positioning. That the unit is the user's isn't said of it
+    /// How near to its target the axis has to be for the output Target, which drives have from 2.40 on, in positioning. That the unit is the user's isn't said of it.
     ///
     /// Constant: [`objects::TARGET_WINDOW`].
     pub fn target_window(
@@ -968,7 +968,7 @@ impl<C> Eco<C> {
     }
     /// abs\_enc\_control: register 32830.
     ///
-    /// Controls the absolute encoder, by its name; no more is printed
+    /// Controls the absolute encoder, by its name; no more is printed.
     ///
     /// Constant: [`objects::ABS_ENC_CONTROL`].
     pub fn abs_enc_control(
@@ -983,7 +983,7 @@ impl<C> Eco<C> {
     }
     /// abs\_enc\_status: register 32831.
     ///
-    /// Status of the absolute encoder, by its name; no more is printed
+    /// Status of the absolute encoder, by its name; no more is printed.
     ///
     /// Constant: [`objects::ABS_ENC_STATUS`].
     pub fn abs_enc_status(
@@ -998,7 +998,7 @@ impl<C> Eco<C> {
     }
     /// num\_ext\_enc: register 32832.
     ///
-    /// Numerator for the external encoder, by its name; no more is printed
+    /// Numerator for the external encoder, by its name; no more is printed.
     ///
     /// Constant: [`objects::NUM_EXT_ENC`].
     pub fn num_ext_enc(
@@ -1013,7 +1013,7 @@ impl<C> Eco<C> {
     }
     /// den\_ext\_enc: register 32833.
     ///
-    /// Denominator for the external encoder, by its name; no more is printed
+    /// Denominator for the external encoder, by its name; no more is printed.
     ///
     /// Constant: [`objects::DEN_EXT_ENC`].
     pub fn den_ext_enc(
@@ -1028,7 +1028,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_66: register 32834.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_66`].
     pub fn mechatronic_66(
@@ -1043,7 +1043,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_67: register 32835.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_67`].
     pub fn mechatronic_67(
@@ -1058,7 +1058,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_68: register 32836.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_68`].
     pub fn mechatronic_68(
@@ -1073,7 +1073,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_69: register 32837.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_69`].
     pub fn mechatronic_69(
@@ -1088,7 +1088,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_70: register 32838.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_70`].
     pub fn mechatronic_70(
@@ -1103,7 +1103,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_71: register 32839.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_71`].
     pub fn mechatronic_71(
@@ -1118,7 +1118,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_72: register 32840.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_72`].
     pub fn mechatronic_72(
@@ -1133,7 +1133,7 @@ impl<C> Eco<C> {
     }
     /// velocity\_rpm: register 32841.
     ///
-    /// Speed in rpm
+    /// Speed in rpm.
     ///
     /// Constant: [`objects::VELOCITY_RPM`].
     pub fn velocity_rpm(
@@ -1148,7 +1148,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_74: register 32842.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_74`].
     pub fn mechatronic_74(
@@ -1163,7 +1163,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_75: register 32843.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_75`].
     pub fn mechatronic_75(
@@ -1178,7 +1178,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_76: register 32844.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_76`].
     pub fn mechatronic_76(
@@ -1193,7 +1193,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_77: register 32845.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_77`].
     pub fn mechatronic_77(
@@ -1208,7 +1208,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_78: register 32846.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_78`].
     pub fn mechatronic_78(
@@ -1223,7 +1223,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_79: register 32847.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_79`].
     pub fn mechatronic_79(
@@ -1238,7 +1238,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_80: register 32848.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_80`].
     pub fn mechatronic_80(
@@ -1253,7 +1253,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_81: register 32849.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_81`].
     pub fn mechatronic_81(
@@ -1268,7 +1268,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_82: register 32850.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_82`].
     pub fn mechatronic_82(
@@ -1283,7 +1283,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_83: register 32851.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_83`].
     pub fn mechatronic_83(
@@ -1298,7 +1298,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_84: register 32852.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_84`].
     pub fn mechatronic_84(
@@ -1313,7 +1313,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_85: register 32853.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_85`].
     pub fn mechatronic_85(
@@ -1328,7 +1328,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_86: register 32854.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_86`].
     pub fn mechatronic_86(
@@ -1343,7 +1343,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_87: register 32855.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_87`].
     pub fn mechatronic_87(
@@ -1358,7 +1358,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_88: register 32856.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_88`].
     pub fn mechatronic_88(
@@ -1373,7 +1373,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_89: register 32857.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_89`].
     pub fn mechatronic_89(
@@ -1388,7 +1388,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_90: register 32858.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_90`].
     pub fn mechatronic_90(
@@ -1403,7 +1403,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_91: register 32859.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_91`].
     pub fn mechatronic_91(
@@ -1418,7 +1418,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_92: register 32860.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_92`].
     pub fn mechatronic_92(
@@ -1433,7 +1433,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_93: register 32861.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_93`].
     pub fn mechatronic_93(
@@ -1448,7 +1448,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_94: register 32862.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_94`].
     pub fn mechatronic_94(
@@ -1463,7 +1463,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_95: register 32863.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_95`].
     pub fn mechatronic_95(
@@ -1478,7 +1478,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_96: register 32864.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_96`].
     pub fn mechatronic_96(
@@ -1493,7 +1493,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_97: register 32865.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_97`].
     pub fn mechatronic_97(
@@ -1508,7 +1508,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_98: register 32866.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_98`].
     pub fn mechatronic_98(
@@ -1523,7 +1523,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_99: register 32867.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_99`].
     pub fn mechatronic_99(
@@ -1538,7 +1538,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_100: register 32868.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_100`].
     pub fn mechatronic_100(
@@ -1553,7 +1553,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_101: register 32869.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_101`].
     pub fn mechatronic_101(
@@ -1568,7 +1568,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_102: register 32870.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_102`].
     pub fn mechatronic_102(
@@ -1583,7 +1583,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_103: register 32871.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_103`].
     pub fn mechatronic_103(
@@ -1598,7 +1598,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_104: register 32872.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_104`].
     pub fn mechatronic_104(
@@ -1613,7 +1613,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_105: register 32873.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_105`].
     pub fn mechatronic_105(
@@ -1628,7 +1628,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_106: register 32874.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_106`].
     pub fn mechatronic_106(
@@ -1643,7 +1643,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_107: register 32875.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_107`].
     pub fn mechatronic_107(
@@ -1658,7 +1658,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_108: register 32876.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_108`].
     pub fn mechatronic_108(
@@ -1673,7 +1673,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_109: register 32877.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_109`].
     pub fn mechatronic_109(
@@ -1688,7 +1688,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_110: register 32878.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_110`].
     pub fn mechatronic_110(
@@ -1703,7 +1703,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_111: register 32879.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_111`].
     pub fn mechatronic_111(
@@ -1718,7 +1718,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_112: register 32880.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_112`].
     pub fn mechatronic_112(
@@ -1733,7 +1733,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_113: register 32881.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_113`].
     pub fn mechatronic_113(
@@ -1748,7 +1748,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_114: register 32882.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_114`].
     pub fn mechatronic_114(
@@ -1763,7 +1763,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_115: register 32883.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_115`].
     pub fn mechatronic_115(
@@ -1778,7 +1778,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_116: register 32884.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_116`].
     pub fn mechatronic_116(
@@ -1793,7 +1793,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_117: register 32885.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_117`].
     pub fn mechatronic_117(
@@ -1808,7 +1808,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_118: register 32886.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_118`].
     pub fn mechatronic_118(
@@ -1823,7 +1823,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_119: register 32887.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_119`].
     pub fn mechatronic_119(
@@ -1838,7 +1838,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_120: register 32888.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_120`].
     pub fn mechatronic_120(
@@ -1853,7 +1853,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_121: register 32889.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_121`].
     pub fn mechatronic_121(
@@ -1868,7 +1868,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_122: register 32890.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_122`].
     pub fn mechatronic_122(
@@ -1883,7 +1883,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_123: register 32891.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_123`].
     pub fn mechatronic_123(
@@ -1898,7 +1898,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_124: register 32892.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_124`].
     pub fn mechatronic_124(
@@ -1913,7 +1913,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_125: register 32893.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_125`].
     pub fn mechatronic_125(
@@ -1928,7 +1928,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_126: register 32894.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_126`].
     pub fn mechatronic_126(
@@ -1943,7 +1943,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_127: register 32895.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_127`].
     pub fn mechatronic_127(
@@ -1958,7 +1958,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_128: register 32896.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_128`].
     pub fn mechatronic_128(
@@ -1973,7 +1973,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_129: register 32897.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_129`].
     pub fn mechatronic_129(
@@ -1988,7 +1988,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_130: register 32898.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_130`].
     pub fn mechatronic_130(
@@ -2003,7 +2003,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_131: register 32899.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_131`].
     pub fn mechatronic_131(
@@ -2018,7 +2018,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_132: register 32900.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_132`].
     pub fn mechatronic_132(
@@ -2033,7 +2033,7 @@ impl<C> Eco<C> {
     }
     /// mechatronic\_133: register 32901.
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Constant: [`objects::MECHATRONIC_133`].
     pub fn mechatronic_133(
@@ -2048,7 +2048,7 @@ impl<C> Eco<C> {
     }
     /// d1: register 1.
     ///
-    /// Proportional gain of the velocity loop
+    /// Proportional gain of the velocity loop.
     ///
     /// Constant: [`objects::D1`].
     pub fn d1(
@@ -2063,7 +2063,7 @@ impl<C> Eco<C> {
     }
     /// d2: register 2.
     ///
-    /// Integral gain of the velocity loop
+    /// Integral gain of the velocity loop.
     ///
     /// Constant: [`objects::D2`].
     pub fn d2(
@@ -2078,7 +2078,7 @@ impl<C> Eco<C> {
     }
     /// d3: register 3.
     ///
-    /// Greatest speed of the motor
+    /// Greatest speed of the motor.
     ///
     /// Constant: [`objects::D3`].
     pub fn d3(
@@ -2093,7 +2093,7 @@ impl<C> Eco<C> {
     }
     /// d4: register 4.
     ///
-    /// Adjusts the offset of the speed
+    /// Adjusts the offset of the speed.
     ///
     /// Constant: [`objects::D4`].
     pub fn d4(
@@ -2108,7 +2108,7 @@ impl<C> Eco<C> {
     }
     /// d5: register 5.
     ///
-    /// Greatest current of the motor
+    /// Greatest current of the motor.
     ///
     /// Constant: [`objects::D5`].
     pub fn d5(
@@ -2123,7 +2123,7 @@ impl<C> Eco<C> {
     }
     /// d6: register 6.
     ///
-    /// Ratio of peak to rated current
+    /// Ratio of peak to rated current.
     ///
     /// Constant: [`objects::D6`].
     pub fn d6(
@@ -2138,7 +2138,7 @@ impl<C> Eco<C> {
     }
     /// d7: register 7.
     ///
-    /// Sets the I²t function
+    /// Sets the I²t function.
     ///
     /// Constant: [`objects::D7`].
     pub fn d7(
@@ -2153,7 +2153,7 @@ impl<C> Eco<C> {
     }
     /// d8: register 8.
     ///
-    /// The motor: has to be chosen for the drive to work
+    /// The motor: has to be chosen for the drive to work.
     ///
     /// Constant: [`objects::D8`].
     pub fn d8(
@@ -2168,7 +2168,7 @@ impl<C> Eco<C> {
     }
     /// E1: register 9.
     ///
-    /// Greatest rated speed
+    /// Greatest rated speed.
     ///
     /// Constant: [`objects::E1`].
     pub fn e1(
@@ -2183,7 +2183,7 @@ impl<C> Eco<C> {
     }
     /// E2: register 10.
     ///
-    /// Filter of the reference input
+    /// Filter of the reference input.
     ///
     /// Constant: [`objects::E2`].
     pub fn e2(
@@ -2198,7 +2198,7 @@ impl<C> Eco<C> {
     }
     /// E3: register 58.
     ///
-    /// Exceptions from how the drive works otherwise
+    /// Exceptions from how the drive works otherwise.
     ///
     /// Constant: [`objects::E3`]. Values: [`Exceptions`](types::Exceptions).
     pub fn e3(
@@ -2213,7 +2213,7 @@ impl<C> Eco<C> {
     }
     /// E4: register 55.
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Constant: [`objects::E4`].
     pub fn e4(
@@ -2228,7 +2228,7 @@ impl<C> Eco<C> {
     }
     /// F1: register 11.
     ///
-    /// Steepest acceleration
+    /// Steepest acceleration.
     ///
     /// Constant: [`objects::F1`].
     pub fn f1(
@@ -2243,7 +2243,7 @@ impl<C> Eco<C> {
     }
     /// F2: register 12.
     ///
-    /// Steepest deceleration
+    /// Steepest deceleration.
     ///
     /// Constant: [`objects::F2`].
     pub fn f2(
@@ -2258,7 +2258,7 @@ impl<C> Eco<C> {
     }
     /// F3: register 13.
     ///
-    /// Ramp of an emergency stop
+    /// Ramp of an emergency stop.
     ///
     /// Constant: [`objects::F3`].
     pub fn f3(
@@ -2273,7 +2273,7 @@ impl<C> Eco<C> {
     }
     /// c1: register 14.
     ///
-    /// Pulses of the output RTE
+    /// Pulses of the output RTE.
     ///
     /// Constant: [`objects::C1`].
     pub fn c1(
@@ -2288,7 +2288,7 @@ impl<C> Eco<C> {
     }
     /// c2: register 15.
     ///
-    /// Direction in which the motor turns
+    /// Direction in which the motor turns.
     ///
     /// Constant: [`objects::C2`].
     pub fn c2(
@@ -2303,7 +2303,7 @@ impl<C> Eco<C> {
     }
     /// c3: register 16.
     ///
-    /// Control of speed or of torque
+    /// Control of speed or of torque.
     ///
     /// Constant: [`objects::C3`].
     pub fn c3(
@@ -2318,7 +2318,7 @@ impl<C> Eco<C> {
     }
     /// c4: register 17.
     ///
-    /// Pole pairs of the resolver
+    /// Pole pairs of the resolver.
     ///
     /// Constant: [`objects::C4`].
     pub fn c4(
@@ -2333,7 +2333,7 @@ impl<C> Eco<C> {
     }
     /// c5: register 18.
     ///
-    /// Pulses a turn of the encoder
+    /// Pulses a turn of the encoder.
     ///
     /// Constant: [`objects::C5`].
     pub fn c5(
@@ -2348,7 +2348,7 @@ impl<C> Eco<C> {
     }
     /// c6: register 19.
     ///
-    /// Kind of sensor
+    /// Kind of sensor.
     ///
     /// Constant: [`objects::C6`].
     pub fn c6(
@@ -2363,7 +2363,7 @@ impl<C> Eco<C> {
     }
     /// c7: register 20.
     ///
-    /// Number of the node: on Modbus 1 to 90, on CANopen 1 to 99; EtherCAT doesn't need it, and PROFINET has IP addresses
+    /// Number of the node: on Modbus 1 to 90, on CANopen 1 to 99; EtherCAT doesn't need it, and PROFINET has IP addresses.
     ///
     /// Constant: [`objects::C7`].
     pub fn c7(
@@ -2378,7 +2378,7 @@ impl<C> Eco<C> {
     }
     /// c8: register 21.
     ///
-    /// What the three inputs of the miniECO do; \`mini\_inputs\` has pins and functions
+    /// What the three inputs of the miniECO do; \`mini\_inputs\` has pins and functions.
     ///
     /// Constant: [`objects::C8`]. Values: [`MiniInputs`](types::MiniInputs).
     pub fn c8(
@@ -2393,7 +2393,7 @@ impl<C> Eco<C> {
     }
     /// c9: register 22.
     ///
-    /// How the drive works; some values choose a bus
+    /// How the drive works; some values choose a bus.
     ///
     /// Constant: [`objects::C9`]. Values: [`Network`](types::Network).
     pub fn c9(
@@ -2408,7 +2408,7 @@ impl<C> Eco<C> {
     }
     /// I1: register 35.
     ///
-    /// Proportional gain of the position loop
+    /// Proportional gain of the position loop.
     ///
     /// Constant: [`objects::I1`].
     pub fn i1(
@@ -2423,7 +2423,7 @@ impl<C> Eco<C> {
     }
     /// I2: register 36.
     ///
-    /// Integral gain of the position loop
+    /// Integral gain of the position loop.
     ///
     /// Constant: [`objects::I2`].
     pub fn i2(
@@ -2438,7 +2438,7 @@ impl<C> Eco<C> {
     }
     /// I3: register 37.
     ///
-    /// Derivative gain of the position loop
+    /// Derivative gain of the position loop.
     ///
     /// Constant: [`objects::I3`].
     pub fn i3(
@@ -2453,7 +2453,7 @@ impl<C> Eco<C> {
     }
     /// I4: register 38.
     ///
-    /// Compensation of inertia
+    /// Compensation of inertia.
     ///
     /// Constant: [`objects::I4`].
     pub fn i4(
@@ -2468,7 +2468,7 @@ impl<C> Eco<C> {
     }
     /// I5: register 39.
     ///
-    /// How long the position may be wrong
+    /// How long the position may be wrong.
     ///
     /// Constant: [`objects::I5`].
     pub fn i5(
@@ -2483,7 +2483,7 @@ impl<C> Eco<C> {
     }
     /// I6: register 90.
     ///
-    /// How an external encoder is used
+    /// How an external encoder is used.
     ///
     /// Constant: [`objects::I6`].
     pub fn i6(
@@ -2498,7 +2498,7 @@ impl<C> Eco<C> {
     }
     /// I7: register 99.
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Constant: [`objects::I7`].
     pub fn i7(
@@ -2513,7 +2513,7 @@ impl<C> Eco<C> {
     }
     /// O1: register 81.
     ///
-    /// Current at this moment. That it can only be read isn't said of it
+    /// Current at this moment. That it can only be read isn't said of it.
     ///
     /// Constant: [`objects::O1`].
     pub fn o1(
@@ -2528,7 +2528,7 @@ impl<C> Eco<C> {
     }
     /// O2: register 82.
     ///
-    /// Effective current. That it can only be read isn't said of it
+    /// Effective current. That it can only be read isn't said of it.
     ///
     /// Constant: [`objects::O2`].
     pub fn o2(
@@ -2543,7 +2543,7 @@ impl<C> Eco<C> {
     }
     /// O3: register 83.
     ///
-    /// Overload, of I²t. That it can only be read isn't said of it
+    /// Overload, of I²t. That it can only be read isn't said of it.
     ///
     /// Constant: [`objects::O3`].
     pub fn o3(
@@ -2558,7 +2558,7 @@ impl<C> Eco<C> {
     }
     /// P1: register 41.
     ///
-    /// Pulses a turn of the motor, hundreds: P1   100 + P2
+    /// Pulses a turn of the motor, hundreds: P1   100 + P2.
     ///
     /// Constant: [`objects::P1`]. Part of [`PULSES_PER_TURN`].
     pub fn p1(
@@ -2573,7 +2573,7 @@ impl<C> Eco<C> {
     }
     /// P2: register 42.
     ///
-    /// Pulses a turn of the motor, units: P1   100 + P2
+    /// Pulses a turn of the motor, units: P1   100 + P2.
     ///
     /// Constant: [`objects::P2`]. Part of [`PULSES_PER_TURN`].
     pub fn p2(
@@ -2588,7 +2588,7 @@ impl<C> Eco<C> {
     }
     /// P3: register 43.
     ///
-    /// Largest following error, hundreds: P3   100 + P4
+    /// Largest following error, hundreds: P3   100 + P4.
     ///
     /// Constant: [`objects::P3`]. Part of [`MAX_FOLLOWING_ERROR_P`].
     pub fn p3(
@@ -2603,7 +2603,7 @@ impl<C> Eco<C> {
     }
     /// P4: register 44.
     ///
-    /// Largest following error, units: P3   100 + P4
+    /// Largest following error, units: P3   100 + P4.
     ///
     /// Constant: [`objects::P4`]. Part of [`MAX_FOLLOWING_ERROR_P`].
     pub fn p4(
@@ -2618,7 +2618,7 @@ impl<C> Eco<C> {
     }
     /// P5: register 45.
     ///
-    /// Acceleration
+    /// Acceleration.
     ///
     /// Constant: [`objects::P5`].
     pub fn p5(
@@ -2633,7 +2633,7 @@ impl<C> Eco<C> {
     }
     /// P6: register 46.
     ///
-    /// Deceleration
+    /// Deceleration.
     ///
     /// Constant: [`objects::P6`].
     pub fn p6(
@@ -2648,7 +2648,7 @@ impl<C> Eco<C> {
     }
     /// P7: register 47.
     ///
-    /// Greatest speed
+    /// Greatest speed.
     ///
     /// Constant: [`objects::P7`].
     pub fn p7(
@@ -2663,7 +2663,7 @@ impl<C> Eco<C> {
     }
     /// A1: register 48.
     ///
-    /// Marks of the master encoder, hundreds: A1   100 + A2
+    /// Marks of the master encoder, hundreds: A1   100 + A2.
     ///
     /// Constant: [`objects::A1`]. Part of [`MASTER_ENCODER_MARKS`].
     pub fn a1(
@@ -2678,7 +2678,7 @@ impl<C> Eco<C> {
     }
     /// A2: register 49.
     ///
-    /// Marks of the master encoder, units: A1   100 + A2
+    /// Marks of the master encoder, units: A1   100 + A2.
     ///
     /// Constant: [`objects::A2`]. Part of [`MASTER_ENCODER_MARKS`].
     pub fn a2(
@@ -2693,7 +2693,7 @@ impl<C> Eco<C> {
     }
     /// A3: register 50.
     ///
-    /// Numerator of the ratio
+    /// Numerator of the ratio.
     ///
     /// Constant: [`objects::A3`].
     pub fn a3(
@@ -2708,7 +2708,7 @@ impl<C> Eco<C> {
     }
     /// A4: register 51.
     ///
-    /// Denominator of the ratio
+    /// Denominator of the ratio.
     ///
     /// Constant: [`objects::A4`].
     pub fn a4(
@@ -2723,7 +2723,7 @@ impl<C> Eco<C> {
     }
     /// A5: register 52.
     ///
-    /// Largest following error, hundreds: A5   100 + A6
+    /// Largest following error, hundreds: A5   100 + A6.
     ///
     /// Constant: [`objects::A5`]. Part of [`MAX_FOLLOWING_ERROR_A`].
     pub fn a5(
@@ -2738,7 +2738,7 @@ impl<C> Eco<C> {
     }
     /// A6: register 53.
     ///
-    /// Largest following error, units: A5   100 + A6
+    /// Largest following error, units: A5   100 + A6.
     ///
     /// Constant: [`objects::A6`]. Part of [`MAX_FOLLOWING_ERROR_A`].
     pub fn a6(
@@ -2753,7 +2753,7 @@ impl<C> Eco<C> {
     }
     /// H1: register 59.
     ///
-    /// How the axis looks for its zero
+    /// How the axis looks for its zero.
     ///
     /// Constant: [`objects::H1`].
     pub fn h1(
@@ -2768,7 +2768,7 @@ impl<C> Eco<C> {
     }
     /// H2: register 60.
     ///
-    /// Speed towards the switch, of the rated speed
+    /// Speed towards the switch, of the rated speed.
     ///
     /// Constant: [`objects::H2`].
     pub fn h2(
@@ -2783,7 +2783,7 @@ impl<C> Eco<C> {
     }
     /// H3: register 61.
     ///
-    /// Speed towards the marker, of the rated speed
+    /// Speed towards the marker, of the rated speed.
     ///
     /// Constant: [`objects::H3`].
     pub fn h3(
@@ -2798,7 +2798,7 @@ impl<C> Eco<C> {
     }
     /// H4: register 62.
     ///
-    /// Acceleration and deceleration of homing
+    /// Acceleration and deceleration of homing.
     ///
     /// Constant: [`objects::H4`].
     pub fn h4(
@@ -2813,7 +2813,7 @@ impl<C> Eco<C> {
     }
     /// H5: register 63.
     ///
-    /// Sign of the offset whose amount is H6   10000 + H7   100 + H8
+    /// Sign of the offset whose amount is H6   10000 + H7   100 + H8.
     ///
     /// Constant: [`objects::H5`]. Part of [`SPACE_OFFSET`].
     pub fn h5(
@@ -2828,7 +2828,7 @@ impl<C> Eco<C> {
     }
     /// H6: register 64.
     ///
-    /// Offset in pulses of the master encoder, ten thousands; its sign is H5
+    /// Offset in pulses of the master encoder, ten thousands; its sign is H5.
     ///
     /// Constant: [`objects::H6`]. Part of [`SPACE_OFFSET`].
     pub fn h6(
@@ -2843,7 +2843,7 @@ impl<C> Eco<C> {
     }
     /// H7: register 65.
     ///
-    /// Offset in pulses of the master encoder, hundreds; its sign is H5
+    /// Offset in pulses of the master encoder, hundreds; its sign is H5.
     ///
     /// Constant: [`objects::H7`]. Part of [`SPACE_OFFSET`].
     pub fn h7(
@@ -2858,7 +2858,7 @@ impl<C> Eco<C> {
     }
     /// H8: register 66.
     ///
-    /// Offset in pulses of the master encoder, units; its sign is H5
+    /// Offset in pulses of the master encoder, units; its sign is H5.
     ///
     /// Constant: [`objects::H8`]. Part of [`SPACE_OFFSET`].
     pub fn h8(
@@ -2873,7 +2873,7 @@ impl<C> Eco<C> {
     }
     /// H9: register 67.
     ///
-    /// Adjusts the offset by hand
+    /// Adjusts the offset by hand.
     ///
     /// Constant: [`objects::H9`].
     pub fn h9(
@@ -2888,7 +2888,7 @@ impl<C> Eco<C> {
     }
     /// n1: register 40.
     ///
-    /// Bit rate of CANopen
+    /// Bit rate of CANopen.
     ///
     /// Constant: [`objects::N1`]. Values: [`BitRate`](types::BitRate).
     pub fn n1(
@@ -2903,7 +2903,7 @@ impl<C> Eco<C> {
     }
     /// save\_to\_flash: register 14338.
     ///
-    /// Saves registers and parameters, with the torque off
+    /// Saves registers and parameters, with the torque off.
     ///
     /// Constant: [`objects::SAVE_TO_FLASH`].
     pub fn save_to_flash(
@@ -2913,7 +2913,7 @@ impl<C> Eco<C> {
     }
     /// save\_to\_flash\_32: register 14338.
     ///
-    /// The same with 32 bits, by function 16
+    /// The same with 32 bits, by function 16.
     ///
     /// Constant: [`objects::SAVE_TO_FLASH_32`].
     pub fn save_to_flash_32(
@@ -2972,7 +2972,7 @@ impl<C> Eco<C> {
     }
     /// Guard Time: 0x100C:00.
     ///
-    /// A request is answered even where its DLC is 0; before 3.00 it has to be 1
+    /// A request is answered even where its DLC is 0; before 3.00 it has to be 1.
     ///
     /// Constant: [`objects::GUARD_TIME`].
     pub fn guard_time(
@@ -2982,7 +2982,7 @@ impl<C> Eco<C> {
     }
     /// Life Time Factor: 0x100D:00.
     ///
-    /// Times Guard Time, the longest time between two requests of the master. Where it runs out, an EMCY is enabled; the drive answers again once the master asks again, and the EMCY isn't reset
+    /// Times Guard Time, the longest time between two requests of the master. Where it runs out, an EMCY is enabled; the drive answers again once the master asks again, and the EMCY isn't reset.
     ///
     /// Constant: [`objects::LIFE_TIME_FACTOR`].
     pub fn life_time_factor(
@@ -3015,7 +3015,7 @@ impl<C> Eco<C> {
     }
     /// Producer Heartbeat Time: 0x1017:00.
     ///
-    /// While it isn't 0, requests of node guarding are answered with the state, but the toggle bit doesn't change
+    /// While it isn't 0, requests of node guarding are answered with the state, but the toggle bit doesn't change.
     ///
     /// Constant: [`objects::PRODUCER_HEARTBEAT_TIME`].
     pub fn producer_heartbeat_time(
@@ -3199,7 +3199,7 @@ impl<C> Eco<C> {
     }
     /// IP Set Point 16: 0x2002:00.
     ///
-    /// Next position of the interpolator, in 16 bits: 0x60C1:1 has 32
+    /// Next position of the interpolator, in 16 bits: 0x60C1:1 has 32.
     ///
     /// Constant: [`objects::IP_SET_POINT_16`].
     pub fn ip_set_point_16(
@@ -3209,7 +3209,7 @@ impl<C> Eco<C> {
     }
     /// Position Actual Value 16: 0x2003:00.
     ///
-    /// Lower half of the position
+    /// Lower half of the position.
     ///
     /// Constant: [`objects::POSITION_ACTUAL_VALUE_16`].
     pub fn position_actual_value_16(
@@ -3219,7 +3219,7 @@ impl<C> Eco<C> {
     }
     /// Latched User Position 16: 0x2004:00.
     ///
-    /// Lower half of the latched position
+    /// Lower half of the latched position.
     ///
     /// Constant: [`objects::LATCHED_USER_POSITION_16`].
     pub fn latched_user_position_16(
@@ -3247,7 +3247,7 @@ impl<C> Eco<C> {
     }
     /// Save Parameters: 0x2007:00.
     ///
-    /// Saves registers and parameters, with the axis disabled
+    /// Saves registers and parameters, with the axis disabled.
     ///
     /// Constant: [`objects::SAVE_PARAMETERS`].
     pub fn save_parameters(&mut self) -> objects::WriteOnlyAccess<'_, C, u8, rt::OnCoE> {
@@ -3255,7 +3255,7 @@ impl<C> Eco<C> {
     }
     /// Error Codes: 0x603F:00.
     ///
-    /// Error by the code of EtherCAT; \`ethercat\_alarms\` has it for each alarm. Several alarms share one, and alarm 30 has none
+    /// Error by the code of EtherCAT; \`ethercat\_alarms\` has it for each alarm. Several alarms share one, and alarm 30 has none.
     ///
     /// Constant: [`objects::ERROR_CODES`].
     pub fn error_codes(&mut self) -> objects::ReadOnlyAccess<'_, C, u16, rt::OnCoE> {
@@ -3263,7 +3263,7 @@ impl<C> Eco<C> {
     }
     /// Controlword: 0x6040:00.
     ///
-    /// Commands of DSP 402; control\_word has the vendor's own
+    /// Commands of DSP 402; control\_word has the vendor's own.
     ///
     /// Constant: [`objects::CONTROLWORD`]. Values: [`Controlword`](types::Controlword). Carried by [`InterpolatedPosition`](pdo::InterpolatedPosition), [`Mode`](pdo::Mode), [`Position`](pdo::Position), [`Velocity`](pdo::Velocity).
     pub fn controlword(
@@ -3273,7 +3273,7 @@ impl<C> Eco<C> {
     }
     /// Statusword: 0x6041:00.
     ///
-    /// State by DSP 402; status\_word has the vendor's own
+    /// State by DSP 402; status\_word has the vendor's own.
     ///
     /// Constant: [`objects::STATUSWORD`]. Values: [`Statusword`](types::Statusword). Carried by [`Status`](pdo::Status), [`ModeDisplay`](pdo::ModeDisplay), [`ActualPosition`](pdo::ActualPosition), [`ActualVelocity`](pdo::ActualVelocity).
     pub fn statusword(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Statusword> {
@@ -3281,7 +3281,7 @@ impl<C> Eco<C> {
     }
     /// Modes Of Operation Display: 0x6061:00.
     ///
-    /// The mode that is
+    /// The mode that is.
     ///
     /// Constant: [`objects::MODES_OF_OPERATION_DISPLAY`]. Values: [`Mode`](types::Mode). Carried by [`ModeDisplay`](pdo::ModeDisplay).
     pub fn modes_of_operation_display(
@@ -3291,7 +3291,7 @@ impl<C> Eco<C> {
     }
     /// Velocity Sensor Actual Value: 0x6069:00.
     ///
-    /// Speed of a sensor with 8192 pulses a turn; that of the master axis in increments a millisecond, while bit 12 of the Controlword is set
+    /// Speed of a sensor with 8192 pulses a turn; that of the master axis in increments a millisecond, while bit 12 of the Controlword is set.
     ///
     /// Constant: [`objects::VELOCITY_SENSOR_ACTUAL_VALUE`].
     pub fn velocity_sensor_actual_value(
@@ -9033,7 +9033,7 @@ pub mod objects {
     /// Bytes 16 to 19 of the image to the master, UNSIGNED32, ro.
     /// Accessor: [`cyclic_read_value`](super::Eco::cyclic_read_value).
     ///
-    /// At least 3 ms after the address
+    /// At least 3 ms after the address.
     ///
     /// Manual, line 6137, 6303: Variable Read Value.
     pub const CYCLIC_READ_VALUE: ReadOnly<u32, rt::OnImage> = ReadOnlyU32OnImage::new(
@@ -9049,7 +9049,7 @@ pub mod objects {
     /// Bytes 24 to 25 of the image from the master, UNSIGNED16, rw.
     /// Accessor: [`cyclic_read_address`](super::Eco::cyclic_read_address).
     ///
-    /// Which variable is read: 1 to 99 a parameter, 0x8000 to 0x8FFF a register
+    /// Which variable is read: 1 to 99 a parameter, 0x8000 to 0x8FFF a register.
     ///
     /// Manual, line 6095, 6298-6304: Variable Read Address.
     pub const CYCLIC_READ_ADDRESS: ReadWrite<u16, OnImageOut> = ReadWriteU16OnImageOut::new(
@@ -9065,7 +9065,7 @@ pub mod objects {
     /// Bytes 26 to 27 of the image from the master, UNSIGNED16, rw.
     /// Accessor: [`cyclic_write_address`](super::Eco::cyclic_write_address).
     ///
-    /// Which variable is written: 1 to 99 a parameter, 0x8000 to 0x8FFF a register
+    /// Which variable is written: 1 to 99 a parameter, 0x8000 to 0x8FFF a register.
     ///
     /// Manual, line 6097, 6306-6312: Variable Write Address.
     ///
@@ -9097,7 +9097,7 @@ pub mod objects {
     /// Holding register 32768 of 32 bits, bytes 0 to 1 of the image from the master, number 0x8000 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`control_word`](super::Eco::control_word). Values: [`DriveCommand`](super::types::DriveCommand).
     ///
-    /// Commands of the vendor's own bits, which the mode of operation gives their meaning. On CANopen and EtherCAT, 0x6040 has others
+    /// Commands of the vendor's own bits, which the mode of operation gives their meaning. On CANopen and EtherCAT, 0x6040 has others.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9137,7 +9137,7 @@ pub mod objects {
     /// 0x6060:00, holding register 32769 of 32 bits, byte 2 of the image from the master, number 0x8001 behind a window on CANopen, EtherCAT, PROFINET, INTEGER8, rw, mappable into RPDOs, range \-127 to 127.
     /// Accessor: [`modes_of_operation`](super::Eco::modes_of_operation). Values: [`Mode`](super::types::Mode). Carried by [`Mode`](super::pdo::Mode).
     ///
-    /// The mode that is wanted; 0x6061 and the image show the one that is
+    /// The mode that is wanted; 0x6061 and the image show the one that is.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9202,7 +9202,7 @@ pub mod objects {
     /// 0x6065:00, holding register 32771 of 32 bits, bytes 12 to 15 of the image from the master, number 0x8003 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 4294967295, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
     /// Accessor: [`following_error_window`](super::Eco::following_error_window).
     ///
-    /// Largest distance between set-point and position. That the unit is the user's isn't said of it
+    /// Largest distance between set-point and position. That the unit is the user's isn't said of it.
     ///
     /// 4294967295 means: check off.
     ///
@@ -9233,7 +9233,7 @@ pub mod objects {
     /// 0x6066:00, holding register 32772 of 32 bits, number 0x8004 behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 8191.
     /// Accessor: [`following_error_timeout`](super::Eco::following_error_timeout).
     ///
-    /// How long the following error may be too large
+    /// How long the following error may be too large.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9256,7 +9256,7 @@ pub mod objects {
     /// Holding register 32773 of 32 bits, bytes 0 to 1 of the image to the master, number 0x8005 behind a window on CANopen, EtherCAT, UNSIGNED16, ro.
     /// Accessor: [`status_word`](super::Eco::status_word). Values: [`DriveStatus`](super::types::DriveStatus).
     ///
-    /// The vendor's own bits. On CANopen and EtherCAT, 0x6041 has others
+    /// The vendor's own bits. On CANopen and EtherCAT, 0x6041 has others.
     ///
     /// Lost at power-off.
     ///
@@ -9285,7 +9285,7 @@ pub mod objects {
     /// 0x6064:00, holding register 32774 of 32 bits, bytes 3 to 6 of the image to the master, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
     /// Accessor: [`position_actual_value`](super::Eco::position_actual_value). Carried by [`ActualPosition`](super::pdo::ActualPosition).
     ///
-    /// Position in user units. Before 3.00 the drive refreshes it each millisecond, so that its time is uncertain by 1 ms
+    /// Position in user units. Before 3.00 the drive refreshes it each millisecond, so that its time is uncertain by 1 ms.
     ///
     /// Lost at power-off.
     ///
@@ -9313,7 +9313,7 @@ pub mod objects {
     /// 0x2001:00, holding register 32775 of 32 bits, number 0x8007 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
     /// Accessor: [`latched_position`](super::Eco::latched_position).
     ///
-    /// The position where the latch input rose; a bit of the status word tells a new one
+    /// The position where the latch input rose; a bit of the status word tells a new one.
     ///
     /// Lost at power-off.
     ///
@@ -9343,7 +9343,7 @@ pub mod objects {
     /// 0x606C:00, holding register 32776 of 32 bits, bytes 20 to 23 of the image to the master, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647, stands for raw × 60 / [feed\_constant](feed_constant::FEED_CONSTANT) rpm.
     /// Accessor: [`velocity_actual_value`](super::Eco::velocity_actual_value). Carried by [`ActualVelocity`](super::pdo::ActualVelocity).
     ///
-    /// Speed in user units a second
+    /// Speed in user units a second.
     ///
     /// Lost at power-off.
     ///
@@ -9369,7 +9369,7 @@ pub mod objects {
     /// 0x607A:00, holding register 32777 of 32 bits, bytes 3 to 6 of the image from the master, number 0x8009 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
     /// Accessor: [`target_position`](super::Eco::target_position). Carried by [`Position`](super::pdo::Position).
     ///
-    /// Where the positioner goes; the distance, where it is incremental
+    /// Where the positioner goes; the distance, where it is incremental.
     ///
     /// Lost at power-off.
     ///
@@ -9401,7 +9401,7 @@ pub mod objects {
     /// 0x6083:00, holding register 32778 of 32 bits, bytes 16 to 19 of the image from the master, number 0x800A behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / [feed\_constant](feed_constant::FEED_CONSTANT) rev/s².
     /// Accessor: [`profile_acceleration`](super::Eco::profile_acceleration).
     ///
-    /// Acceleration in user units a second, each millisecond
+    /// Acceleration in user units a second, each millisecond.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9428,7 +9428,7 @@ pub mod objects {
     /// 0x6084:00, holding register 32779 of 32 bits, bytes 20 to 23 of the image from the master, number 0x800B behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / [feed\_constant](feed_constant::FEED_CONSTANT) rev/s².
     /// Accessor: [`profile_deceleration`](super::Eco::profile_deceleration).
     ///
-    /// Deceleration in user units a second, each millisecond
+    /// Deceleration in user units a second, each millisecond.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9455,7 +9455,7 @@ pub mod objects {
     /// 0x6081:00, holding register 32780 of 32 bits, bytes 8 to 11 of the image from the master, number 0x800C behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 60 / [feed\_constant](feed_constant::FEED_CONSTANT) rpm.
     /// Accessor: [`profile_velocity`](super::Eco::profile_velocity).
     ///
-    /// Speed of positioning in user units a second
+    /// Speed of positioning in user units a second.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9484,7 +9484,7 @@ pub mod objects {
     /// 0x60FF:00, holding register 32781 of 32 bits, number 0x800D behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw × 60 / [feed\_constant](feed_constant::FEED_CONSTANT) rpm.
     /// Accessor: [`target_velocity`](super::Eco::target_velocity). Carried by [`Velocity`](super::pdo::Velocity).
     ///
-    /// Speed wanted in velocity mode
+    /// Speed wanted in velocity mode.
     ///
     /// Lost at power-off.
     ///
@@ -9510,7 +9510,7 @@ pub mod objects {
     /// 0x606D:00, holding register 32782 of 32 bits, number 0x800E behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 65535.
     /// Accessor: [`velocity_window`](super::Eco::velocity_window).
     ///
-    /// Largest following error of the speed
+    /// Largest following error of the speed.
     ///
     /// 65535 means: check off.
     ///
@@ -9538,7 +9538,7 @@ pub mod objects {
     /// 0x606E:00, holding register 32783 of 32 bits, number 0x800F behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 32767.
     /// Accessor: [`velocity_window_time`](super::Eco::velocity_window_time).
     ///
-    /// Time of the speed's window
+    /// Time of the speed's window.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9561,7 +9561,7 @@ pub mod objects {
     /// 0x606F:00, holding register 32784 of 32 bits, number 0x8010 behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 65535.
     /// Accessor: [`velocity_threshold`](super::Eco::velocity_threshold).
     ///
-    /// What the speed is compared with
+    /// What the speed is compared with.
     ///
     /// 65535 means: check off.
     ///
@@ -9589,7 +9589,7 @@ pub mod objects {
     /// 0x6070:00, holding register 32785 of 32 bits, number 0x8011 behind a window on PROFINET, UNSIGNED16, rw, mappable into any PDO, range 0 to 32767.
     /// Accessor: [`velocity_threshold_time`](super::Eco::velocity_threshold_time).
     ///
-    /// Time of the speed's threshold
+    /// Time of the speed's threshold.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9612,7 +9612,7 @@ pub mod objects {
     /// 0x6098:00, holding register 32786 of 32 bits, number 0x8012 behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 0 to 255.
     /// Accessor: [`homing_method`](super::Eco::homing_method). Values: [`HomingMethod`](super::types::HomingMethod).
     ///
-    /// How the axis looks for its zero
+    /// How the axis looks for its zero.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9640,7 +9640,7 @@ pub mod objects {
     /// 0x607C:00, holding register 32787 of 32 bits, number 0x8013 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
     /// Accessor: [`home_offset`](super::Eco::home_offset).
     ///
-    /// Distance from the home position to zero: -1000 makes the position 1000 (L4265)
+    /// Distance from the home position to zero: -1000 makes the position 1000 (L4265).
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9666,7 +9666,7 @@ pub mod objects {
     /// 0x609A:00, holding register 32790 of 32 bits, number 0x8016 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 1000 / [feed\_constant](feed_constant::FEED_CONSTANT) rev/s².
     /// Accessor: [`homing_acceleration`](super::Eco::homing_acceleration).
     ///
-    /// Acceleration and deceleration of homing
+    /// Acceleration and deceleration of homing.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9692,7 +9692,7 @@ pub mod objects {
     /// Holding register 32791 of 32 bits, number 0x8017 behind a window on CANopen, EtherCAT, PROFINET, INTEGER16, ro, range \-32768 to 32767.
     /// Accessor: [`velocity_master_sensor`](super::Eco::velocity_master_sensor).
     ///
-    /// Speed of the master's sensor, by its name
+    /// Speed of the master's sensor, by its name.
     ///
     /// Lost at power-off.
     ///
@@ -9718,7 +9718,7 @@ pub mod objects {
     /// 0x3000:00, holding register 32792 of 32 bits, number 0x8018 behind a window on PROFINET, UNSIGNED16, rw, range 1 to 32767.
     /// Accessor: [`master_encoder_increments`](super::Eco::master_encoder_increments).
     ///
-    /// Pulses a turn of the master encoder, for the electric axis
+    /// Pulses a turn of the master encoder, for the electric axis.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9744,7 +9744,7 @@ pub mod objects {
     /// 0x3001:00, holding register 32793 of 32 bits, number 0x8019 behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 1 to 32.
     /// Accessor: [`gear_ratio_numerator`](super::Eco::gear_ratio_numerator).
     ///
-    /// Numerator of the ratio to the master, for the electric axis
+    /// Numerator of the ratio to the master, for the electric axis.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9767,7 +9767,7 @@ pub mod objects {
     /// 0x3002:00, holding register 32794 of 32 bits, number 0x801A behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 1 to 255.
     /// Accessor: [`gear_ratio_divisor`](super::Eco::gear_ratio_divisor).
     ///
-    /// Denominator of the ratio to the master, for the electric axis
+    /// Denominator of the ratio to the master, for the electric axis.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9790,7 +9790,7 @@ pub mod objects {
     /// 0x6086:00, holding register 32795 of 32 bits, number 0x801B behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
     /// Accessor: [`motion_profile_type`](super::Eco::motion_profile_type). Values: [`MotionProfile`](super::types::MotionProfile).
     ///
-    /// Shape of the ramps
+    /// Shape of the ramps.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9816,7 +9816,7 @@ pub mod objects {
     /// 0x3100:00, holding register 32796 of 32 bits, number 0x801C behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 1 to 99.
     /// Accessor: [`acceleration_jerk`](super::Eco::acceleration_jerk).
     ///
-    /// Jerk while accelerating; not every profile uses it
+    /// Jerk while accelerating; not every profile uses it.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9839,7 +9839,7 @@ pub mod objects {
     /// 0x3101:00, holding register 32797 of 32 bits, number 0x801D behind a window on PROFINET, UNSIGNED8, rw, mappable into any PDO, range 1 to 99.
     /// Accessor: [`deceleration_jerk`](super::Eco::deceleration_jerk).
     ///
-    /// Jerk while decelerating; not every profile uses it
+    /// Jerk while decelerating; not every profile uses it.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9862,7 +9862,7 @@ pub mod objects {
     /// 0x3201:00, holding register 32798 of 32 bits, number 0x801E behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_1`](super::Eco::aux_in_1).
     ///
-    /// For any purpose. While the input Select is high, the target of the positioner, and the speed wanted (L1713, L1740)
+    /// For any purpose. While the input Select is high, the target of the positioner, and the speed wanted (L1713, L1740).
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9887,7 +9887,7 @@ pub mod objects {
     /// 0x3202:00, holding register 32799 of 32 bits, number 0x801F behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_2`](super::Eco::aux_in_2).
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9910,7 +9910,7 @@ pub mod objects {
     /// 0x3301:00, holding register 32800 of 32 bits, number 0x8020 behind a window on PROFINET, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_out_1`](super::Eco::aux_out_1).
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9937,7 +9937,7 @@ pub mod objects {
     /// 0x3302:00, holding register 32801 of 32 bits, number 0x8021 behind a window on PROFINET, INTEGER32, ro, mappable into TPDOs, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_out_2`](super::Eco::aux_out_2).
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9964,7 +9964,7 @@ pub mod objects {
     /// 0x3401:00, holding register 32802 of 32 bits, number 0x8022 behind a window on PROFINET, INTEGER16, rw, mappable into any PDO.
     /// Accessor: [`aux_in_3`](super::Eco::aux_in_3).
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -9989,7 +9989,7 @@ pub mod objects {
     /// 0x3402:00, holding register 32803 of 32 bits, number 0x8023 behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
     /// Accessor: [`torque_max`](super::Eco::torque_max).
     ///
-    /// Largest torque; as an object, an input for any purpose
+    /// Largest torque; as an object, an input for any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10014,7 +10014,7 @@ pub mod objects {
     /// 0x3501:00, holding register 32804 of 32 bits, number 0x8024 behind a window on PROFINET, INTEGER16, ro, mappable into TPDOs, range \-32768 to 32767.
     /// Accessor: [`aux16_out_3`](super::Eco::aux16_out_3).
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10041,7 +10041,7 @@ pub mod objects {
     /// 0x3502:00, holding register 32805 of 32 bits, number 0x8025 behind a window on PROFINET, INTEGER16, ro, mappable into TPDOs, range \-32768 to 32767.
     /// Accessor: [`aux16_out_4`](super::Eco::aux16_out_4).
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10066,7 +10066,7 @@ pub mod objects {
     /// 0x3601:00, holding register 32806 of 32 bits, number 0x8026 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_5`](super::Eco::aux_in_5).
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10089,7 +10089,7 @@ pub mod objects {
     /// 0x3602:00, holding register 32807 of 32 bits, number 0x8027 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_6`](super::Eco::aux_in_6).
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10112,7 +10112,7 @@ pub mod objects {
     /// 0x3603:00, holding register 32808 of 32 bits, number 0x8028 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_7`](super::Eco::aux_in_7).
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10135,7 +10135,7 @@ pub mod objects {
     /// 0x3604:00, holding register 32809 of 32 bits, number 0x8029 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_8`](super::Eco::aux_in_8).
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10158,7 +10158,7 @@ pub mod objects {
     /// 0x3701:00, holding register 32810 of 32 bits, number 0x802A behind a window on PROFINET, INTEGER16, rw, mappable into any PDO.
     /// Accessor: [`aux16_in_9`](super::Eco::aux16_in_9).
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10183,7 +10183,7 @@ pub mod objects {
     /// 0x3702:00, holding register 32811 of 32 bits, number 0x802B behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
     /// Accessor: [`aux16_in_10`](super::Eco::aux16_in_10).
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10208,7 +10208,7 @@ pub mod objects {
     /// 0x3703:00, holding register 32812 of 32 bits, number 0x802C behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
     /// Accessor: [`aux16_in_11`](super::Eco::aux16_in_11).
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10233,7 +10233,7 @@ pub mod objects {
     /// 0x3704:00, holding register 32813 of 32 bits, number 0x802D behind a window on PROFINET, INTEGER16, rw, mappable into any PDO, range \-32768 to 32767.
     /// Accessor: [`aux16_in_12`](super::Eco::aux16_in_12).
     ///
-    /// For any purpose
+    /// For any purpose.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10256,7 +10256,7 @@ pub mod objects {
     /// Holding register 32814 of 32 bits, byte 7 of the image to the master, number 0x802E behind a window on CANopen, EtherCAT, UNSIGNED8, ro, range 0 to 255.
     /// Accessor: [`alarm_code`](super::Eco::alarm_code).
     ///
-    /// The alarm that there is; \`general\_alarms\` has the codes, and EtherCAT and PROFINET have further ones. EtherCAT shows another code in 0x603F
+    /// The alarm that there is; \`general\_alarms\` has the codes, and EtherCAT and PROFINET have further ones. EtherCAT shows another code in 0x603F.
     ///
     /// Lost at power-off.
     ///
@@ -10278,7 +10278,7 @@ pub mod objects {
     /// 0x60FD:00, holding register 32816 of 32 bits, number 0x8030 behind a window on PROFINET, UNSIGNED32, ro, mappable into TPDOs, range 0 to 4294967295.
     /// Accessor: [`digital_inputs`](super::Eco::digital_inputs). Values: [`DigitalInputs`](super::types::DigitalInputs).
     ///
-    /// Levels of the inputs of connector CN2
+    /// Levels of the inputs of connector CN2.
     ///
     /// Lost at power-off.
     ///
@@ -10311,7 +10311,7 @@ pub mod objects {
     /// Holding register 32819 of 32 bits, number 0x8033 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_13`](super::Eco::aux_in_13).
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10329,7 +10329,7 @@ pub mod objects {
     /// Holding register 32820 of 32 bits, number 0x8034 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_14`](super::Eco::aux_in_14).
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10347,7 +10347,7 @@ pub mod objects {
     /// Holding register 32821 of 32 bits, number 0x8035 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_15`](super::Eco::aux_in_15).
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10365,7 +10365,7 @@ pub mod objects {
     /// Holding register 32822 of 32 bits, number 0x8036 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_16`](super::Eco::aux_in_16).
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10383,7 +10383,7 @@ pub mod objects {
     /// Holding register 32823 of 32 bits, number 0x8037 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_17`](super::Eco::aux_in_17).
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10401,7 +10401,7 @@ pub mod objects {
     /// Holding register 32824 of 32 bits, number 0x8038 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_18`](super::Eco::aux_in_18).
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10419,7 +10419,7 @@ pub mod objects {
     /// Holding register 32825 of 32 bits, number 0x8039 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_19`](super::Eco::aux_in_19).
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10437,7 +10437,7 @@ pub mod objects {
     /// Holding register 32826 of 32 bits, number 0x803A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_20`](super::Eco::aux_in_20).
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10455,7 +10455,7 @@ pub mod objects {
     /// Holding register 32827 of 32 bits, number 0x803B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_21`](super::Eco::aux_in_21).
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10473,7 +10473,7 @@ pub mod objects {
     /// Holding register 32828 of 32 bits, number 0x803C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`aux_in_22`](super::Eco::aux_in_22).
     ///
-    /// By its name, an input as the others
+    /// By its name, an input as the others.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10491,7 +10491,7 @@ pub mod objects {
     /// Holding register 32829 of 32 bits, number 0x803D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
     /// Accessor: [`target_window`](super::Eco::target_window).
     ///
-    /// How near to its target the axis has to be for the output Target, which drives have from 2.40 on, in positioning. That the unit is the user's isn't said of it
+    /// How near to its target the axis has to be for the output Target, which drives have from 2.40 on, in positioning. That the unit is the user's isn't said of it.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10514,7 +10514,7 @@ pub mod objects {
     /// Holding register 32830 of 32 bits, number 0x803E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`abs_enc_control`](super::Eco::abs_enc_control).
     ///
-    /// Controls the absolute encoder, by its name; no more is printed
+    /// Controls the absolute encoder, by its name; no more is printed.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10535,7 +10535,7 @@ pub mod objects {
     /// Holding register 32831 of 32 bits, number 0x803F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, ro, range \-2147483648 to 2147483647.
     /// Accessor: [`abs_enc_status`](super::Eco::abs_enc_status).
     ///
-    /// Status of the absolute encoder, by its name; no more is printed
+    /// Status of the absolute encoder, by its name; no more is printed.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10558,7 +10558,7 @@ pub mod objects {
     /// Holding register 32832 of 32 bits, number 0x8040 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`num_ext_enc`](super::Eco::num_ext_enc).
     ///
-    /// Numerator for the external encoder, by its name; no more is printed
+    /// Numerator for the external encoder, by its name; no more is printed.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10579,7 +10579,7 @@ pub mod objects {
     /// Holding register 32833 of 32 bits, number 0x8041 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`den_ext_enc`](super::Eco::den_ext_enc).
     ///
-    /// Denominator for the external encoder, by its name; no more is printed
+    /// Denominator for the external encoder, by its name; no more is printed.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10600,7 +10600,7 @@ pub mod objects {
     /// Holding register 32834 of 32 bits, number 0x8042 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_66`](super::Eco::mechatronic_66).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10621,7 +10621,7 @@ pub mod objects {
     /// Holding register 32835 of 32 bits, number 0x8043 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_67`](super::Eco::mechatronic_67).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10642,7 +10642,7 @@ pub mod objects {
     /// Holding register 32836 of 32 bits, number 0x8044 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_68`](super::Eco::mechatronic_68).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10663,7 +10663,7 @@ pub mod objects {
     /// Holding register 32837 of 32 bits, number 0x8045 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_69`](super::Eco::mechatronic_69).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10684,7 +10684,7 @@ pub mod objects {
     /// Holding register 32838 of 32 bits, number 0x8046 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_70`](super::Eco::mechatronic_70).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10705,7 +10705,7 @@ pub mod objects {
     /// Holding register 32839 of 32 bits, number 0x8047 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_71`](super::Eco::mechatronic_71).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10726,7 +10726,7 @@ pub mod objects {
     /// Holding register 32840 of 32 bits, number 0x8048 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_72`](super::Eco::mechatronic_72).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10747,7 +10747,7 @@ pub mod objects {
     /// Holding register 32841 of 32 bits, number 0x8049 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, ro, range \-2147483648 to 2147483647, in rpm.
     /// Accessor: [`velocity_rpm`](super::Eco::velocity_rpm).
     ///
-    /// Speed in rpm
+    /// Speed in rpm.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10770,7 +10770,7 @@ pub mod objects {
     /// Holding register 32842 of 32 bits, number 0x804A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_74`](super::Eco::mechatronic_74).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10791,7 +10791,7 @@ pub mod objects {
     /// Holding register 32843 of 32 bits, number 0x804B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_75`](super::Eco::mechatronic_75).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10812,7 +10812,7 @@ pub mod objects {
     /// Holding register 32844 of 32 bits, number 0x804C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_76`](super::Eco::mechatronic_76).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10833,7 +10833,7 @@ pub mod objects {
     /// Holding register 32845 of 32 bits, number 0x804D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_77`](super::Eco::mechatronic_77).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10854,7 +10854,7 @@ pub mod objects {
     /// Holding register 32846 of 32 bits, number 0x804E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_78`](super::Eco::mechatronic_78).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10875,7 +10875,7 @@ pub mod objects {
     /// Holding register 32847 of 32 bits, number 0x804F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_79`](super::Eco::mechatronic_79).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10896,7 +10896,7 @@ pub mod objects {
     /// Holding register 32848 of 32 bits, number 0x8050 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_80`](super::Eco::mechatronic_80).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10917,7 +10917,7 @@ pub mod objects {
     /// Holding register 32849 of 32 bits, number 0x8051 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_81`](super::Eco::mechatronic_81).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10938,7 +10938,7 @@ pub mod objects {
     /// Holding register 32850 of 32 bits, number 0x8052 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_82`](super::Eco::mechatronic_82).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10959,7 +10959,7 @@ pub mod objects {
     /// Holding register 32851 of 32 bits, number 0x8053 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_83`](super::Eco::mechatronic_83).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -10980,7 +10980,7 @@ pub mod objects {
     /// Holding register 32852 of 32 bits, number 0x8054 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_84`](super::Eco::mechatronic_84).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11001,7 +11001,7 @@ pub mod objects {
     /// Holding register 32853 of 32 bits, number 0x8055 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_85`](super::Eco::mechatronic_85).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11022,7 +11022,7 @@ pub mod objects {
     /// Holding register 32854 of 32 bits, number 0x8056 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_86`](super::Eco::mechatronic_86).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11043,7 +11043,7 @@ pub mod objects {
     /// Holding register 32855 of 32 bits, number 0x8057 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_87`](super::Eco::mechatronic_87).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11064,7 +11064,7 @@ pub mod objects {
     /// Holding register 32856 of 32 bits, number 0x8058 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_88`](super::Eco::mechatronic_88).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11085,7 +11085,7 @@ pub mod objects {
     /// Holding register 32857 of 32 bits, number 0x8059 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_89`](super::Eco::mechatronic_89).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11106,7 +11106,7 @@ pub mod objects {
     /// Holding register 32858 of 32 bits, number 0x805A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_90`](super::Eco::mechatronic_90).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11127,7 +11127,7 @@ pub mod objects {
     /// Holding register 32859 of 32 bits, number 0x805B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_91`](super::Eco::mechatronic_91).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11148,7 +11148,7 @@ pub mod objects {
     /// Holding register 32860 of 32 bits, number 0x805C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_92`](super::Eco::mechatronic_92).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11169,7 +11169,7 @@ pub mod objects {
     /// Holding register 32861 of 32 bits, number 0x805D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_93`](super::Eco::mechatronic_93).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11190,7 +11190,7 @@ pub mod objects {
     /// Holding register 32862 of 32 bits, number 0x805E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_94`](super::Eco::mechatronic_94).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11211,7 +11211,7 @@ pub mod objects {
     /// Holding register 32863 of 32 bits, number 0x805F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_95`](super::Eco::mechatronic_95).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11232,7 +11232,7 @@ pub mod objects {
     /// Holding register 32864 of 32 bits, number 0x8060 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_96`](super::Eco::mechatronic_96).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11253,7 +11253,7 @@ pub mod objects {
     /// Holding register 32865 of 32 bits, number 0x8061 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_97`](super::Eco::mechatronic_97).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11274,7 +11274,7 @@ pub mod objects {
     /// Holding register 32866 of 32 bits, number 0x8062 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_98`](super::Eco::mechatronic_98).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11295,7 +11295,7 @@ pub mod objects {
     /// Holding register 32867 of 32 bits, number 0x8063 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_99`](super::Eco::mechatronic_99).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11316,7 +11316,7 @@ pub mod objects {
     /// Holding register 32868 of 32 bits, number 0x8064 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_100`](super::Eco::mechatronic_100).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11337,7 +11337,7 @@ pub mod objects {
     /// Holding register 32869 of 32 bits, number 0x8065 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_101`](super::Eco::mechatronic_101).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11358,7 +11358,7 @@ pub mod objects {
     /// Holding register 32870 of 32 bits, number 0x8066 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_102`](super::Eco::mechatronic_102).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11379,7 +11379,7 @@ pub mod objects {
     /// Holding register 32871 of 32 bits, number 0x8067 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_103`](super::Eco::mechatronic_103).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11400,7 +11400,7 @@ pub mod objects {
     /// Holding register 32872 of 32 bits, number 0x8068 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_104`](super::Eco::mechatronic_104).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11421,7 +11421,7 @@ pub mod objects {
     /// Holding register 32873 of 32 bits, number 0x8069 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_105`](super::Eco::mechatronic_105).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11442,7 +11442,7 @@ pub mod objects {
     /// Holding register 32874 of 32 bits, number 0x806A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_106`](super::Eco::mechatronic_106).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11463,7 +11463,7 @@ pub mod objects {
     /// Holding register 32875 of 32 bits, number 0x806B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_107`](super::Eco::mechatronic_107).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11484,7 +11484,7 @@ pub mod objects {
     /// Holding register 32876 of 32 bits, number 0x806C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_108`](super::Eco::mechatronic_108).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11505,7 +11505,7 @@ pub mod objects {
     /// Holding register 32877 of 32 bits, number 0x806D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_109`](super::Eco::mechatronic_109).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11526,7 +11526,7 @@ pub mod objects {
     /// Holding register 32878 of 32 bits, number 0x806E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_110`](super::Eco::mechatronic_110).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11547,7 +11547,7 @@ pub mod objects {
     /// Holding register 32879 of 32 bits, number 0x806F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_111`](super::Eco::mechatronic_111).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11568,7 +11568,7 @@ pub mod objects {
     /// Holding register 32880 of 32 bits, number 0x8070 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_112`](super::Eco::mechatronic_112).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11589,7 +11589,7 @@ pub mod objects {
     /// Holding register 32881 of 32 bits, number 0x8071 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_113`](super::Eco::mechatronic_113).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11610,7 +11610,7 @@ pub mod objects {
     /// Holding register 32882 of 32 bits, number 0x8072 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_114`](super::Eco::mechatronic_114).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11631,7 +11631,7 @@ pub mod objects {
     /// Holding register 32883 of 32 bits, number 0x8073 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_115`](super::Eco::mechatronic_115).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11652,7 +11652,7 @@ pub mod objects {
     /// Holding register 32884 of 32 bits, number 0x8074 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_116`](super::Eco::mechatronic_116).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11673,7 +11673,7 @@ pub mod objects {
     /// Holding register 32885 of 32 bits, number 0x8075 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_117`](super::Eco::mechatronic_117).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11694,7 +11694,7 @@ pub mod objects {
     /// Holding register 32886 of 32 bits, number 0x8076 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_118`](super::Eco::mechatronic_118).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11715,7 +11715,7 @@ pub mod objects {
     /// Holding register 32887 of 32 bits, number 0x8077 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_119`](super::Eco::mechatronic_119).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11736,7 +11736,7 @@ pub mod objects {
     /// Holding register 32888 of 32 bits, number 0x8078 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_120`](super::Eco::mechatronic_120).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11757,7 +11757,7 @@ pub mod objects {
     /// Holding register 32889 of 32 bits, number 0x8079 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_121`](super::Eco::mechatronic_121).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11778,7 +11778,7 @@ pub mod objects {
     /// Holding register 32890 of 32 bits, number 0x807A behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_122`](super::Eco::mechatronic_122).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11799,7 +11799,7 @@ pub mod objects {
     /// Holding register 32891 of 32 bits, number 0x807B behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_123`](super::Eco::mechatronic_123).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11820,7 +11820,7 @@ pub mod objects {
     /// Holding register 32892 of 32 bits, number 0x807C behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_124`](super::Eco::mechatronic_124).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11841,7 +11841,7 @@ pub mod objects {
     /// Holding register 32893 of 32 bits, number 0x807D behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_125`](super::Eco::mechatronic_125).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11862,7 +11862,7 @@ pub mod objects {
     /// Holding register 32894 of 32 bits, number 0x807E behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_126`](super::Eco::mechatronic_126).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11883,7 +11883,7 @@ pub mod objects {
     /// Holding register 32895 of 32 bits, number 0x807F behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_127`](super::Eco::mechatronic_127).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11904,7 +11904,7 @@ pub mod objects {
     /// Holding register 32896 of 32 bits, number 0x8080 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_128`](super::Eco::mechatronic_128).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11925,7 +11925,7 @@ pub mod objects {
     /// Holding register 32897 of 32 bits, number 0x8081 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_129`](super::Eco::mechatronic_129).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11946,7 +11946,7 @@ pub mod objects {
     /// Holding register 32898 of 32 bits, number 0x8082 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_130`](super::Eco::mechatronic_130).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11967,7 +11967,7 @@ pub mod objects {
     /// Holding register 32899 of 32 bits, number 0x8083 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_131`](super::Eco::mechatronic_131).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -11988,7 +11988,7 @@ pub mod objects {
     /// Holding register 32900 of 32 bits, number 0x8084 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_132`](super::Eco::mechatronic_132).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -12009,7 +12009,7 @@ pub mod objects {
     /// Holding register 32901 of 32 bits, number 0x8085 behind a window on CANopen, EtherCAT, PROFINET, INTEGER32, rw, range \-2147483648 to 2147483647.
     /// Accessor: [`mechatronic_133`](super::Eco::mechatronic_133).
     ///
-    /// Of the functions for mechatronics
+    /// Of the functions for mechatronics.
     ///
     /// Kept over power-off once save was given.
     ///
@@ -12030,7 +12030,7 @@ pub mod objects {
     /// Holding register 1, number 0x0001 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`d1`](super::Eco::d1).
     ///
-    /// Proportional gain of the velocity loop
+    /// Proportional gain of the velocity loop.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12050,7 +12050,7 @@ pub mod objects {
     /// Holding register 2, number 0x0002 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`d2`](super::Eco::d2).
     ///
-    /// Integral gain of the velocity loop
+    /// Integral gain of the velocity loop.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12068,7 +12068,7 @@ pub mod objects {
     /// Holding register 3, number 0x0003 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`d3`](super::Eco::d3).
     ///
-    /// Greatest speed of the motor
+    /// Greatest speed of the motor.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12086,7 +12086,7 @@ pub mod objects {
     /// Holding register 4, number 0x0004 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`d4`](super::Eco::d4).
     ///
-    /// Adjusts the offset of the speed
+    /// Adjusts the offset of the speed.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12104,7 +12104,7 @@ pub mod objects {
     /// Holding register 5, number 0x0005 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`d5`](super::Eco::d5).
     ///
-    /// Greatest current of the motor
+    /// Greatest current of the motor.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12122,7 +12122,7 @@ pub mod objects {
     /// Holding register 6, number 0x0006 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`d6`](super::Eco::d6).
     ///
-    /// Ratio of peak to rated current
+    /// Ratio of peak to rated current.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12140,7 +12140,7 @@ pub mod objects {
     /// Holding register 7, number 0x0007 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`d7`](super::Eco::d7).
     ///
-    /// Sets the I²t function
+    /// Sets the I²t function.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12158,7 +12158,7 @@ pub mod objects {
     /// Holding register 8, number 0x0008 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`d8`](super::Eco::d8).
     ///
-    /// The motor: has to be chosen for the drive to work
+    /// The motor: has to be chosen for the drive to work.
     ///
     /// Kept over power-off once save was given. Takes effect at: saved and switched on again.
     ///
@@ -12176,7 +12176,7 @@ pub mod objects {
     /// Holding register 9, number 0x0009 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`e1`](super::Eco::e1).
     ///
-    /// Greatest rated speed
+    /// Greatest rated speed.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12194,7 +12194,7 @@ pub mod objects {
     /// Holding register 10, number 0x000A behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`e2`](super::Eco::e2).
     ///
-    /// Filter of the reference input
+    /// Filter of the reference input.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12212,7 +12212,7 @@ pub mod objects {
     /// Holding register 58, number 0x003A behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`e3`](super::Eco::e3). Values: [`Exceptions`](super::types::Exceptions).
     ///
-    /// Exceptions from how the drive works otherwise
+    /// Exceptions from how the drive works otherwise.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12235,7 +12235,7 @@ pub mod objects {
     /// Holding register 55, number 0x0037 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`e4`](super::Eco::e4).
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12255,7 +12255,7 @@ pub mod objects {
     /// Holding register 11, number 0x000B behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`f1`](super::Eco::f1).
     ///
-    /// Steepest acceleration
+    /// Steepest acceleration.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12273,7 +12273,7 @@ pub mod objects {
     /// Holding register 12, number 0x000C behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`f2`](super::Eco::f2).
     ///
-    /// Steepest deceleration
+    /// Steepest deceleration.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12291,7 +12291,7 @@ pub mod objects {
     /// Holding register 13, number 0x000D behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`f3`](super::Eco::f3).
     ///
-    /// Ramp of an emergency stop
+    /// Ramp of an emergency stop.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12309,7 +12309,7 @@ pub mod objects {
     /// Holding register 14, number 0x000E behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`c1`](super::Eco::c1).
     ///
-    /// Pulses of the output RTE
+    /// Pulses of the output RTE.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12327,7 +12327,7 @@ pub mod objects {
     /// Holding register 15, number 0x000F behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`c2`](super::Eco::c2).
     ///
-    /// Direction in which the motor turns
+    /// Direction in which the motor turns.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12345,7 +12345,7 @@ pub mod objects {
     /// Holding register 16, number 0x0010 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`c3`](super::Eco::c3).
     ///
-    /// Control of speed or of torque
+    /// Control of speed or of torque.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12363,7 +12363,7 @@ pub mod objects {
     /// Holding register 17, number 0x0011 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`c4`](super::Eco::c4).
     ///
-    /// Pole pairs of the resolver
+    /// Pole pairs of the resolver.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12381,7 +12381,7 @@ pub mod objects {
     /// Holding register 18, number 0x0012 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`c5`](super::Eco::c5).
     ///
-    /// Pulses a turn of the encoder
+    /// Pulses a turn of the encoder.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12399,7 +12399,7 @@ pub mod objects {
     /// Holding register 19, number 0x0013 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`c6`](super::Eco::c6).
     ///
-    /// Kind of sensor
+    /// Kind of sensor.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12417,7 +12417,7 @@ pub mod objects {
     /// Holding register 20, number 0x0014 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, default 1, range 1 to 99.
     /// Accessor: [`c7`](super::Eco::c7).
     ///
-    /// Number of the node: on Modbus 1 to 90, on CANopen 1 to 99; EtherCAT doesn't need it, and PROFINET has IP addresses
+    /// Number of the node: on Modbus 1 to 90, on CANopen 1 to 99; EtherCAT doesn't need it, and PROFINET has IP addresses.
     ///
     /// Kept over power-off once save was given. Takes effect at: power cycle.
     ///
@@ -12454,7 +12454,7 @@ pub mod objects {
     /// Holding register 21, number 0x0015 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, default 6.
     /// Accessor: [`c8`](super::Eco::c8). Values: [`MiniInputs`](super::types::MiniInputs).
     ///
-    /// What the three inputs of the miniECO do; \`mini\_inputs\` has pins and functions
+    /// What the three inputs of the miniECO do; \`mini\_inputs\` has pins and functions.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12477,7 +12477,7 @@ pub mod objects {
     /// Holding register 22, number 0x0016 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`c9`](super::Eco::c9). Values: [`Network`](super::types::Network).
     ///
-    /// How the drive works; some values choose a bus
+    /// How the drive works; some values choose a bus.
     ///
     /// Kept over power-off once save was given. Takes effect at: saved and switched on again.
     ///
@@ -12500,7 +12500,7 @@ pub mod objects {
     /// Holding register 35, number 0x0023 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`i1`](super::Eco::i1).
     ///
-    /// Proportional gain of the position loop
+    /// Proportional gain of the position loop.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12518,7 +12518,7 @@ pub mod objects {
     /// Holding register 36, number 0x0024 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`i2`](super::Eco::i2).
     ///
-    /// Integral gain of the position loop
+    /// Integral gain of the position loop.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12536,7 +12536,7 @@ pub mod objects {
     /// Holding register 37, number 0x0025 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`i3`](super::Eco::i3).
     ///
-    /// Derivative gain of the position loop
+    /// Derivative gain of the position loop.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12554,7 +12554,7 @@ pub mod objects {
     /// Holding register 38, number 0x0026 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`i4`](super::Eco::i4).
     ///
-    /// Compensation of inertia
+    /// Compensation of inertia.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12572,7 +12572,7 @@ pub mod objects {
     /// Holding register 39, number 0x0027 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in 0.01 s.
     /// Accessor: [`i5`](super::Eco::i5).
     ///
-    /// How long the position may be wrong
+    /// How long the position may be wrong.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12593,7 +12593,7 @@ pub mod objects {
     /// Holding register 90, number 0x005A behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`i6`](super::Eco::i6).
     ///
-    /// How an external encoder is used
+    /// How an external encoder is used.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12611,7 +12611,7 @@ pub mod objects {
     /// Holding register 99, number 0x0063 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`i7`](super::Eco::i7).
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12631,7 +12631,7 @@ pub mod objects {
     /// Holding register 81, number 0x0051 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, ro.
     /// Accessor: [`o1`](super::Eco::o1).
     ///
-    /// Current at this moment. That it can only be read isn't said of it
+    /// Current at this moment. That it can only be read isn't said of it.
     ///
     /// Lost at power-off. Takes effect at: about 20 ms later.
     ///
@@ -12649,7 +12649,7 @@ pub mod objects {
     /// Holding register 82, number 0x0052 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, ro.
     /// Accessor: [`o2`](super::Eco::o2).
     ///
-    /// Effective current. That it can only be read isn't said of it
+    /// Effective current. That it can only be read isn't said of it.
     ///
     /// Lost at power-off. Takes effect at: about 20 ms later.
     ///
@@ -12667,7 +12667,7 @@ pub mod objects {
     /// Holding register 83, number 0x0053 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, ro, in %.
     /// Accessor: [`o3`](super::Eco::o3).
     ///
-    /// Overload, of I²t. That it can only be read isn't said of it
+    /// Overload, of I²t. That it can only be read isn't said of it.
     ///
     /// Lost at power-off. Takes effect at: about 20 ms later.
     ///
@@ -12685,7 +12685,7 @@ pub mod objects {
     /// Holding register 41, number 0x0029 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`p1`](super::Eco::p1). Part of [`PULSES_PER_TURN`](super::PULSES_PER_TURN).
     ///
-    /// Pulses a turn of the motor, hundreds: P1   100 + P2
+    /// Pulses a turn of the motor, hundreds: P1   100 + P2.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12705,7 +12705,7 @@ pub mod objects {
     /// Holding register 42, number 0x002A behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`p2`](super::Eco::p2). Part of [`PULSES_PER_TURN`](super::PULSES_PER_TURN).
     ///
-    /// Pulses a turn of the motor, units: P1   100 + P2
+    /// Pulses a turn of the motor, units: P1   100 + P2.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12725,7 +12725,7 @@ pub mod objects {
     /// Holding register 43, number 0x002B behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in 100 °.
     /// Accessor: [`p3`](super::Eco::p3). Part of [`MAX_FOLLOWING_ERROR_P`](super::MAX_FOLLOWING_ERROR_P).
     ///
-    /// Largest following error, hundreds: P3   100 + P4
+    /// Largest following error, hundreds: P3   100 + P4.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12746,7 +12746,7 @@ pub mod objects {
     /// Holding register 44, number 0x002C behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in °.
     /// Accessor: [`p4`](super::Eco::p4). Part of [`MAX_FOLLOWING_ERROR_P`](super::MAX_FOLLOWING_ERROR_P).
     ///
-    /// Largest following error, units: P3   100 + P4
+    /// Largest following error, units: P3   100 + P4.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12764,7 +12764,7 @@ pub mod objects {
     /// Holding register 45, number 0x002D behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in ms/100rpm.
     /// Accessor: [`p5`](super::Eco::p5).
     ///
-    /// Acceleration
+    /// Acceleration.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12782,7 +12782,7 @@ pub mod objects {
     /// Holding register 46, number 0x002E behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in ms/100rpm.
     /// Accessor: [`p6`](super::Eco::p6).
     ///
-    /// Deceleration
+    /// Deceleration.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12800,7 +12800,7 @@ pub mod objects {
     /// Holding register 47, number 0x002F behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in 100 rpm.
     /// Accessor: [`p7`](super::Eco::p7).
     ///
-    /// Greatest speed
+    /// Greatest speed.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12821,7 +12821,7 @@ pub mod objects {
     /// Holding register 48, number 0x0030 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`a1`](super::Eco::a1). Part of [`MASTER_ENCODER_MARKS`](super::MASTER_ENCODER_MARKS).
     ///
-    /// Marks of the master encoder, hundreds: A1   100 + A2
+    /// Marks of the master encoder, hundreds: A1   100 + A2.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12839,7 +12839,7 @@ pub mod objects {
     /// Holding register 49, number 0x0031 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`a2`](super::Eco::a2). Part of [`MASTER_ENCODER_MARKS`](super::MASTER_ENCODER_MARKS).
     ///
-    /// Marks of the master encoder, units: A1   100 + A2
+    /// Marks of the master encoder, units: A1   100 + A2.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12857,7 +12857,7 @@ pub mod objects {
     /// Holding register 50, number 0x0032 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`a3`](super::Eco::a3).
     ///
-    /// Numerator of the ratio
+    /// Numerator of the ratio.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12875,7 +12875,7 @@ pub mod objects {
     /// Holding register 51, number 0x0033 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`a4`](super::Eco::a4).
     ///
-    /// Denominator of the ratio
+    /// Denominator of the ratio.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12893,7 +12893,7 @@ pub mod objects {
     /// Holding register 52, number 0x0034 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in 100 °.
     /// Accessor: [`a5`](super::Eco::a5). Part of [`MAX_FOLLOWING_ERROR_A`](super::MAX_FOLLOWING_ERROR_A).
     ///
-    /// Largest following error, hundreds: A5   100 + A6
+    /// Largest following error, hundreds: A5   100 + A6.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12914,7 +12914,7 @@ pub mod objects {
     /// Holding register 53, number 0x0035 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in °.
     /// Accessor: [`a6`](super::Eco::a6). Part of [`MAX_FOLLOWING_ERROR_A`](super::MAX_FOLLOWING_ERROR_A).
     ///
-    /// Largest following error, units: A5   100 + A6
+    /// Largest following error, units: A5   100 + A6.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12932,7 +12932,7 @@ pub mod objects {
     /// Holding register 59, number 0x003B behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`h1`](super::Eco::h1).
     ///
-    /// How the axis looks for its zero
+    /// How the axis looks for its zero.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12950,7 +12950,7 @@ pub mod objects {
     /// Holding register 60, number 0x003C behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99, in %.
     /// Accessor: [`h2`](super::Eco::h2).
     ///
-    /// Speed towards the switch, of the rated speed
+    /// Speed towards the switch, of the rated speed.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12968,7 +12968,7 @@ pub mod objects {
     /// Holding register 61, number 0x003D behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 99 (0.1 to 9.9 %), in 0.1 %.
     /// Accessor: [`h3`](super::Eco::h3).
     ///
-    /// Speed towards the marker, of the rated speed
+    /// Speed towards the marker, of the rated speed.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -12991,7 +12991,7 @@ pub mod objects {
     /// Holding register 62, number 0x003E behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, in ms/100rpm.
     /// Accessor: [`h4`](super::Eco::h4).
     ///
-    /// Acceleration and deceleration of homing
+    /// Acceleration and deceleration of homing.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -13009,7 +13009,7 @@ pub mod objects {
     /// Holding register 63, number 0x003F behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`h5`](super::Eco::h5). Part of [`SPACE_OFFSET`](super::SPACE_OFFSET).
     ///
-    /// Sign of the offset whose amount is H6   10000 + H7   100 + H8
+    /// Sign of the offset whose amount is H6   10000 + H7   100 + H8.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -13027,7 +13027,7 @@ pub mod objects {
     /// Holding register 64, number 0x0040 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`h6`](super::Eco::h6). Part of [`SPACE_OFFSET`](super::SPACE_OFFSET).
     ///
-    /// Offset in pulses of the master encoder, ten thousands; its sign is H5
+    /// Offset in pulses of the master encoder, ten thousands; its sign is H5.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -13045,7 +13045,7 @@ pub mod objects {
     /// Holding register 65, number 0x0041 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`h7`](super::Eco::h7). Part of [`SPACE_OFFSET`](super::SPACE_OFFSET).
     ///
-    /// Offset in pulses of the master encoder, hundreds; its sign is H5
+    /// Offset in pulses of the master encoder, hundreds; its sign is H5.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -13063,7 +13063,7 @@ pub mod objects {
     /// Holding register 66, number 0x0042 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`h8`](super::Eco::h8). Part of [`SPACE_OFFSET`](super::SPACE_OFFSET).
     ///
-    /// Offset in pulses of the master encoder, units; its sign is H5
+    /// Offset in pulses of the master encoder, units; its sign is H5.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -13081,7 +13081,7 @@ pub mod objects {
     /// Holding register 67, number 0x0043 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw.
     /// Accessor: [`h9`](super::Eco::h9).
     ///
-    /// Adjusts the offset by hand
+    /// Adjusts the offset by hand.
     ///
     /// Kept over power-off once save was given. Takes effect at: about 20 ms later.
     ///
@@ -13099,7 +13099,7 @@ pub mod objects {
     /// Holding register 40, number 0x0028 behind a window on CANopen, EtherCAT, PROFINET, UNSIGNED16, rw, range 1 to 8.
     /// Accessor: [`n1`](super::Eco::n1). Values: [`BitRate`](super::types::BitRate).
     ///
-    /// Bit rate of CANopen
+    /// Bit rate of CANopen.
     ///
     /// Kept over power-off once save was given. Takes effect at: power cycle.
     ///
@@ -13123,7 +13123,7 @@ pub mod objects {
     /// Holding register 14338, UNSIGNED16, wo, one of 17.
     /// Accessor: [`save_to_flash`](super::Eco::save_to_flash).
     ///
-    /// Saves registers and parameters, with the torque off
+    /// Saves registers and parameters, with the torque off.
     ///
     /// Can be written only while [status\_word](STATUS_WORD) \& 0x1 is 0. Keeps all registers and parameters; the drive is silent for some seconds then.
     ///
@@ -13142,7 +13142,7 @@ pub mod objects {
     /// Holding registers 14338 to 14339, UNSIGNED32, wo, one of 17.
     /// Accessor: [`save_to_flash_32`](super::Eco::save_to_flash_32).
     ///
-    /// The same with 32 bits, by function 16
+    /// The same with 32 bits, by function 16.
     ///
     /// Chapter Saving on Modbus. Manual, line 1040-1045, 1610.
     ///
@@ -13281,7 +13281,7 @@ pub mod objects {
     /// 0x100C:00, UNSIGNED16, rw, in ms.
     /// Accessor: [`guard_time`](super::Eco::guard_time).
     ///
-    /// A request is answered even where its DLC is 0; before 3.00 it has to be 1
+    /// A request is answered even where its DLC is 0; before 3.00 it has to be 1.
     ///
     /// 0 means: no guarding.
     ///
@@ -13299,7 +13299,7 @@ pub mod objects {
     /// 0x100D:00, UNSIGNED8, rw.
     /// Accessor: [`life_time_factor`](super::Eco::life_time_factor).
     ///
-    /// Times Guard Time, the longest time between two requests of the master. Where it runs out, an EMCY is enabled; the drive answers again once the master asks again, and the EMCY isn't reset
+    /// Times Guard Time, the longest time between two requests of the master. Where it runs out, an EMCY is enabled; the drive answers again once the master asks again, and the EMCY isn't reset.
     ///
     /// 0 means: not watched.
     ///
@@ -13332,7 +13332,7 @@ pub mod objects {
         /// 0x1010:01, UNSIGNED32, rw.
         /// Accessor: [`Accessors::save_all_parameters`]. Values: [`StoreParameters`](super::super::types::StoreParameters).
         ///
-        /// The letters save
+        /// The letters save.
         ///
         /// Only 1702257011 can be written. Keeps all parameters of the keypad and the saved objects; while the motor is enabled, not before it is disabled.
         ///
@@ -13368,7 +13368,7 @@ pub mod objects {
             }
             /// Save All Parameters: 0x1010:01.
             ///
-            /// The letters save
+            /// The letters save.
             ///
             /// Constant: [`SAVE_ALL_PARAMETERS`]. Values: [`StoreParameters`](super::super::types::StoreParameters).
             pub fn save_all_parameters(
@@ -13408,7 +13408,7 @@ pub mod objects {
     /// 0x1017:00, UNSIGNED16, rw, in ms.
     /// Accessor: [`producer_heartbeat_time`](super::Eco::producer_heartbeat_time).
     ///
-    /// While it isn't 0, requests of node guarding are answered with the state, but the toggle bit doesn't change
+    /// While it isn't 0, requests of node guarding are answered with the state, but the toggle bit doesn't change.
     ///
     /// 0 means: no heartbeat.
     ///
@@ -13489,7 +13489,7 @@ pub mod objects {
         /// 0x1400:01, UNSIGNED32, rw, default \$NODEID+0x200.
         /// Accessor: [`Accessors::cob_id_of_rpdo_1`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         ///
-        /// Identifier of its frames; bit 31 set switches it off
+        /// Identifier of its frames; bit 31 set switches it off.
         ///
         /// Manual, line 3572, 4432-4434, 2735-2738.
         ///
@@ -13533,7 +13533,7 @@ pub mod objects {
             }
             /// COB-ID of RPDO 1: 0x1400:01.
             ///
-            /// Identifier of its frames; bit 31 set switches it off
+            /// Identifier of its frames; bit 31 set switches it off.
             ///
             /// Constant: [`COB_ID_OF_RPDO_1`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id_of_rpdo_1(
@@ -13574,7 +13574,7 @@ pub mod objects {
         /// 0x1401:01, UNSIGNED32, rw.
         /// Accessor: [`Accessors::cob_id_of_rpdo_2`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         ///
-        /// Identifier of its frames; bit 31 set switches it off
+        /// Identifier of its frames; bit 31 set switches it off.
         ///
         /// Manual, line 3581, 2735-2738.
         pub const COB_ID_OF_RPDO_2: super::ReadWrite<
@@ -13611,7 +13611,7 @@ pub mod objects {
             }
             /// COB-ID of RPDO 2: 0x1401:01.
             ///
-            /// Identifier of its frames; bit 31 set switches it off
+            /// Identifier of its frames; bit 31 set switches it off.
             ///
             /// Constant: [`COB_ID_OF_RPDO_2`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id_of_rpdo_2(
@@ -13654,7 +13654,7 @@ pub mod objects {
         /// 0x1402:01, UNSIGNED32, rw.
         /// Accessor: [`Accessors::cob_id_of_rpdo_3`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         ///
-        /// Identifier of its frames; bit 31 set switches it off
+        /// Identifier of its frames; bit 31 set switches it off.
         ///
         /// From firmware 3\.00 on.
         ///
@@ -13695,7 +13695,7 @@ pub mod objects {
             }
             /// COB-ID of RPDO 3: 0x1402:01.
             ///
-            /// Identifier of its frames; bit 31 set switches it off
+            /// Identifier of its frames; bit 31 set switches it off.
             ///
             /// Constant: [`COB_ID_OF_RPDO_3`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id_of_rpdo_3(
@@ -13738,7 +13738,7 @@ pub mod objects {
         /// 0x1403:01, UNSIGNED32, rw.
         /// Accessor: [`Accessors::cob_id_of_rpdo_4`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
         ///
-        /// Identifier of its frames; bit 31 set switches it off
+        /// Identifier of its frames; bit 31 set switches it off.
         ///
         /// From firmware 3\.00 on.
         ///
@@ -13779,7 +13779,7 @@ pub mod objects {
             }
             /// COB-ID of RPDO 4: 0x1403:01.
             ///
-            /// Identifier of its frames; bit 31 set switches it off
+            /// Identifier of its frames; bit 31 set switches it off.
             ///
             /// Constant: [`COB_ID_OF_RPDO_4`]. Values: [`ReceivePdoIdentifier`](super::super::types::ReceivePdoIdentifier).
             pub fn cob_id_of_rpdo_4(
@@ -14659,7 +14659,7 @@ pub mod objects {
         /// 0x1800:01, UNSIGNED32, rw.
         /// Accessor: [`Accessors::cob_id_of_tpdo_1`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         ///
-        /// Identifier of its frames; bit 31 set switches it off
+        /// Identifier of its frames; bit 31 set switches it off.
         ///
         /// Manual, line 3667, 2735-2738.
         pub const COB_ID_OF_TPDO_1: super::ReadWrite<
@@ -14687,7 +14687,7 @@ pub mod objects {
         /// 0x1800:03, UNSIGNED16, rw, in 100 µs.
         /// Accessor: [`Accessors::inhibit_time_of_tpdo_1`].
         ///
-        /// Least time between two PDOs
+        /// Least time between two PDOs.
         ///
         /// Manual, line 3669, 2820.
         ///
@@ -14716,7 +14716,7 @@ pub mod objects {
         /// 0x1800:05, UNSIGNED16, rw, in ms.
         /// Accessor: [`Accessors::event_timer_of_tpdo_1`].
         ///
-        /// Sends an asynchronous PDO when it runs out
+        /// Sends an asynchronous PDO when it runs out.
         ///
         /// 0 means: no timer.
         ///
@@ -14745,7 +14745,7 @@ pub mod objects {
             }
             /// COB-ID of TPDO 1: 0x1800:01.
             ///
-            /// Identifier of its frames; bit 31 set switches it off
+            /// Identifier of its frames; bit 31 set switches it off.
             ///
             /// Constant: [`COB_ID_OF_TPDO_1`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id_of_tpdo_1(
@@ -14766,7 +14766,7 @@ pub mod objects {
             }
             /// Inhibit time of TPDO 1: 0x1800:03.
             ///
-            /// Least time between two PDOs
+            /// Least time between two PDOs.
             ///
             /// Constant: [`INHIBIT_TIME_OF_TPDO_1`].
             pub fn inhibit_time_of_tpdo_1(
@@ -14783,7 +14783,7 @@ pub mod objects {
             }
             /// Event timer of TPDO 1: 0x1800:05.
             ///
-            /// Sends an asynchronous PDO when it runs out
+            /// Sends an asynchronous PDO when it runs out.
             ///
             /// Constant: [`EVENT_TIMER_OF_TPDO_1`].
             pub fn event_timer_of_tpdo_1(
@@ -14814,7 +14814,7 @@ pub mod objects {
         /// 0x1801:01, UNSIGNED32, rw.
         /// Accessor: [`Accessors::cob_id_of_tpdo_2`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         ///
-        /// Identifier of its frames; bit 31 set switches it off
+        /// Identifier of its frames; bit 31 set switches it off.
         ///
         /// Manual, line 3681, 2735-2738.
         pub const COB_ID_OF_TPDO_2: super::ReadWrite<
@@ -14842,7 +14842,7 @@ pub mod objects {
         /// 0x1801:03, UNSIGNED16, rw, in 100 µs.
         /// Accessor: [`Accessors::inhibit_time_of_tpdo_2`].
         ///
-        /// Least time between two PDOs
+        /// Least time between two PDOs.
         ///
         /// Manual, line 3683, 2820.
         pub const INHIBIT_TIME_OF_TPDO_2: super::ReadWrite<rt::Scaled<u16, 100>> = super::ReadWriteU16Times100Per1::new(
@@ -14869,7 +14869,7 @@ pub mod objects {
         /// 0x1801:05, UNSIGNED16, rw, in ms.
         /// Accessor: [`Accessors::event_timer_of_tpdo_2`].
         ///
-        /// Sends an asynchronous PDO when it runs out
+        /// Sends an asynchronous PDO when it runs out.
         ///
         /// 0 means: no timer.
         ///
@@ -14898,7 +14898,7 @@ pub mod objects {
             }
             /// COB-ID of TPDO 2: 0x1801:01.
             ///
-            /// Identifier of its frames; bit 31 set switches it off
+            /// Identifier of its frames; bit 31 set switches it off.
             ///
             /// Constant: [`COB_ID_OF_TPDO_2`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id_of_tpdo_2(
@@ -14919,7 +14919,7 @@ pub mod objects {
             }
             /// Inhibit time of TPDO 2: 0x1801:03.
             ///
-            /// Least time between two PDOs
+            /// Least time between two PDOs.
             ///
             /// Constant: [`INHIBIT_TIME_OF_TPDO_2`].
             pub fn inhibit_time_of_tpdo_2(
@@ -14936,7 +14936,7 @@ pub mod objects {
             }
             /// Event timer of TPDO 2: 0x1801:05.
             ///
-            /// Sends an asynchronous PDO when it runs out
+            /// Sends an asynchronous PDO when it runs out.
             ///
             /// Constant: [`EVENT_TIMER_OF_TPDO_2`].
             pub fn event_timer_of_tpdo_2(
@@ -14969,7 +14969,7 @@ pub mod objects {
         /// 0x1802:01, UNSIGNED32, rw.
         /// Accessor: [`Accessors::cob_id_of_tpdo_3`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         ///
-        /// Identifier of its frames; bit 31 set switches it off
+        /// Identifier of its frames; bit 31 set switches it off.
         ///
         /// From firmware 3\.00 on.
         ///
@@ -15001,7 +15001,7 @@ pub mod objects {
         /// 0x1802:03, UNSIGNED16, rw, in 100 µs.
         /// Accessor: [`Accessors::inhibit_time_of_tpdo_3`].
         ///
-        /// Least time between two PDOs
+        /// Least time between two PDOs.
         ///
         /// From firmware 3\.05 on.
         ///
@@ -15032,7 +15032,7 @@ pub mod objects {
         /// 0x1802:05, UNSIGNED16, rw, in ms.
         /// Accessor: [`Accessors::event_timer_of_tpdo_3`].
         ///
-        /// Sends an asynchronous PDO when it runs out
+        /// Sends an asynchronous PDO when it runs out.
         ///
         /// 0 means: no timer.
         ///
@@ -15063,7 +15063,7 @@ pub mod objects {
             }
             /// COB-ID of TPDO 3: 0x1802:01.
             ///
-            /// Identifier of its frames; bit 31 set switches it off
+            /// Identifier of its frames; bit 31 set switches it off.
             ///
             /// Constant: [`COB_ID_OF_TPDO_3`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id_of_tpdo_3(
@@ -15084,7 +15084,7 @@ pub mod objects {
             }
             /// Inhibit time of TPDO 3: 0x1802:03.
             ///
-            /// Least time between two PDOs
+            /// Least time between two PDOs.
             ///
             /// Constant: [`INHIBIT_TIME_OF_TPDO_3`].
             pub fn inhibit_time_of_tpdo_3(
@@ -15101,7 +15101,7 @@ pub mod objects {
             }
             /// Event timer of TPDO 3: 0x1802:05.
             ///
-            /// Sends an asynchronous PDO when it runs out
+            /// Sends an asynchronous PDO when it runs out.
             ///
             /// Constant: [`EVENT_TIMER_OF_TPDO_3`].
             pub fn event_timer_of_tpdo_3(
@@ -15134,7 +15134,7 @@ pub mod objects {
         /// 0x1803:01, UNSIGNED32, rw.
         /// Accessor: [`Accessors::cob_id_of_tpdo_4`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
         ///
-        /// Identifier of its frames; bit 31 set switches it off
+        /// Identifier of its frames; bit 31 set switches it off.
         ///
         /// From firmware 3\.00 on.
         ///
@@ -15166,7 +15166,7 @@ pub mod objects {
         /// 0x1803:03, UNSIGNED16, rw, in 100 µs.
         /// Accessor: [`Accessors::inhibit_time_of_tpdo_4`].
         ///
-        /// Least time between two PDOs
+        /// Least time between two PDOs.
         ///
         /// From firmware 3\.05 on.
         ///
@@ -15197,7 +15197,7 @@ pub mod objects {
         /// 0x1803:05, UNSIGNED16, rw, in ms.
         /// Accessor: [`Accessors::event_timer_of_tpdo_4`].
         ///
-        /// Sends an asynchronous PDO when it runs out
+        /// Sends an asynchronous PDO when it runs out.
         ///
         /// 0 means: no timer.
         ///
@@ -15228,7 +15228,7 @@ pub mod objects {
             }
             /// COB-ID of TPDO 4: 0x1803:01.
             ///
-            /// Identifier of its frames; bit 31 set switches it off
+            /// Identifier of its frames; bit 31 set switches it off.
             ///
             /// Constant: [`COB_ID_OF_TPDO_4`]. Values: [`TransmitPdoIdentifier`](super::super::types::TransmitPdoIdentifier).
             pub fn cob_id_of_tpdo_4(
@@ -15249,7 +15249,7 @@ pub mod objects {
             }
             /// Inhibit time of TPDO 4: 0x1803:03.
             ///
-            /// Least time between two PDOs
+            /// Least time between two PDOs.
             ///
             /// Constant: [`INHIBIT_TIME_OF_TPDO_4`].
             pub fn inhibit_time_of_tpdo_4(
@@ -15266,7 +15266,7 @@ pub mod objects {
             }
             /// Event timer of TPDO 4: 0x1803:05.
             ///
-            /// Sends an asynchronous PDO when it runs out
+            /// Sends an asynchronous PDO when it runs out.
             ///
             /// Constant: [`EVENT_TIMER_OF_TPDO_4`].
             pub fn event_timer_of_tpdo_4(
@@ -16340,7 +16340,7 @@ pub mod objects {
         /// 0x2000:01, UNSIGNED8, rw.
         /// Accessor: [`Accessors::parameter_write_address`].
         ///
-        /// Which parameter is written; 0 when it is done
+        /// Which parameter is written; 0 when it is done.
         ///
         /// The device clears it by itself.
         ///
@@ -16368,7 +16368,7 @@ pub mod objects {
         /// 0x2000:03, UNSIGNED8, rw.
         /// Accessor: [`Accessors::parameter_read_address`].
         ///
-        /// Which parameter is read; 0 when its value is there
+        /// Which parameter is read; 0 when its value is there.
         ///
         /// The device clears it by itself.
         ///
@@ -16403,7 +16403,7 @@ pub mod objects {
             }
             /// Parameter Write Address: 0x2000:01.
             ///
-            /// Which parameter is written; 0 when it is done
+            /// Which parameter is written; 0 when it is done.
             ///
             /// Constant: [`PARAMETER_WRITE_ADDRESS`].
             pub fn parameter_write_address(
@@ -16420,7 +16420,7 @@ pub mod objects {
             }
             /// Parameter Read Address: 0x2000:03.
             ///
-            /// Which parameter is read; 0 when its value is there
+            /// Which parameter is read; 0 when its value is there.
             ///
             /// Constant: [`PARAMETER_READ_ADDRESS`].
             pub fn parameter_read_address(
@@ -16440,7 +16440,7 @@ pub mod objects {
     /// 0x2002:00, INTEGER16, wo, mappable into RPDOs, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
     /// Accessor: [`ip_set_point_16`](super::Eco::ip_set_point_16).
     ///
-    /// Next position of the interpolator, in 16 bits: 0x60C1:1 has 32
+    /// Next position of the interpolator, in 16 bits: 0x60C1:1 has 32.
     ///
     /// Manual, line 3861, 4022-4025.
     pub const IP_SET_POINT_16: WriteOnly<rt::PerItem<i16, 1>> = WriteOnlyPerItemI16Times1Per1::new(
@@ -16456,7 +16456,7 @@ pub mod objects {
     /// 0x2003:00, INTEGER16, rw, mappable into any PDO, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
     /// Accessor: [`position_actual_value_16`](super::Eco::position_actual_value_16).
     ///
-    /// Lower half of the position
+    /// Lower half of the position.
     ///
     /// Manual, line 3862, 4027-4030.
     ///
@@ -16474,7 +16474,7 @@ pub mod objects {
     /// 0x2004:00, INTEGER16, rw, mappable into any PDO, stands for raw / [feed\_constant](feed_constant::FEED_CONSTANT) rev.
     /// Accessor: [`latched_user_position_16`](super::Eco::latched_user_position_16).
     ///
-    /// Lower half of the latched position
+    /// Lower half of the latched position.
     ///
     /// Manual, line 3863, 4032-4036.
     ///
@@ -16508,7 +16508,7 @@ pub mod objects {
         /// 0x2005:01, UNSIGNED16, rw, mappable into any PDO, one of 0, 1 to 99, 32768 to 36863.
         /// Accessor: [`Accessors::variable_read_address`].
         ///
-        /// Which variable is read; 0 when its value is there
+        /// Which variable is read; 0 when its value is there.
         ///
         /// The device clears it by itself.
         ///
@@ -16547,7 +16547,7 @@ pub mod objects {
             }
             /// Variable Read Address: 0x2005:01.
             ///
-            /// Which variable is read; 0 when its value is there
+            /// Which variable is read; 0 when its value is there.
             ///
             /// Constant: [`VARIABLE_READ_ADDRESS`].
             pub fn variable_read_address(
@@ -16583,7 +16583,7 @@ pub mod objects {
         /// 0x2006:01, UNSIGNED16, rw, mappable into any PDO, one of 0, 1 to 99, 32768 to 36863.
         /// Accessor: [`Accessors::variable_write_address`].
         ///
-        /// Which variable is written; 0 when it is done
+        /// Which variable is written; 0 when it is done.
         ///
         /// The device clears it by itself.
         ///
@@ -16624,7 +16624,7 @@ pub mod objects {
             }
             /// Variable Write Address: 0x2006:01.
             ///
-            /// Which variable is written; 0 when it is done
+            /// Which variable is written; 0 when it is done.
             ///
             /// Constant: [`VARIABLE_WRITE_ADDRESS`].
             pub fn variable_write_address(
@@ -16646,7 +16646,7 @@ pub mod objects {
     /// 0x2007:00, UNSIGNED8, wo.
     /// Accessor: [`save_parameters`](super::Eco::save_parameters).
     ///
-    /// Saves registers and parameters, with the axis disabled
+    /// Saves registers and parameters, with the axis disabled.
     ///
     /// Can be written only while [Statusword](STATUSWORD) \& 0x4 is 0. Only 17 can be written.
     ///
@@ -16666,7 +16666,7 @@ pub mod objects {
     /// 0x603F:00, UNSIGNED16, ro.
     /// Accessor: [`error_codes`](super::Eco::error_codes).
     ///
-    /// Error by the code of EtherCAT; \`ethercat\_alarms\` has it for each alarm. Several alarms share one, and alarm 30 has none
+    /// Error by the code of EtherCAT; \`ethercat\_alarms\` has it for each alarm. Several alarms share one, and alarm 30 has none.
     ///
     /// Manual, line 5679, 5866-5906.
     ///
@@ -16681,7 +16681,7 @@ pub mod objects {
     /// 0x6040:00, UNSIGNED16, rw, mappable into any PDO.
     /// Accessor: [`controlword`](super::Eco::controlword). Values: [`Controlword`](super::types::Controlword). Carried by [`InterpolatedPosition`](super::pdo::InterpolatedPosition), [`Mode`](super::pdo::Mode), [`Position`](super::pdo::Position), [`Velocity`](super::pdo::Velocity).
     ///
-    /// Commands of DSP 402; control\_word has the vendor's own
+    /// Commands of DSP 402; control\_word has the vendor's own.
     ///
     /// Manual, line 3776, 3911-3921, 4284-4289.
     pub const CONTROLWORD: ReadWrite<super::types::Controlword> = ReadWriteNamedControlword::flagged_shared_object(
@@ -16695,7 +16695,7 @@ pub mod objects {
     /// 0x6041:00, UNSIGNED16, ro, mappable into TPDOs.
     /// Accessor: [`statusword`](super::Eco::statusword). Values: [`Statusword`](super::types::Statusword). Carried by [`Status`](super::pdo::Status), [`ModeDisplay`](super::pdo::ModeDisplay), [`ActualPosition`](super::pdo::ActualPosition), [`ActualVelocity`](super::pdo::ActualVelocity).
     ///
-    /// State by DSP 402; status\_word has the vendor's own
+    /// State by DSP 402; status\_word has the vendor's own.
     ///
     /// Manual, line 3778, 3923-3939.
     pub const STATUSWORD: ReadOnly<super::types::Statusword> = ReadOnlyNamedStatusword::flagged_shared_object(
@@ -16709,7 +16709,7 @@ pub mod objects {
     /// 0x6061:00, byte 2 of the image to the master, INTEGER8, ro, mappable into TPDOs.
     /// Accessor: [`modes_of_operation_display`](super::Eco::modes_of_operation_display). Values: [`Mode`](super::types::Mode). Carried by [`ModeDisplay`](super::pdo::ModeDisplay).
     ///
-    /// The mode that is
+    /// The mode that is.
     ///
     /// Manual, line 3780, 5660, 6113.
     pub const MODES_OF_OPERATION_DISPLAY: ReadOnly<
@@ -16736,7 +16736,7 @@ pub mod objects {
     /// 0x6069:00, INTEGER32, ro, mappable into TPDOs.
     /// Accessor: [`velocity_sensor_actual_value`](super::Eco::velocity_sensor_actual_value).
     ///
-    /// Speed of a sensor with 8192 pulses a turn; that of the master axis in increments a millisecond, while bit 12 of the Controlword is set
+    /// Speed of a sensor with 8192 pulses a turn; that of the master axis in increments a millisecond, while bit 12 of the Controlword is set.
     ///
     /// Manual, line 3784, 3915-3918, 3959-3961.
     pub const VELOCITY_SENSOR_ACTUAL_VALUE: ReadOnly<i32> = ReadOnlyI32::flagged_shared_object(
@@ -16782,7 +16782,7 @@ pub mod objects {
         /// 0x6092:01, holding register 32770 of 32 bits, number 0x8002 behind a window on PROFINET, UNSIGNED32, rw, range 0 to 262143.
         /// Accessor: [`Accessors::feed_constant`].
         ///
-        /// User units a turn of the motor: the unit of positions, of speeds (u/s) and of accelerations (u/s/ms)
+        /// User units a turn of the motor: the unit of positions, of speeds (u/s) and of accelerations (u/s/ms).
         ///
         /// Kept over power-off once save was given.
         ///
@@ -16808,7 +16808,7 @@ pub mod objects {
         /// 0x6092:02, UNSIGNED32, ro, default 1, range 1 to 1.
         /// Accessor: [`Accessors::shaft_revolutions`].
         ///
-        /// Turns that the feed is for
+        /// Turns that the feed is for.
         ///
         /// Manual, line 3800, 3980.
         pub const SHAFT_REVOLUTIONS: super::ReadOnly<u32> = super::ReadOnlyU32::new(
@@ -16833,7 +16833,7 @@ pub mod objects {
             }
             /// feed\_constant: 0x6092:01, register 32770.
             ///
-            /// User units a turn of the motor: the unit of positions, of speeds (u/s) and of accelerations (u/s/ms)
+            /// User units a turn of the motor: the unit of positions, of speeds (u/s) and of accelerations (u/s/ms).
             ///
             /// Constant: [`FEED_CONSTANT`].
             pub fn feed_constant(
@@ -16848,7 +16848,7 @@ pub mod objects {
             }
             /// Shaft Revolutions: 0x6092:02.
             ///
-            /// Turns that the feed is for
+            /// Turns that the feed is for.
             ///
             /// Constant: [`SHAFT_REVOLUTIONS`].
             pub fn shaft_revolutions(&mut self) -> super::ReadOnlyAccess<'_, C, u32> {
@@ -16879,7 +16879,7 @@ pub mod objects {
         /// 0x6099:01, holding register 32788 of 32 bits, number 0x8014 behind a window on PROFINET, INTEGER32, rw, mappable into any PDO, range \-2147483648 to 2147483647, stands for raw × 60 / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rpm.
         /// Accessor: [`Accessors::homing_fast_speed`].
         ///
-        /// Speed towards the switch
+        /// Speed towards the switch.
         ///
         /// Kept over power-off once save was given.
         ///
@@ -16907,7 +16907,7 @@ pub mod objects {
         /// 0x6099:02, holding register 32789 of 32 bits, number 0x8015 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 2147483647, stands for raw × 60 / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rpm.
         /// Accessor: [`Accessors::homing_slow_speed`].
         ///
-        /// Speed towards the marker
+        /// Speed towards the marker.
         ///
         /// Kept over power-off once save was given.
         ///
@@ -16942,7 +16942,7 @@ pub mod objects {
             }
             /// homing\_fast\_speed: 0x6099:01, register 32788.
             ///
-            /// Speed towards the switch
+            /// Speed towards the switch.
             ///
             /// Constant: [`HOMING_FAST_SPEED`].
             pub fn homing_fast_speed(
@@ -16957,7 +16957,7 @@ pub mod objects {
             }
             /// homing\_slow\_speed: 0x6099:02, register 32789.
             ///
-            /// Speed towards the marker
+            /// Speed towards the marker.
             ///
             /// Constant: [`HOMING_SLOW_SPEED`].
             pub fn homing_slow_speed(
@@ -16993,7 +16993,7 @@ pub mod objects {
         /// 0x60C1:01, INTEGER32, wo, mappable into RPDOs, stands for raw / [feed\_constant](super::super::objects::feed_constant::FEED_CONSTANT) rev.
         /// Accessor: [`Accessors::position_set_point`]. Carried by [`InterpolatedPosition`](super::super::pdo::InterpolatedPosition).
         ///
-        /// Next position of the interpolator
+        /// Next position of the interpolator.
         ///
         /// Manual, line 3815, 3993, 4422, 5543.
         pub const POSITION_SET_POINT: super::WriteOnly<rt::PerItem<i32, 1>> = super::WriteOnlyPerItemI32Times1Per1::new(
@@ -17018,7 +17018,7 @@ pub mod objects {
             }
             /// Position Set-Point: 0x60C1:01.
             ///
-            /// Next position of the interpolator
+            /// Next position of the interpolator.
             ///
             /// Constant: [`POSITION_SET_POINT`]. Carried by [`InterpolatedPosition`](super::super::pdo::InterpolatedPosition).
             pub fn position_set_point(
@@ -17049,7 +17049,7 @@ pub mod objects {
         /// 0x60C2:01, holding register 32815 of 32 bits, number 0x802F behind a window on PROFINET, UNSIGNED8, rw, range 0 to 255, in ms.
         /// Accessor: [`Accessors::ip_time_units`].
         ///
-        /// Time between two set-points of the interpolator
+        /// Time between two set-points of the interpolator.
         ///
         /// Kept over power-off once save was given.
         ///
@@ -17077,7 +17077,7 @@ pub mod objects {
         /// 0x60C2:02, INTEGER8, ro.
         /// Accessor: [`Accessors::time_index`].
         ///
-        /// Power of ten of the time; its value isn't printed
+        /// Power of ten of the time; its value isn't printed.
         ///
         /// Manual, line 3827.
         pub const TIME_INDEX: super::ReadOnly<i8> = super::ReadOnlyI8::shared_object(
@@ -17099,7 +17099,7 @@ pub mod objects {
             }
             /// ip\_time\_units: 0x60C2:01, register 32815.
             ///
-            /// Time between two set-points of the interpolator
+            /// Time between two set-points of the interpolator.
             ///
             /// Constant: [`IP_TIME_UNITS`].
             pub fn ip_time_units(
@@ -17114,7 +17114,7 @@ pub mod objects {
             }
             /// Time Index: 0x60C2:02.
             ///
-            /// Power of ten of the time; its value isn't printed
+            /// Power of ten of the time; its value isn't printed.
             ///
             /// Constant: [`TIME_INDEX`].
             pub fn time_index(&mut self) -> super::ReadOnlyAccess<'_, C, i8> {
@@ -17155,7 +17155,7 @@ pub mod objects {
         /// 0x60FE:01, holding register 32818 of 32 bits, number 0x8032 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 4294967295.
         /// Accessor: [`Accessors::digital_outputs`]. Values: [`DigitalOutputs`](super::super::types::DigitalOutputs).
         ///
-        /// Levels of the outputs of connector CN2
+        /// Levels of the outputs of connector CN2.
         ///
         /// Kept over power-off once save was given.
         ///
@@ -17183,7 +17183,7 @@ pub mod objects {
         /// 0x60FE:02, holding register 32817 of 32 bits, number 0x8031 behind a window on PROFINET, UNSIGNED32, rw, mappable into any PDO, range 0 to 4294967295.
         /// Accessor: [`Accessors::digital_out_mask`]. Values: [`DigitalOutputs`](super::super::types::DigitalOutputs).
         ///
-        /// Pins that are outputs; the others aren't used
+        /// Pins that are outputs; the others aren't used.
         ///
         /// Kept over power-off once save was given.
         ///
@@ -17218,7 +17218,7 @@ pub mod objects {
             }
             /// digital\_outputs: 0x60FE:01, register 32818.
             ///
-            /// Levels of the outputs of connector CN2
+            /// Levels of the outputs of connector CN2.
             ///
             /// Constant: [`DIGITAL_OUTPUTS`]. Values: [`DigitalOutputs`](super::super::types::DigitalOutputs).
             pub fn digital_outputs(
@@ -17233,7 +17233,7 @@ pub mod objects {
             }
             /// digital\_out\_mask: 0x60FE:02, register 32817.
             ///
-            /// Pins that are outputs; the others aren't used
+            /// Pins that are outputs; the others aren't used.
             ///
             /// Constant: [`DIGITAL_OUT_MASK`]. Values: [`DigitalOutputs`](super::super::types::DigitalOutputs).
             pub fn digital_out_mask(

@@ -817,7 +817,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KP\_I: parameter 0x0100.
     ///
-    /// Proportional gain of the current controller; to be left at its default
+    /// Proportional gain of the current controller; to be left at its default.
     ///
     /// Constant: [`objects::KP_I`].
     pub fn kp_i(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
@@ -825,7 +825,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KI\_I: parameter 0x0101.
     ///
-    /// Integral gain of the current controller; to be left at its default
+    /// Integral gain of the current controller; to be left at its default.
     ///
     /// Constant: [`objects::KI_I`].
     pub fn ki_i(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 1, 100>> {
@@ -833,7 +833,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// PIMIN\_I: parameter 0x0103.
     ///
-    /// Least output of the current controller; to be left at its default
+    /// Least output of the current controller; to be left at its default.
     ///
     /// Constant: [`objects::PIMIN_I`].
     pub fn pimin_i(
@@ -843,7 +843,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// PIMAX\_I: parameter 0x0104.
     ///
-    /// Greatest output of the current controller; to be left at its default
+    /// Greatest output of the current controller; to be left at its default.
     ///
     /// Constant: [`objects::PIMAX_I`].
     pub fn pimax_i(
@@ -853,7 +853,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KP\_VEL: parameter 0x0105.
     ///
-    /// Proportional gain of the speed controller. Once the feedforward is tuned, the default should do; gains of speed are tried one at a time while jogging
+    /// Proportional gain of the speed controller. Once the feedforward is tuned, the default should do; gains of speed are tried one at a time while jogging.
     ///
     /// Constant: [`objects::KP_VEL`].
     pub fn kp_vel(
@@ -863,7 +863,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KI\_VEL: parameter 0x0106.
     ///
-    /// Integral gain of the speed controller; best not 0, and else tried as KP\_VEL
+    /// Integral gain of the speed controller; best not 0, and else tried as KP\_VEL.
     ///
     /// Constant: [`objects::KI_VEL`].
     pub fn ki_vel(
@@ -873,7 +873,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KFF\_VEL: parameter 0x0107.
     ///
-    /// Feedforward of the speed controller; best left at 100 %
+    /// Feedforward of the speed controller; best left at 100 %.
     ///
     /// Constant: [`objects::KFF_VEL`].
     pub fn kff_vel(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -881,7 +881,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// PIMIN\_VEL: parameter 0x0108.
     ///
-    /// Least output of the speed controller: it limits the torque
+    /// Least output of the speed controller: it limits the torque.
     ///
     /// Constant: [`objects::PIMIN_VEL`].
     pub fn pimin_vel(
@@ -891,7 +891,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// PIMAX\_VEL: parameter 0x0109.
     ///
-    /// Greatest output of the speed controller: it limits the torque
+    /// Greatest output of the speed controller: it limits the torque.
     ///
     /// Constant: [`objects::PIMAX_VEL`].
     pub fn pimax_vel(
@@ -901,7 +901,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KP\_POS: parameter 0x010A.
     ///
-    /// Proportional gain of the position controller
+    /// Proportional gain of the position controller.
     ///
     /// Constant: [`objects::KP_POS`].
     pub fn kp_pos(
@@ -911,7 +911,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KI\_POS: parameter 0x010B.
     ///
-    /// Integral gain of the position controller
+    /// Integral gain of the position controller.
     ///
     /// Constant: [`objects::KI_POS`].
     pub fn ki_pos(
@@ -921,7 +921,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KFF\_POS: parameter 0x010C.
     ///
-    /// Feedforward of the position controller; 50 % to 100 % are usual, tried by positionings without the feedback
+    /// Feedforward of the position controller; 50 % to 100 % are usual, tried by positionings without the feedback.
     ///
     /// Constant: [`objects::KFF_POS`].
     pub fn kff_pos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -929,7 +929,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// PIMIN\_POS: parameter 0x010D.
     ///
-    /// Least output of the position controller: it limits the speed
+    /// Least output of the position controller: it limits the speed.
     ///
     /// Constant: [`objects::PIMIN_POS`].
     pub fn pimin_pos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -937,7 +937,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// PIMAX\_POS: parameter 0x010E.
     ///
-    /// Greatest output of the position controller: it limits the speed
+    /// Greatest output of the position controller: it limits the speed.
     ///
     /// Constant: [`objects::PIMAX_POS`].
     pub fn pimax_pos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -945,7 +945,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// MAXERRORP: parameter 0x010F.
     ///
-    /// Greatest following error of the position
+    /// Greatest following error of the position.
     ///
     /// Constant: [`objects::MAXERRORP`].
     pub fn maxerrorp(
@@ -955,7 +955,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// TIM\_MAXERRORP: parameter 0x0110.
     ///
-    /// How long the following error of the position has to last for an alarm
+    /// How long the following error of the position has to last for an alarm.
     ///
     /// Constant: [`objects::TIM_MAXERRORP`].
     pub fn tim_maxerrorp(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -963,7 +963,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// MAXERRORV: parameter 0x0111.
     ///
-    /// Greatest following error of the speed
+    /// Greatest following error of the speed.
     ///
     /// Constant: [`objects::MAXERRORV`].
     pub fn maxerrorv(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -971,7 +971,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// TIM\_MAXERRORV: parameter 0x0112.
     ///
-    /// How long the following error of the speed has to last for an alarm
+    /// How long the following error of the speed has to last for an alarm.
     ///
     /// Constant: [`objects::TIM_MAXERRORV`].
     pub fn tim_maxerrorv(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -979,7 +979,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// INPOS: parameter 0x0113.
     ///
-    /// How near the target has to be for a positioning to be complete
+    /// How near the target has to be for a positioning to be complete.
     ///
     /// Constant: [`objects::INPOS`].
     pub fn inpos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -987,7 +987,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// TIM\_INPOS: parameter 0x0114.
     ///
-    /// How long the position has to be that near
+    /// How long the position has to be that near.
     ///
     /// Constant: [`objects::TIM_INPOS`].
     pub fn tim_inpos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -995,7 +995,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// MAXTORQ: parameter 0x0115.
     ///
-    /// The torque above which the motor goes to alarm, where it lasts for TIM\_MAXTORQ
+    /// The torque above which the motor goes to alarm, where it lasts for TIM\_MAXTORQ.
     ///
     /// Constant: [`objects::MAXTORQ`].
     pub fn maxtorq(
@@ -1005,7 +1005,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// TIM\_MAXTORQ: parameter 0x0116.
     ///
-    /// How long the torque has to be above MAXTORQ for an alarm
+    /// How long the torque has to be above MAXTORQ for an alarm.
     ///
     /// Constant: [`objects::TIM_MAXTORQ`].
     pub fn tim_maxtorq(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1013,7 +1013,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// VMAXPOS: parameter 0x0117.
     ///
-    /// Greatest speed of positionings
+    /// Greatest speed of positionings.
     ///
     /// Constant: [`objects::VMAXPOS`].
     pub fn vmaxpos(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1021,7 +1021,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// VMAXAZZ: parameter 0x0118.
     ///
-    /// Speed of automatic homing towards the homing switch; its sign is the direction
+    /// Speed of automatic homing towards the homing switch; its sign is the direction.
     ///
     /// Constant: [`objects::VMAXAZZ`].
     pub fn vmaxazz(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1029,7 +1029,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// AMAX: parameter 0x0119.
     ///
-    /// Acceleration of jogging and of commanded stops
+    /// Acceleration of jogging and of commanded stops.
     ///
     /// Constant: [`objects::AMAX`].
     pub fn amax(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i16, 10000>> {
@@ -1037,7 +1037,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// AMAXPOS: parameter 0x011A.
     ///
-    /// Acceleration of positionings
+    /// Acceleration of positionings.
     ///
     /// Constant: [`objects::AMAXPOS`].
     pub fn amaxpos(
@@ -1047,7 +1047,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// ORIG\_AZZ: parameter 0x011B.
     ///
-    /// The position that automatic homing gives
+    /// The position that automatic homing gives.
     ///
     /// Constant: [`objects::ORIG_AZZ`].
     pub fn orig_azz(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -1055,7 +1055,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// LOW\_SLIM: parameter 0x011C.
     ///
-    /// Lower software limit, checked where bit 0 of BIT\_A is 1
+    /// Lower software limit, checked where bit 0 of BIT\_A is 1.
     ///
     /// Constant: [`objects::LOW_SLIM`].
     pub fn low_slim(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -1063,7 +1063,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// HIGH\_SLIM: parameter 0x011D.
     ///
-    /// Upper software limit, checked where bit 0 of BIT\_A is 1
+    /// Upper software limit, checked where bit 0 of BIT\_A is 1.
     ///
     /// Constant: [`objects::HIGH_SLIM`].
     pub fn high_slim(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -1071,7 +1071,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// BIT\_A: parameter 0x011E.
     ///
-    /// Switches; no range is printed
+    /// Switches; no range is printed.
     ///
     /// Constant: [`objects::BIT_A`]. Values: [`BitA`](types::BitA).
     pub fn bit_a(&mut self) -> objects::ReadWriteAccess<'_, C, types::BitA> {
@@ -1079,7 +1079,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// ANGELETTRTACCA: parameter 0x011F.
     ///
-    /// Reserved: don't change it
+    /// Reserved: don't change it.
     ///
     /// Constant: [`objects::ANGELETTRTACCA`].
     pub fn angelettrtacca(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1087,7 +1087,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED1: parameter 0x0120.
     ///
-    /// Speed from which the feedforward against friction acts; 200 is usual
+    /// Speed from which the feedforward against friction acts; 200 is usual.
     ///
     /// Constant: [`objects::RESERVED1`].
     pub fn reserved1(
@@ -1097,7 +1097,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED2: parameter 0x0121.
     ///
-    /// Torque against friction: as much as lets the axis, jogging, be pushed on with little force, and stop when it isn't
+    /// Torque against friction: as much as lets the axis, jogging, be pushed on with little force, and stop when it isn't.
     ///
     /// Constant: [`objects::RESERVED2`].
     pub fn reserved2(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1105,7 +1105,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED3: parameter 0x0122.
     ///
-    /// Feedforward in proportion to the speed: raised by 100 until the speed while jogging is the wanted one
+    /// Feedforward in proportion to the speed: raised by 100 until the speed while jogging is the wanted one.
     ///
     /// Constant: [`objects::RESERVED3`].
     pub fn reserved3(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1113,7 +1113,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED4: parameter 0x0123.
     ///
-    /// Feedforward while the speed changes: raised by 2 until real and theoretical speed are the same on the ramps
+    /// Feedforward while the speed changes: raised by 2 until real and theoretical speed are the same on the ramps.
     ///
     /// Constant: [`objects::RESERVED4`].
     pub fn reserved4(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1121,7 +1121,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED5: parameter 0x0124.
     ///
-    /// Reserved; neither size nor default is printed
+    /// Reserved; neither size nor default is printed.
     ///
     /// Constant: [`objects::RESERVED5`].
     pub fn reserved5(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
@@ -1129,7 +1129,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED6: parameter 0x0125.
     ///
-    /// Reserved; neither size nor default is printed
+    /// Reserved; neither size nor default is printed.
     ///
     /// Constant: [`objects::RESERVED6`].
     pub fn reserved6(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
@@ -1137,7 +1137,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED7: parameter 0x0126.
     ///
-    /// Reserved; neither size nor default is printed
+    /// Reserved; neither size nor default is printed.
     ///
     /// Constant: [`objects::RESERVED7`].
     pub fn reserved7(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
@@ -1145,7 +1145,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED8: parameter 0x0127.
     ///
-    /// Reserved; neither size nor default is printed
+    /// Reserved; neither size nor default is printed.
     ///
     /// Constant: [`objects::RESERVED8`].
     pub fn reserved8(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
@@ -1153,7 +1153,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED9: parameter 0x0128.
     ///
-    /// Reserved; neither size nor default is printed
+    /// Reserved; neither size nor default is printed.
     ///
     /// Constant: [`objects::RESERVED9`].
     pub fn reserved9(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
@@ -1161,7 +1161,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED10: parameter 0x012A.
     ///
-    /// Reserved; neither size nor default is printed
+    /// Reserved; neither size nor default is printed.
     ///
     /// Constant: [`objects::RESERVED10`].
     pub fn reserved10(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
@@ -1169,7 +1169,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED11: parameter 0x012B.
     ///
-    /// Reserved; neither size nor default is printed
+    /// Reserved; neither size nor default is printed.
     ///
     /// Constant: [`objects::RESERVED11`].
     pub fn reserved11(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
@@ -1177,7 +1177,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// TIMFB: parameter 0x012C.
     ///
-    /// How long the motor waits with its reply at least. On ENET-X, where the default is 8, the actuation time of the bus, a multiple of 4
+    /// How long the motor waits with its reply at least. On ENET-X, where the default is 8, the actuation time of the bus, a multiple of 4.
     ///
     /// Constant: [`objects::TIMFB`].
     pub fn timfb(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1185,7 +1185,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// TIMEOUTFB: parameter 0x012D.
     ///
-    /// How long the master may be silent before the motor goes to alarm. On ENET-X the default is 8
+    /// How long the master may be silent before the motor goes to alarm. On ENET-X the default is 8.
     ///
     /// Constant: [`objects::TIMEOUTFB`].
     pub fn timeoutfb(
@@ -1195,7 +1195,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// INVDIN: parameter 0x012E.
     ///
-    /// Which digital inputs are inverted
+    /// Which digital inputs are inverted.
     ///
     /// Constant: [`objects::INVDIN`]. Values: [`InvertedInputs`](types::InvertedInputs).
     pub fn invdin(&mut self) -> objects::ReadWriteAccess<'_, C, types::InvertedInputs> {
@@ -1203,7 +1203,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// TIPOAZZ: parameter 0x012F.
     ///
-    /// How CmdAzz homes
+    /// How CmdAzz homes.
     ///
     /// Constant: [`objects::TIPOAZZ`]. Values: [`HomingType`](types::HomingType).
     pub fn tipoazz(&mut self) -> objects::ReadWriteAccess<'_, C, types::HomingType> {
@@ -1211,7 +1211,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// VAZZOUTMIC: parameter 0x0130.
     ///
-    /// Speed at which homing leaves the homing switch
+    /// Speed at which homing leaves the homing switch.
     ///
     /// Constant: [`objects::VAZZOUTMIC`].
     pub fn vazzoutmic(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1219,7 +1219,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KIQDPIMANT: parameter 0x1000.
     ///
-    /// Proportional plus integral gain of the current controller: the mantissa
+    /// Proportional plus integral gain of the current controller: the mantissa.
     ///
     /// Constant: [`objects::KIQDPIMANT`].
     pub fn kiqdpimant(
@@ -1229,7 +1229,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KIQDPIEXP: parameter 0x1001.
     ///
-    /// Its exponent
+    /// Its exponent.
     ///
     /// Constant: [`objects::KIQDPIEXP`].
     pub fn kiqdpiexp(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1237,7 +1237,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KIQDKCOR: parameter 0x0002.
     ///
-    /// Integral gain of the current controller over the sum of both gains
+    /// Integral gain of the current controller over the sum of both gains.
     ///
     /// Constant: [`objects::KIQDKCOR`].
     pub fn kiqdkcor(
@@ -1247,7 +1247,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KIQDKFF: parameter 0x0003.
     ///
-    /// Not used
+    /// Not used.
     ///
     /// Constant: [`objects::KIQDKFF`].
     pub fn kiqdkff(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1255,7 +1255,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KIQDLIMIN: parameter 0x0004.
     ///
-    /// Least output of the current controller
+    /// Least output of the current controller.
     ///
     /// Constant: [`objects::KIQDLIMIN`].
     pub fn kiqdlimin(
@@ -1265,7 +1265,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KIQDLIMAX: parameter 0x0005.
     ///
-    /// Greatest output of the current controller
+    /// Greatest output of the current controller.
     ///
     /// Constant: [`objects::KIQDLIMAX`].
     pub fn kiqdlimax(
@@ -1275,7 +1275,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KVELPIMANT: parameter 0x2006.
     ///
-    /// Proportional plus integral gain of the speed controller: the mantissa
+    /// Proportional plus integral gain of the speed controller: the mantissa.
     ///
     /// Constant: [`objects::KVELPIMANT`].
     pub fn kvelpimant(
@@ -1285,7 +1285,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KVELPIEXP: parameter 0x2007.
     ///
-    /// Its exponent
+    /// Its exponent.
     ///
     /// Constant: [`objects::KVELPIEXP`].
     pub fn kvelpiexp(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1293,7 +1293,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KVELKCOR: parameter 0x0008.
     ///
-    /// Integral gain of the speed controller over the sum of both gains
+    /// Integral gain of the speed controller over the sum of both gains.
     ///
     /// Constant: [`objects::KVELKCOR`].
     pub fn kvelkcor(
@@ -1303,7 +1303,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KVELKFF: parameter 0x0009.
     ///
-    /// Feedforward of the speed controller, as a fraction of 100 %
+    /// Feedforward of the speed controller, as a fraction of 100 %.
     ///
     /// Constant: [`objects::KVELKFF`].
     pub fn kvelkff(
@@ -1313,7 +1313,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KVELLIMIN: parameter 0x000A.
     ///
-    /// Least output of the speed controller: it limits the torque in the negative direction
+    /// Least output of the speed controller: it limits the torque in the negative direction.
     ///
     /// Constant: [`objects::KVELLIMIN`].
     pub fn kvellimin(
@@ -1323,7 +1323,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KVELLIMAX: parameter 0x000B.
     ///
-    /// Greatest output of the speed controller: it limits the torque in the positive direction
+    /// Greatest output of the speed controller: it limits the torque in the positive direction.
     ///
     /// Constant: [`objects::KVELLIMAX`].
     pub fn kvellimax(
@@ -1333,7 +1333,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KPOSPIMANT: parameter 0x300C.
     ///
-    /// Proportional plus integral gain of the position controller: the mantissa
+    /// Proportional plus integral gain of the position controller: the mantissa.
     ///
     /// Constant: [`objects::KPOSPIMANT`].
     pub fn kpospimant(
@@ -1343,7 +1343,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KPOSPIEXP: parameter 0x300D.
     ///
-    /// Its exponent
+    /// Its exponent.
     ///
     /// Constant: [`objects::KPOSPIEXP`].
     pub fn kpospiexp(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1351,7 +1351,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KPOSKCOR: parameter 0x000E.
     ///
-    /// Integral gain of the position controller over the sum of both gains
+    /// Integral gain of the position controller over the sum of both gains.
     ///
     /// Constant: [`objects::KPOSKCOR`].
     pub fn kposkcor(
@@ -1361,7 +1361,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KPOSKFF: parameter 0x000F.
     ///
-    /// Feedforward of the position controller, as a fraction of 100 %
+    /// Feedforward of the position controller, as a fraction of 100 %.
     ///
     /// Constant: [`objects::KPOSKFF`].
     pub fn kposkff(
@@ -1371,7 +1371,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KPOSLIMMIN: parameter 0x0010.
     ///
-    /// Least output of the position controller: it limits the speed in the negative direction
+    /// Least output of the position controller: it limits the speed in the negative direction.
     ///
     /// Constant: [`objects::KPOSLIMMIN`].
     pub fn kposlimmin(
@@ -1381,7 +1381,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// KPOSLIMAX: parameter 0x0011.
     ///
-    /// Greatest output of the position controller: it limits the speed in the positive direction
+    /// Greatest output of the position controller: it limits the speed in the positive direction.
     ///
     /// Constant: [`objects::KPOSLIMAX`].
     pub fn kposlimax(
@@ -1391,7 +1391,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// MAXERRORPL: parameter 0x4012.
     ///
-    /// Greatest following error of the position: bits 15 to 0; 0 in both halves turns the check off
+    /// Greatest following error of the position: bits 15 to 0; 0 in both halves turns the check off.
     ///
     /// Constant: [`objects::MAXERRORPL`].
     pub fn maxerrorpl(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1399,7 +1399,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// MAXERRORPH: parameter 0x4013.
     ///
-    /// Greatest following error of the position: bits 31 to 16
+    /// Greatest following error of the position: bits 31 to 16.
     ///
     /// Constant: [`objects::MAXERRORPH`].
     pub fn maxerrorph(
@@ -1409,7 +1409,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// AMAXHOLD: parameter 0x0014.
     ///
-    /// Acceleration of jogging and of commanded stops. On the SM137 it has steps of 4.096 turns/s²
+    /// Acceleration of jogging and of commanded stops. On the SM137 it has steps of 4.096 turns/s².
     ///
     /// Constant: [`objects::AMAXHOLD`].
     pub fn amaxhold(
@@ -1419,7 +1419,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// AMAXTRAJ: parameter 0x0015.
     ///
-    /// Acceleration of positionings. On the SM137 it has steps of 78.125 turns/s² (revision B) or 19.53125 turns/s² (revision C)
+    /// Acceleration of positionings. On the SM137 it has steps of 78.125 turns/s² (revision B) or 19.53125 turns/s² (revision C).
     ///
     /// Constant: [`objects::AMAXTRAJ`].
     pub fn amaxtraj(
@@ -1429,7 +1429,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// VMAXTRAJ: parameter 0x0016.
     ///
-    /// Greatest speed of positionings
+    /// Greatest speed of positionings.
     ///
     /// Constant: [`objects::VMAXTRAJ`].
     pub fn vmaxtraj(
@@ -1439,7 +1439,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// ORIGINEL: parameter 0x5017.
     ///
-    /// The position that automatic homing gives: bits 15 to 0
+    /// The position that automatic homing gives: bits 15 to 0.
     ///
     /// Constant: [`objects::ORIGINEL`].
     pub fn originel(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1447,7 +1447,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// ORIGINEH: parameter 0x5018.
     ///
-    /// The position that automatic homing gives: bits 31 to 16
+    /// The position that automatic homing gives: bits 31 to 16.
     ///
     /// Constant: [`objects::ORIGINEH`].
     pub fn origineh(
@@ -1457,7 +1457,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// TESTSLIM: parameter 0x0019.
     ///
-    /// Switches, as in BIT\_A
+    /// Switches, as in BIT\_A.
     ///
     /// Constant: [`objects::TESTSLIM`]. Values: [`TestSlim`](types::TestSlim).
     pub fn testslim(&mut self) -> objects::WriteOnlyAccess<'_, C, types::TestSlim> {
@@ -1465,7 +1465,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// LOWSLIML: parameter 0x601A.
     ///
-    /// Lower software limit: bits 15 to 0
+    /// Lower software limit: bits 15 to 0.
     ///
     /// Constant: [`objects::LOWSLIML`].
     pub fn lowsliml(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1473,7 +1473,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// LOWSLIMH: parameter 0x601B.
     ///
-    /// Lower software limit: bits 31 to 16
+    /// Lower software limit: bits 31 to 16.
     ///
     /// Constant: [`objects::LOWSLIMH`].
     pub fn lowslimh(
@@ -1483,7 +1483,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// HIGHSLIML: parameter 0x601C.
     ///
-    /// Upper software limit: bits 15 to 0
+    /// Upper software limit: bits 15 to 0.
     ///
     /// Constant: [`objects::HIGHSLIML`].
     pub fn highsliml(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1491,7 +1491,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// HIGHSLIMH: parameter 0x601D.
     ///
-    /// Upper software limit: bits 31 to 16
+    /// Upper software limit: bits 31 to 16.
     ///
     /// Constant: [`objects::HIGHSLIMH`].
     pub fn highslimh(
@@ -1501,7 +1501,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// MAXERRORV\_LOW: parameter 0x001E.
     ///
-    /// Greatest following error of the speed
+    /// Greatest following error of the speed.
     ///
     /// Constant: [`objects::MAXERRORV_LOW`].
     pub fn maxerrorv_low(
@@ -1511,7 +1511,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// MAXTORQUE: parameter 0x001F.
     ///
-    /// The torque above which the motor goes to alarm, where it lasts for TIMEOUTMAXTORQUE
+    /// The torque above which the motor goes to alarm, where it lasts for TIMEOUTMAXTORQUE.
     ///
     /// Constant: [`objects::MAXTORQUE`].
     pub fn maxtorque(
@@ -1521,7 +1521,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// ANGELETTRTACCA\_LOW: parameter 0x0020.
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Constant: [`objects::ANGELETTRTACCA_LOW`].
     pub fn angelettrtacca_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1529,7 +1529,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED1\_LOW: parameter 0x0021.
     ///
-    /// Reserved: as RESERVED1 of chapter 6
+    /// Reserved: as RESERVED1 of chapter 6.
     ///
     /// Constant: [`objects::RESERVED1_LOW`].
     pub fn reserved1_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1537,7 +1537,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED2\_LOW: parameter 0x0022.
     ///
-    /// Reserved: as RESERVED2 of chapter 6
+    /// Reserved: as RESERVED2 of chapter 6.
     ///
     /// Constant: [`objects::RESERVED2_LOW`].
     pub fn reserved2_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1545,7 +1545,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED3\_LOW: parameter 0x0023.
     ///
-    /// Reserved: as RESERVED3 of chapter 6
+    /// Reserved: as RESERVED3 of chapter 6.
     ///
     /// Constant: [`objects::RESERVED3_LOW`].
     pub fn reserved3_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1553,7 +1553,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED4\_LOW: parameter 0x0024.
     ///
-    /// Reserved: as RESERVED4 of chapter 6
+    /// Reserved: as RESERVED4 of chapter 6.
     ///
     /// Constant: [`objects::RESERVED4_LOW`].
     pub fn reserved4_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1561,7 +1561,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED5\_LOW: parameter 0x0025.
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Constant: [`objects::RESERVED5_LOW`].
     pub fn reserved5_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1569,7 +1569,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED6\_LOW: parameter 0x0026.
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Constant: [`objects::RESERVED6_LOW`].
     pub fn reserved6_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1577,7 +1577,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED7\_LOW: parameter 0x0027.
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Constant: [`objects::RESERVED7_LOW`].
     pub fn reserved7_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1585,7 +1585,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED8\_LOW: parameter 0x0028.
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Constant: [`objects::RESERVED8_LOW`].
     pub fn reserved8_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1593,7 +1593,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED9\_LOW: parameter 0x0029.
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Constant: [`objects::RESERVED9_LOW`].
     pub fn reserved9_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1601,7 +1601,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED10\_LOW: parameter 0x002A.
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Constant: [`objects::RESERVED10_LOW`].
     pub fn reserved10_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1609,7 +1609,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED11\_LOW: parameter 0x002B.
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Constant: [`objects::RESERVED11_LOW`].
     pub fn reserved11_low(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1617,7 +1617,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// RESERVED12: parameter 0x002C.
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Constant: [`objects::RESERVED12`].
     pub fn reserved12(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -1625,7 +1625,7 @@ impl<C, S> HsdMotor<C, S> {
     }
     /// TIMEOUTMAXTORQUE: parameter 0x002D.
     ///
-    /// How long the torque has to be above MAXTORQUE for an alarm
+    /// How long the torque has to be above MAXTORQUE for an alarm.
     ///
     /// Constant: [`objects::TIMEOUTMAXTORQUE`].
     pub fn timeoutmaxtorque(&mut self) -> objects::WriteOnlyAccess<'_, C, i16> {
@@ -9760,7 +9760,7 @@ pub mod objects {
     /// Parameter 0x0100, INTEGER16, rw, default 30, range 0 to 32767 (0 to 327.67), in 0.01.
     /// Accessor: [`kp_i`](super::HsdMotor::kp_i).
     ///
-    /// Proportional gain of the current controller; to be left at its default
+    /// Proportional gain of the current controller; to be left at its default.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -9780,7 +9780,7 @@ pub mod objects {
     /// Parameter 0x0101, INTEGER16, rw, default 12, range 0 to 32767 (0 to 327.67), in 0.01.
     /// Accessor: [`ki_i`](super::HsdMotor::ki_i).
     ///
-    /// Integral gain of the current controller; to be left at its default
+    /// Integral gain of the current controller; to be left at its default.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -9800,7 +9800,7 @@ pub mod objects {
     /// Parameter 0x0103, INTEGER16, rw, default -194, range \-32767 to 0 (-3276.7 to 0 V), in 0.1 V.
     /// Accessor: [`pimin_i`](super::HsdMotor::pimin_i).
     ///
-    /// Least output of the current controller; to be left at its default
+    /// Least output of the current controller; to be left at its default.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -9822,7 +9822,7 @@ pub mod objects {
     /// Parameter 0x0104, INTEGER16, rw, default 194, range 0 to 32767 (0 to 3276.7 V), in 0.1 V.
     /// Accessor: [`pimax_i`](super::HsdMotor::pimax_i).
     ///
-    /// Greatest output of the current controller; to be left at its default
+    /// Greatest output of the current controller; to be left at its default.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -9844,7 +9844,7 @@ pub mod objects {
     /// Parameter 0x0105, INTEGER16, rw, default 150, range 0 to 32767 (0 to 327.67), in 0.01.
     /// Accessor: [`kp_vel`](super::HsdMotor::kp_vel).
     ///
-    /// Proportional gain of the speed controller. Once the feedforward is tuned, the default should do; gains of speed are tried one at a time while jogging
+    /// Proportional gain of the speed controller. Once the feedforward is tuned, the default should do; gains of speed are tried one at a time while jogging.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -9864,7 +9864,7 @@ pub mod objects {
     /// Parameter 0x0106, INTEGER16, rw, default 10, range 0 to 32767 (0 to 327.67), in 0.01.
     /// Accessor: [`ki_vel`](super::HsdMotor::ki_vel).
     ///
-    /// Integral gain of the speed controller; best not 0, and else tried as KP\_VEL
+    /// Integral gain of the speed controller; best not 0, and else tried as KP\_VEL.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -9884,7 +9884,7 @@ pub mod objects {
     /// Parameter 0x0107, INTEGER16, rw, default 100, range 0 to 100, in %.
     /// Accessor: [`kff_vel`](super::HsdMotor::kff_vel).
     ///
-    /// Feedforward of the speed controller; best left at 100 %
+    /// Feedforward of the speed controller; best left at 100 %.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -9902,7 +9902,7 @@ pub mod objects {
     /// Parameter 0x0108, INTEGER16, rw, default -500, range \-900 to 0 (-9 to 0 A), in 0.01 A.
     /// Accessor: [`pimin_vel`](super::HsdMotor::pimin_vel).
     ///
-    /// Least output of the speed controller: it limits the torque
+    /// Least output of the speed controller: it limits the torque.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -9922,7 +9922,7 @@ pub mod objects {
     /// Parameter 0x0109, INTEGER16, rw, default 500, range 0 to 900 (0 to 9 A), in 0.01 A.
     /// Accessor: [`pimax_vel`](super::HsdMotor::pimax_vel).
     ///
-    /// Greatest output of the speed controller: it limits the torque
+    /// Greatest output of the speed controller: it limits the torque.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -9944,7 +9944,7 @@ pub mod objects {
     /// Parameter 0x010A, INTEGER16, rw, default 500, range 0 to 32767 (0 to 327.67), in 0.01.
     /// Accessor: [`kp_pos`](super::HsdMotor::kp_pos).
     ///
-    /// Proportional gain of the position controller
+    /// Proportional gain of the position controller.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -9962,7 +9962,7 @@ pub mod objects {
     /// Parameter 0x010B, INTEGER16, rw, default 0, range 0 to 32767 (0 to 327.67), in 0.01.
     /// Accessor: [`ki_pos`](super::HsdMotor::ki_pos).
     ///
-    /// Integral gain of the position controller
+    /// Integral gain of the position controller.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -9980,7 +9980,7 @@ pub mod objects {
     /// Parameter 0x010C, INTEGER16, rw, default 70, range 0 to 100, in %.
     /// Accessor: [`kff_pos`](super::HsdMotor::kff_pos).
     ///
-    /// Feedforward of the position controller; 50 % to 100 % are usual, tried by positionings without the feedback
+    /// Feedforward of the position controller; 50 % to 100 % are usual, tried by positionings without the feedback.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -9998,7 +9998,7 @@ pub mod objects {
     /// Parameter 0x010D, INTEGER16, rw, default -4500, range \-5000 to 0, in rpm.
     /// Accessor: [`pimin_pos`](super::HsdMotor::pimin_pos).
     ///
-    /// Least output of the position controller: it limits the speed
+    /// Least output of the position controller: it limits the speed.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10016,7 +10016,7 @@ pub mod objects {
     /// Parameter 0x010E, INTEGER16, rw, default 4500, range 0 to 5000, in rpm.
     /// Accessor: [`pimax_pos`](super::HsdMotor::pimax_pos).
     ///
-    /// Greatest output of the position controller: it limits the speed
+    /// Greatest output of the position controller: it limits the speed.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10036,7 +10036,7 @@ pub mod objects {
     /// Parameter 0x010F, INTEGER32, rw, default 0, range 0 to 2147483647, in count.
     /// Accessor: [`maxerrorp`](super::HsdMotor::maxerrorp).
     ///
-    /// Greatest following error of the position
+    /// Greatest following error of the position.
     ///
     /// 0 means: not checked.
     ///
@@ -10060,7 +10060,7 @@ pub mod objects {
     /// Parameter 0x0110, INTEGER16, rw, default 0, range 0 to 32000, in ms.
     /// Accessor: [`tim_maxerrorp`](super::HsdMotor::tim_maxerrorp).
     ///
-    /// How long the following error of the position has to last for an alarm
+    /// How long the following error of the position has to last for an alarm.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10078,7 +10078,7 @@ pub mod objects {
     /// Parameter 0x0111, INTEGER16, rw, default 0, range 0 to 8000, in rpm.
     /// Accessor: [`maxerrorv`](super::HsdMotor::maxerrorv).
     ///
-    /// Greatest following error of the speed
+    /// Greatest following error of the speed.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10096,7 +10096,7 @@ pub mod objects {
     /// Parameter 0x0112, INTEGER16, rw, default 0, range 0 to 32000, in ms.
     /// Accessor: [`tim_maxerrorv`](super::HsdMotor::tim_maxerrorv).
     ///
-    /// How long the following error of the speed has to last for an alarm
+    /// How long the following error of the speed has to last for an alarm.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10114,7 +10114,7 @@ pub mod objects {
     /// Parameter 0x0113, INTEGER16, rw, default 0, range 0 to 32000, in count.
     /// Accessor: [`inpos`](super::HsdMotor::inpos).
     ///
-    /// How near the target has to be for a positioning to be complete
+    /// How near the target has to be for a positioning to be complete.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10132,7 +10132,7 @@ pub mod objects {
     /// Parameter 0x0114, INTEGER16, rw, default 0, range 0 to 32000, in ms.
     /// Accessor: [`tim_inpos`](super::HsdMotor::tim_inpos).
     ///
-    /// How long the position has to be that near
+    /// How long the position has to be that near.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10150,7 +10150,7 @@ pub mod objects {
     /// Parameter 0x0115, INTEGER16, rw, default 250, range 0 to 32767 (0 to 327.67 A), in 0.01 A.
     /// Accessor: [`maxtorq`](super::HsdMotor::maxtorq).
     ///
-    /// The torque above which the motor goes to alarm, where it lasts for TIM\_MAXTORQ
+    /// The torque above which the motor goes to alarm, where it lasts for TIM\_MAXTORQ.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10172,7 +10172,7 @@ pub mod objects {
     /// Parameter 0x0116, INTEGER16, rw, default 1000, range 0 to 32000, in ms.
     /// Accessor: [`tim_maxtorq`](super::HsdMotor::tim_maxtorq).
     ///
-    /// How long the torque has to be above MAXTORQ for an alarm
+    /// How long the torque has to be above MAXTORQ for an alarm.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10192,7 +10192,7 @@ pub mod objects {
     /// Parameter 0x0117, INTEGER16, rw, default 4000, range 0 to 32767, in rpm.
     /// Accessor: [`vmaxpos`](super::HsdMotor::vmaxpos).
     ///
-    /// Greatest speed of positionings
+    /// Greatest speed of positionings.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10212,7 +10212,7 @@ pub mod objects {
     /// Parameter 0x0118, INTEGER16, rw, default 0, range \-32767 to 32767, in rpm.
     /// Accessor: [`vmaxazz`](super::HsdMotor::vmaxazz).
     ///
-    /// Speed of automatic homing towards the homing switch; its sign is the direction
+    /// Speed of automatic homing towards the homing switch; its sign is the direction.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10232,7 +10232,7 @@ pub mod objects {
     /// Parameter 0x0119, INTEGER16, rw, default 48, range 0 to 32767 (0 to 327670000 count/s²), in 10000 count/s².
     /// Accessor: [`amax`](super::HsdMotor::amax).
     ///
-    /// Acceleration of jogging and of commanded stops
+    /// Acceleration of jogging and of commanded stops.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10254,7 +10254,7 @@ pub mod objects {
     /// Parameter 0x011A, INTEGER16, rw, default 32, range 0 to 32767 (0 to 327670000 count/s²), in 10000 count/s².
     /// Accessor: [`amaxpos`](super::HsdMotor::amaxpos).
     ///
-    /// Acceleration of positionings
+    /// Acceleration of positionings.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10274,7 +10274,7 @@ pub mod objects {
     /// Parameter 0x011B, INTEGER32, rw, default 0, range \-2147483648 to 2147483647, in count.
     /// Accessor: [`orig_azz`](super::HsdMotor::orig_azz).
     ///
-    /// The position that automatic homing gives
+    /// The position that automatic homing gives.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10294,7 +10294,7 @@ pub mod objects {
     /// Parameter 0x011C, INTEGER32, rw, default -2147418112, range \-2147483648 to 2147483647, in count.
     /// Accessor: [`low_slim`](super::HsdMotor::low_slim).
     ///
-    /// Lower software limit, checked where bit 0 of BIT\_A is 1
+    /// Lower software limit, checked where bit 0 of BIT\_A is 1.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10318,7 +10318,7 @@ pub mod objects {
     /// Parameter 0x011D, INTEGER32, rw, default 2147418112, range \-2147483648 to 2147483647, in count.
     /// Accessor: [`high_slim`](super::HsdMotor::high_slim).
     ///
-    /// Upper software limit, checked where bit 0 of BIT\_A is 1
+    /// Upper software limit, checked where bit 0 of BIT\_A is 1.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10342,7 +10342,7 @@ pub mod objects {
     /// Parameter 0x011E, UNSIGNED16, rw, default 0.
     /// Accessor: [`bit_a`](super::HsdMotor::bit_a). Values: [`BitA`](super::types::BitA).
     ///
-    /// Switches; no range is printed
+    /// Switches; no range is printed.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10360,7 +10360,7 @@ pub mod objects {
     /// Parameter 0x011F, INTEGER16, rw, default 676, range 0 to 799.
     /// Accessor: [`angelettrtacca`](super::HsdMotor::angelettrtacca).
     ///
-    /// Reserved: don't change it
+    /// Reserved: don't change it.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10380,7 +10380,7 @@ pub mod objects {
     /// Parameter 0x0120, INTEGER16, rw, default 600, stands for raw / 2^15 × speed\_base rpm.
     /// Accessor: [`reserved1`](super::HsdMotor::reserved1).
     ///
-    /// Speed from which the feedforward against friction acts; 200 is usual
+    /// Speed from which the feedforward against friction acts; 200 is usual.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10402,7 +10402,7 @@ pub mod objects {
     /// Parameter 0x0121, INTEGER16, rw, default 1400.
     /// Accessor: [`reserved2`](super::HsdMotor::reserved2).
     ///
-    /// Torque against friction: as much as lets the axis, jogging, be pushed on with little force, and stop when it isn't
+    /// Torque against friction: as much as lets the axis, jogging, be pushed on with little force, and stop when it isn't.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10424,7 +10424,7 @@ pub mod objects {
     /// Parameter 0x0122, INTEGER16, rw, default 2600.
     /// Accessor: [`reserved3`](super::HsdMotor::reserved3).
     ///
-    /// Feedforward in proportion to the speed: raised by 100 until the speed while jogging is the wanted one
+    /// Feedforward in proportion to the speed: raised by 100 until the speed while jogging is the wanted one.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10446,7 +10446,7 @@ pub mod objects {
     /// Parameter 0x0123, INTEGER16, rw, default 6.
     /// Accessor: [`reserved4`](super::HsdMotor::reserved4).
     ///
-    /// Feedforward while the speed changes: raised by 2 until real and theoretical speed are the same on the ramps
+    /// Feedforward while the speed changes: raised by 2 until real and theoretical speed are the same on the ramps.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10470,7 +10470,7 @@ pub mod objects {
     /// Parameter 0x0124, unknown type, rw.
     /// Accessor: [`reserved5`](super::HsdMotor::reserved5).
     ///
-    /// Reserved; neither size nor default is printed
+    /// Reserved; neither size nor default is printed.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10488,7 +10488,7 @@ pub mod objects {
     /// Parameter 0x0125, unknown type, rw.
     /// Accessor: [`reserved6`](super::HsdMotor::reserved6).
     ///
-    /// Reserved; neither size nor default is printed
+    /// Reserved; neither size nor default is printed.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10506,7 +10506,7 @@ pub mod objects {
     /// Parameter 0x0126, unknown type, rw.
     /// Accessor: [`reserved7`](super::HsdMotor::reserved7).
     ///
-    /// Reserved; neither size nor default is printed
+    /// Reserved; neither size nor default is printed.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10524,7 +10524,7 @@ pub mod objects {
     /// Parameter 0x0127, unknown type, rw.
     /// Accessor: [`reserved8`](super::HsdMotor::reserved8).
     ///
-    /// Reserved; neither size nor default is printed
+    /// Reserved; neither size nor default is printed.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10542,7 +10542,7 @@ pub mod objects {
     /// Parameter 0x0128, unknown type, rw.
     /// Accessor: [`reserved9`](super::HsdMotor::reserved9).
     ///
-    /// Reserved; neither size nor default is printed
+    /// Reserved; neither size nor default is printed.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10560,7 +10560,7 @@ pub mod objects {
     /// Parameter 0x012A, unknown type, rw.
     /// Accessor: [`reserved10`](super::HsdMotor::reserved10).
     ///
-    /// Reserved; neither size nor default is printed
+    /// Reserved; neither size nor default is printed.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10580,7 +10580,7 @@ pub mod objects {
     /// Parameter 0x012B, unknown type, rw.
     /// Accessor: [`reserved11`](super::HsdMotor::reserved11).
     ///
-    /// Reserved; neither size nor default is printed
+    /// Reserved; neither size nor default is printed.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10598,7 +10598,7 @@ pub mod objects {
     /// Parameter 0x012C, INTEGER16, rw, default 50, range 1 to 100, in ms.
     /// Accessor: [`timfb`](super::HsdMotor::timfb).
     ///
-    /// How long the motor waits with its reply at least. On ENET-X, where the default is 8, the actuation time of the bus, a multiple of 4
+    /// How long the motor waits with its reply at least. On ENET-X, where the default is 8, the actuation time of the bus, a multiple of 4.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10616,7 +10616,7 @@ pub mod objects {
     /// Parameter 0x012D, INTEGER16, rw, default 50, range 0 to 100, in ms.
     /// Accessor: [`timeoutfb`](super::HsdMotor::timeoutfb).
     ///
-    /// How long the master may be silent before the motor goes to alarm. On ENET-X the default is 8
+    /// How long the master may be silent before the motor goes to alarm. On ENET-X the default is 8.
     ///
     /// 0 means: not checked.
     ///
@@ -10642,7 +10642,7 @@ pub mod objects {
     /// Parameter 0x012E, UNSIGNED16, rw, default 0, range 0 to 7.
     /// Accessor: [`invdin`](super::HsdMotor::invdin). Values: [`InvertedInputs`](super::types::InvertedInputs).
     ///
-    /// Which digital inputs are inverted
+    /// Which digital inputs are inverted.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10664,7 +10664,7 @@ pub mod objects {
     /// Parameter 0x012F, UNSIGNED16, rw, default 0, range 0 to 2.
     /// Accessor: [`tipoazz`](super::HsdMotor::tipoazz). Values: [`HomingType`](super::types::HomingType).
     ///
-    /// How CmdAzz homes
+    /// How CmdAzz homes.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10684,7 +10684,7 @@ pub mod objects {
     /// Parameter 0x0130, INTEGER16, rw, default -125, range \-32767 to 32767, in rpm.
     /// Accessor: [`vazzoutmic`](super::HsdMotor::vazzoutmic).
     ///
-    /// Speed at which homing leaves the homing switch
+    /// Speed at which homing leaves the homing switch.
     ///
     /// Kept over power-off once [CmdSaveParFl](super::messages::CmdSaveParFl) was given.
     ///
@@ -10704,7 +10704,7 @@ pub mod objects {
     /// Parameter 0x1000, INTEGER16, wo, default 13762, range 0 to 32767, stands for raw / 2^15 × 2^[`KIQDPIEXP`].
     /// Accessor: [`kiqdpimant`](super::HsdMotor::kiqdpimant).
     ///
-    /// Proportional plus integral gain of the current controller: the mantissa
+    /// Proportional plus integral gain of the current controller: the mantissa.
     ///
     /// Lost at power-off.
     ///
@@ -10724,7 +10724,7 @@ pub mod objects {
     /// Parameter 0x1001, INTEGER16, wo, default 0, range 0 to 6.
     /// Accessor: [`kiqdpiexp`](super::HsdMotor::kiqdpiexp).
     ///
-    /// Its exponent
+    /// Its exponent.
     ///
     /// Lost at power-off.
     ///
@@ -10742,7 +10742,7 @@ pub mod objects {
     /// Parameter 0x0002, INTEGER16, wo, default 9362, range 0 to 32767 (0 to 0.999969482421875), in 0.000030517578125.
     /// Accessor: [`kiqdkcor`](super::HsdMotor::kiqdkcor).
     ///
-    /// Integral gain of the current controller over the sum of both gains
+    /// Integral gain of the current controller over the sum of both gains.
     ///
     /// Lost at power-off.
     ///
@@ -10762,7 +10762,7 @@ pub mod objects {
     /// Parameter 0x0003, INTEGER16, wo.
     /// Accessor: [`kiqdkff`](super::HsdMotor::kiqdkff).
     ///
-    /// Not used
+    /// Not used.
     ///
     /// Lost at power-off.
     ///
@@ -10780,7 +10780,7 @@ pub mod objects {
     /// Parameter 0x0004, INTEGER16, wo, default -32767, range \-32767 to 0, stands for raw / 2^15 × voltage\_base V.
     /// Accessor: [`kiqdlimin`](super::HsdMotor::kiqdlimin).
     ///
-    /// Least output of the current controller
+    /// Least output of the current controller.
     ///
     /// Lost at power-off.
     ///
@@ -10800,7 +10800,7 @@ pub mod objects {
     /// Parameter 0x0005, INTEGER16, wo, default 32767, range 0 to 32767, stands for raw / 2^15 × voltage\_base V.
     /// Accessor: [`kiqdlimax`](super::HsdMotor::kiqdlimax).
     ///
-    /// Greatest output of the current controller
+    /// Greatest output of the current controller.
     ///
     /// Lost at power-off.
     ///
@@ -10818,7 +10818,7 @@ pub mod objects {
     /// Parameter 0x2006, INTEGER16, wo, default 26214, range 0 to 32767, stands for raw / 2^15 × 2^[`KVELPIEXP`].
     /// Accessor: [`kvelpimant`](super::HsdMotor::kvelpimant).
     ///
-    /// Proportional plus integral gain of the speed controller: the mantissa
+    /// Proportional plus integral gain of the speed controller: the mantissa.
     ///
     /// Lost at power-off.
     ///
@@ -10838,7 +10838,7 @@ pub mod objects {
     /// Parameter 0x2007, INTEGER16, wo, default 1, range 0 to 6.
     /// Accessor: [`kvelpiexp`](super::HsdMotor::kvelpiexp).
     ///
-    /// Its exponent
+    /// Its exponent.
     ///
     /// Lost at power-off.
     ///
@@ -10858,7 +10858,7 @@ pub mod objects {
     /// Parameter 0x0008, INTEGER16, wo, default 2047, range 0 to 32767 (0 to 0.999969482421875), in 0.000030517578125.
     /// Accessor: [`kvelkcor`](super::HsdMotor::kvelkcor).
     ///
-    /// Integral gain of the speed controller over the sum of both gains
+    /// Integral gain of the speed controller over the sum of both gains.
     ///
     /// Lost at power-off.
     ///
@@ -10878,7 +10878,7 @@ pub mod objects {
     /// Parameter 0x0009, INTEGER16, wo, default 32767, range 0 to 32767 (0 to 99.9969482421875 %), in 0.0030517578125 %.
     /// Accessor: [`kvelkff`](super::HsdMotor::kvelkff).
     ///
-    /// Feedforward of the speed controller, as a fraction of 100 %
+    /// Feedforward of the speed controller, as a fraction of 100 %.
     ///
     /// Lost at power-off.
     ///
@@ -10896,7 +10896,7 @@ pub mod objects {
     /// Parameter 0x000A, INTEGER16, wo, default -14486, range \-26067 to 0, stands for raw / 2^15 × current\_base A.
     /// Accessor: [`kvellimin`](super::HsdMotor::kvellimin).
     ///
-    /// Least output of the speed controller: it limits the torque in the negative direction
+    /// Least output of the speed controller: it limits the torque in the negative direction.
     ///
     /// Lost at power-off.
     ///
@@ -10916,7 +10916,7 @@ pub mod objects {
     /// Parameter 0x000B, INTEGER16, wo, default 14486, range 0 to 26067, stands for raw / 2^15 × current\_base A.
     /// Accessor: [`kvellimax`](super::HsdMotor::kvellimax).
     ///
-    /// Greatest output of the speed controller: it limits the torque in the positive direction
+    /// Greatest output of the speed controller: it limits the torque in the positive direction.
     ///
     /// Lost at power-off.
     ///
@@ -10936,7 +10936,7 @@ pub mod objects {
     /// Parameter 0x300C, INTEGER16, wo, default 20480, range 0 to 32767, stands for raw / 2^15 × 2^[`KPOSPIEXP`].
     /// Accessor: [`kpospimant`](super::HsdMotor::kpospimant).
     ///
-    /// Proportional plus integral gain of the position controller: the mantissa
+    /// Proportional plus integral gain of the position controller: the mantissa.
     ///
     /// Lost at power-off.
     ///
@@ -10954,7 +10954,7 @@ pub mod objects {
     /// Parameter 0x300D, INTEGER16, wo, default 3, range 0 to 6.
     /// Accessor: [`kpospiexp`](super::HsdMotor::kpospiexp).
     ///
-    /// Its exponent
+    /// Its exponent.
     ///
     /// Lost at power-off.
     ///
@@ -10972,7 +10972,7 @@ pub mod objects {
     /// Parameter 0x000E, INTEGER16, wo, default 0, range 0 to 32767 (0 to 0.999969482421875), in 0.000030517578125.
     /// Accessor: [`kposkcor`](super::HsdMotor::kposkcor).
     ///
-    /// Integral gain of the position controller over the sum of both gains
+    /// Integral gain of the position controller over the sum of both gains.
     ///
     /// Lost at power-off.
     ///
@@ -10990,7 +10990,7 @@ pub mod objects {
     /// Parameter 0x000F, INTEGER16, wo, default 22937, range 0 to 32767 (0 to 99.9969482421875 %), in 0.0030517578125 %.
     /// Accessor: [`kposkff`](super::HsdMotor::kposkff).
     ///
-    /// Feedforward of the position controller, as a fraction of 100 %
+    /// Feedforward of the position controller, as a fraction of 100 %.
     ///
     /// Lost at power-off.
     ///
@@ -11008,7 +11008,7 @@ pub mod objects {
     /// Parameter 0x0010, INTEGER16, wo, default -18432, range \-32767 to 0, stands for raw / 2^15 × speed\_base rpm.
     /// Accessor: [`kposlimmin`](super::HsdMotor::kposlimmin).
     ///
-    /// Least output of the position controller: it limits the speed in the negative direction
+    /// Least output of the position controller: it limits the speed in the negative direction.
     ///
     /// Lost at power-off.
     ///
@@ -11026,7 +11026,7 @@ pub mod objects {
     /// Parameter 0x0011, INTEGER16, wo, default 18432, range 0 to 32767, stands for raw / 2^15 × speed\_base rpm.
     /// Accessor: [`kposlimax`](super::HsdMotor::kposlimax).
     ///
-    /// Greatest output of the position controller: it limits the speed in the positive direction
+    /// Greatest output of the position controller: it limits the speed in the positive direction.
     ///
     /// Lost at power-off.
     ///
@@ -11044,7 +11044,7 @@ pub mod objects {
     /// Parameter 0x4012, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
     /// Accessor: [`maxerrorpl`](super::HsdMotor::maxerrorpl).
     ///
-    /// Greatest following error of the position: bits 15 to 0; 0 in both halves turns the check off
+    /// Greatest following error of the position: bits 15 to 0; 0 in both halves turns the check off.
     ///
     /// Lost at power-off.
     ///
@@ -11062,7 +11062,7 @@ pub mod objects {
     /// Parameter 0x4013, INTEGER16, wo, default 0, range 0 to 32767 (0 to 2147418112 count), in 65536 count.
     /// Accessor: [`maxerrorph`](super::HsdMotor::maxerrorph).
     ///
-    /// Greatest following error of the position: bits 31 to 16
+    /// Greatest following error of the position: bits 31 to 16.
     ///
     /// Lost at power-off.
     ///
@@ -11080,7 +11080,7 @@ pub mod objects {
     /// Parameter 0x0014, INTEGER16, wo, default 2089, range 1 to 32767, stands for raw / 2^15 × acceleration\_base rev/s².
     /// Accessor: [`amaxhold`](super::HsdMotor::amaxhold).
     ///
-    /// Acceleration of jogging and of commanded stops. On the SM137 it has steps of 4.096 turns/s²
+    /// Acceleration of jogging and of commanded stops. On the SM137 it has steps of 4.096 turns/s².
     ///
     /// Lost at power-off.
     ///
@@ -11100,7 +11100,7 @@ pub mod objects {
     /// Parameter 0x0015, INTEGER16, wo, default 1392, range 1 to 32767, stands for raw / 2^15 × acceleration\_base rev/s².
     /// Accessor: [`amaxtraj`](super::HsdMotor::amaxtraj).
     ///
-    /// Acceleration of positionings. On the SM137 it has steps of 78.125 turns/s² (revision B) or 19.53125 turns/s² (revision C)
+    /// Acceleration of positionings. On the SM137 it has steps of 78.125 turns/s² (revision B) or 19.53125 turns/s² (revision C).
     ///
     /// Lost at power-off.
     ///
@@ -11120,7 +11120,7 @@ pub mod objects {
     /// Parameter 0x0016, INTEGER16, wo, default 16384, range 0 to 32767, stands for raw / 2^15 × speed\_base rpm.
     /// Accessor: [`vmaxtraj`](super::HsdMotor::vmaxtraj).
     ///
-    /// Greatest speed of positionings
+    /// Greatest speed of positionings.
     ///
     /// Lost at power-off.
     ///
@@ -11140,7 +11140,7 @@ pub mod objects {
     /// Parameter 0x5017, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
     /// Accessor: [`originel`](super::HsdMotor::originel).
     ///
-    /// The position that automatic homing gives: bits 15 to 0
+    /// The position that automatic homing gives: bits 15 to 0.
     ///
     /// Lost at power-off.
     ///
@@ -11158,7 +11158,7 @@ pub mod objects {
     /// Parameter 0x5018, INTEGER16, wo, default 0, range \-32768 to 32767 (-2147483648 to 2147418112 count), in 65536 count.
     /// Accessor: [`origineh`](super::HsdMotor::origineh).
     ///
-    /// The position that automatic homing gives: bits 31 to 16
+    /// The position that automatic homing gives: bits 31 to 16.
     ///
     /// Lost at power-off.
     ///
@@ -11176,7 +11176,7 @@ pub mod objects {
     /// Parameter 0x0019, UNSIGNED16, wo, default 0.
     /// Accessor: [`testslim`](super::HsdMotor::testslim). Values: [`TestSlim`](super::types::TestSlim).
     ///
-    /// Switches, as in BIT\_A
+    /// Switches, as in BIT\_A.
     ///
     /// Lost at power-off.
     ///
@@ -11196,7 +11196,7 @@ pub mod objects {
     /// Parameter 0x601A, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
     /// Accessor: [`lowsliml`](super::HsdMotor::lowsliml).
     ///
-    /// Lower software limit: bits 15 to 0
+    /// Lower software limit: bits 15 to 0.
     ///
     /// Lost at power-off.
     ///
@@ -11214,7 +11214,7 @@ pub mod objects {
     /// Parameter 0x601B, INTEGER16, wo, default 0, range \-32768 to 32767 (-2147483648 to 2147418112 count), in 65536 count.
     /// Accessor: [`lowslimh`](super::HsdMotor::lowslimh).
     ///
-    /// Lower software limit: bits 31 to 16
+    /// Lower software limit: bits 31 to 16.
     ///
     /// Lost at power-off.
     ///
@@ -11232,7 +11232,7 @@ pub mod objects {
     /// Parameter 0x601C, INTEGER16, wo, default 0, range \-32768 to 32767, in count.
     /// Accessor: [`highsliml`](super::HsdMotor::highsliml).
     ///
-    /// Upper software limit: bits 15 to 0
+    /// Upper software limit: bits 15 to 0.
     ///
     /// Lost at power-off.
     ///
@@ -11250,7 +11250,7 @@ pub mod objects {
     /// Parameter 0x601D, INTEGER16, wo, default 0, range \-32768 to 32767 (-2147483648 to 2147418112 count), in 65536 count.
     /// Accessor: [`highslimh`](super::HsdMotor::highslimh).
     ///
-    /// Upper software limit: bits 31 to 16
+    /// Upper software limit: bits 31 to 16.
     ///
     /// Lost at power-off.
     ///
@@ -11268,7 +11268,7 @@ pub mod objects {
     /// Parameter 0x001E, INTEGER16, wo, default 0, range 0 to 32767, stands for raw / 2^15 × speed\_base rpm.
     /// Accessor: [`maxerrorv_low`](super::HsdMotor::maxerrorv_low).
     ///
-    /// Greatest following error of the speed
+    /// Greatest following error of the speed.
     ///
     /// Lost at power-off.
     ///
@@ -11286,7 +11286,7 @@ pub mod objects {
     /// Parameter 0x001F, INTEGER16, wo, default 7243, range 0 to 32767, stands for raw / 2^15 × current\_base A.
     /// Accessor: [`maxtorque`](super::HsdMotor::maxtorque).
     ///
-    /// The torque above which the motor goes to alarm, where it lasts for TIMEOUTMAXTORQUE
+    /// The torque above which the motor goes to alarm, where it lasts for TIMEOUTMAXTORQUE.
     ///
     /// Lost at power-off.
     ///
@@ -11306,7 +11306,7 @@ pub mod objects {
     /// Parameter 0x0020, INTEGER16, wo, default 676.
     /// Accessor: [`angelettrtacca_low`](super::HsdMotor::angelettrtacca_low).
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Lost at power-off.
     ///
@@ -11324,7 +11324,7 @@ pub mod objects {
     /// Parameter 0x0021, INTEGER16, wo, default 600, range 0 to 32767.
     /// Accessor: [`reserved1_low`](super::HsdMotor::reserved1_low).
     ///
-    /// Reserved: as RESERVED1 of chapter 6
+    /// Reserved: as RESERVED1 of chapter 6.
     ///
     /// Lost at power-off.
     ///
@@ -11344,7 +11344,7 @@ pub mod objects {
     /// Parameter 0x0022, INTEGER16, wo, default 1400, range 0 to 32767.
     /// Accessor: [`reserved2_low`](super::HsdMotor::reserved2_low).
     ///
-    /// Reserved: as RESERVED2 of chapter 6
+    /// Reserved: as RESERVED2 of chapter 6.
     ///
     /// Lost at power-off.
     ///
@@ -11364,7 +11364,7 @@ pub mod objects {
     /// Parameter 0x0023, INTEGER16, wo, default 2600, range 0 to 32767.
     /// Accessor: [`reserved3_low`](super::HsdMotor::reserved3_low).
     ///
-    /// Reserved: as RESERVED3 of chapter 6
+    /// Reserved: as RESERVED3 of chapter 6.
     ///
     /// Lost at power-off.
     ///
@@ -11384,7 +11384,7 @@ pub mod objects {
     /// Parameter 0x0024, INTEGER16, wo, default 6, range 0 to 32767.
     /// Accessor: [`reserved4_low`](super::HsdMotor::reserved4_low).
     ///
-    /// Reserved: as RESERVED4 of chapter 6
+    /// Reserved: as RESERVED4 of chapter 6.
     ///
     /// Lost at power-off.
     ///
@@ -11404,7 +11404,7 @@ pub mod objects {
     /// Parameter 0x0025, INTEGER16, wo.
     /// Accessor: [`reserved5_low`](super::HsdMotor::reserved5_low).
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Lost at power-off.
     ///
@@ -11422,7 +11422,7 @@ pub mod objects {
     /// Parameter 0x0026, INTEGER16, wo.
     /// Accessor: [`reserved6_low`](super::HsdMotor::reserved6_low).
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Lost at power-off.
     ///
@@ -11440,7 +11440,7 @@ pub mod objects {
     /// Parameter 0x0027, INTEGER16, wo.
     /// Accessor: [`reserved7_low`](super::HsdMotor::reserved7_low).
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Lost at power-off.
     ///
@@ -11458,7 +11458,7 @@ pub mod objects {
     /// Parameter 0x0028, INTEGER16, wo.
     /// Accessor: [`reserved8_low`](super::HsdMotor::reserved8_low).
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Lost at power-off.
     ///
@@ -11476,7 +11476,7 @@ pub mod objects {
     /// Parameter 0x0029, INTEGER16, wo.
     /// Accessor: [`reserved9_low`](super::HsdMotor::reserved9_low).
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Lost at power-off.
     ///
@@ -11494,7 +11494,7 @@ pub mod objects {
     /// Parameter 0x002A, INTEGER16, wo.
     /// Accessor: [`reserved10_low`](super::HsdMotor::reserved10_low).
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Lost at power-off.
     ///
@@ -11512,7 +11512,7 @@ pub mod objects {
     /// Parameter 0x002B, INTEGER16, wo.
     /// Accessor: [`reserved11_low`](super::HsdMotor::reserved11_low).
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Lost at power-off.
     ///
@@ -11530,7 +11530,7 @@ pub mod objects {
     /// Parameter 0x002C, INTEGER16, wo, default 0.
     /// Accessor: [`reserved12`](super::HsdMotor::reserved12).
     ///
-    /// Reserved
+    /// Reserved.
     ///
     /// Lost at power-off.
     ///
@@ -11548,7 +11548,7 @@ pub mod objects {
     /// Parameter 0x002D, INTEGER16, wo, default 1000, range 0 to 32767, in ms.
     /// Accessor: [`timeoutmaxtorque`](super::HsdMotor::timeoutmaxtorque).
     ///
-    /// How long the torque has to be above MAXTORQUE for an alarm
+    /// How long the torque has to be above MAXTORQUE for an alarm.
     ///
     /// Lost at power-off.
     ///

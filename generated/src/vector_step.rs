@@ -333,7 +333,7 @@ impl<C> VectorStep<C> {
     }
     /// Rposact: 0x2000:01, register 0.
     ///
-    /// Where the axis really is; a position kept over power-off may be written back here
+    /// Where the axis really is; a position kept over power-off may be written back here.
     ///
     /// Constant: [`objects::RPOSACT`].
     pub fn rposact(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -341,7 +341,7 @@ impl<C> VectorStep<C> {
     }
     /// Rposactreq: 0x2004:01, register 4.
     ///
-    /// Where the motion profile wants the axis to be now
+    /// Where the motion profile wants the axis to be now.
     ///
     /// Constant: [`objects::RPOSACTREQ`].
     pub fn rposactreq(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -349,7 +349,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpostarg: 0x2008:01, register 8.
     ///
-    /// Target of the GO and GOR positioning commands; carries the mark ANA\_T
+    /// Target of the GO and GOR positioning commands; carries the mark ANA\_T.
     ///
     /// Constant: [`objects::RPOSTARG`].
     pub fn rpostarg(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -357,7 +357,7 @@ impl<C> VectorStep<C> {
     }
     /// Rupplim: 0x200C:01, register 12.
     ///
-    /// Upper software limit of the travel; Rflag bit 3 enables it, homing methods -8 and -7 rewrite it
+    /// Upper software limit of the travel; Rflag bit 3 enables it, homing methods -8 and -7 rewrite it.
     ///
     /// Constant: [`objects::RUPPLIM`].
     pub fn rupplim(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -365,7 +365,7 @@ impl<C> VectorStep<C> {
     }
     /// Rlowlim: 0x2010:01, register 16.
     ///
-    /// Lower software limit of the travel; Rflag bit 2 enables it, homing methods -8 and -7 rewrite it
+    /// Lower software limit of the travel; Rflag bit 2 enables it, homing methods -8 and -7 rewrite it.
     ///
     /// Constant: [`objects::RLOWLIM`].
     pub fn rlowlim(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -373,7 +373,7 @@ impl<C> VectorStep<C> {
     }
     /// Rposactsaved: 0x2037:01, register 55.
     ///
-    /// Position that the drive kept at the last power-off, 0 where it isn't valid
+    /// Position that the drive kept at the last power-off, 0 where it isn't valid.
     ///
     /// Constant: [`objects::RPOSACTSAVED`].
     pub fn rposactsaved(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -381,7 +381,7 @@ impl<C> VectorStep<C> {
     }
     /// Rposactsavedflag: 0x2039:01, register 57.
     ///
-    /// Tells after power-on whether Rposactsaved holds a valid position; 0 otherwise
+    /// Tells after power-on whether Rposactsaved holds a valid position; 0 otherwise.
     ///
     /// Constant: [`objects::RPOSACTSAVEDFLAG`]. Values: [`SavedPosition`](types::SavedPosition).
     pub fn rposactsavedflag(
@@ -391,7 +391,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstsflg: 0x20C7:01, register 199.
     ///
-    /// Main status word of the drive
+    /// Main status word of the drive.
     ///
     /// Constant: [`objects::RSTSFLG`]. Values: [`Status`](types::Status).
     pub fn rstsflg(&mut self) -> objects::ReadWriteAccess<'_, C, types::Status> {
@@ -399,7 +399,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstsflg1: 0x20C8:01, register 200.
     ///
-    /// Second status word: stored alarms, tasks, limits, regulators, STO
+    /// Second status word: stored alarms, tasks, limits, regulators, STO.
     ///
     /// Constant: [`objects::RSTSFLG1`]. Values: [`Status1`](types::Status1).
     pub fn rstsflg1(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Status1> {
@@ -407,7 +407,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstscllp: 0x20CB:01, register 203.
     ///
-    /// Status word of closed-loop control; bits 0 to 2 feed bit 7 of Rstsflg
+    /// Status word of closed-loop control; bits 0 to 2 feed bit 7 of Rstsflg.
     ///
     /// Constant: [`objects::RSTSCLLP`]. Values: [`ClosedLoopStatus`](types::ClosedLoopStatus).
     pub fn rstscllp(
@@ -417,7 +417,7 @@ impl<C> VectorStep<C> {
     }
     /// Rflag1: 0x203A:01, register 58.
     ///
-    /// Flags of the operating mode that can't be kept over power-off
+    /// Flags of the operating mode that can't be kept over power-off.
     ///
     /// Constant: [`objects::RFLAG1`]. Values: [`ModeFlags1`](types::ModeFlags1).
     pub fn rflag1(&mut self) -> objects::ReadWriteAccess<'_, C, types::ModeFlags1> {
@@ -425,7 +425,7 @@ impl<C> VectorStep<C> {
     }
     /// Rflag: 0x2066:01, register 102.
     ///
-    /// Flags of the operating mode: limits, resets after homing, corrections, gear directions, USB
+    /// Flags of the operating mode: limits, resets after homing, corrections, gear directions, USB.
     ///
     /// Constant: [`objects::RFLAG`]. Values: [`ModeFlags`](types::ModeFlags).
     pub fn rflag(&mut self) -> objects::ReadWriteAccess<'_, C, types::ModeFlags> {
@@ -433,7 +433,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhwconfig: 0x2116:01, register 278.
     ///
-    /// Hardware configuration: directions, encoder kinds, PWM range, realignment for two CANopen masters
+    /// Hardware configuration: directions, encoder kinds, PWM range, realignment for two CANopen masters.
     ///
     /// Constant: [`objects::RHWCONFIG`]. Values: [`HardwareConfig`](types::HardwareConfig).
     pub fn rhwconfig(
@@ -443,7 +443,7 @@ impl<C> VectorStep<C> {
     }
     /// Rvel: 0x203F:01, register 63.
     ///
-    /// Highest speed of a movement; carries the mark ANA
+    /// Highest speed of a movement; carries the mark ANA.
     ///
     /// Constant: [`objects::RVEL`].
     pub fn rvel(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i32, 1, 100>> {
@@ -451,7 +451,7 @@ impl<C> VectorStep<C> {
     }
     /// Rvss: 0x2041:01, register 65.
     ///
-    /// Speed at which movements start and end
+    /// Speed at which movements start and end.
     ///
     /// Constant: [`objects::RVSS`].
     pub fn rvss(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i32, 1, 100>> {
@@ -459,7 +459,7 @@ impl<C> VectorStep<C> {
     }
     /// Racc: 0x2043:01, register 67.
     ///
-    /// Acceleration ramp, 0 switches it off; carries the mark ANA
+    /// Acceleration ramp, 0 switches it off; carries the mark ANA.
     ///
     /// Constant: [`objects::RACC`].
     pub fn racc(
@@ -469,7 +469,7 @@ impl<C> VectorStep<C> {
     }
     /// Raccpro: 0x2045:01, register 69.
     ///
-    /// Shape of the acceleration ramp
+    /// Shape of the acceleration ramp.
     ///
     /// Constant: [`objects::RACCPRO`]. Values: [`RampProfile`](types::RampProfile).
     pub fn raccpro(&mut self) -> objects::ReadWriteAccess<'_, C, types::RampProfile> {
@@ -477,7 +477,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdec: 0x2046:01, register 70.
     ///
-    /// Deceleration ramp, 0 switches it off; carries the mark ANA
+    /// Deceleration ramp, 0 switches it off; carries the mark ANA.
     ///
     /// Constant: [`objects::RDEC`].
     pub fn rdec(
@@ -487,7 +487,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdecpro: 0x2048:01, register 72.
     ///
-    /// Shape of the deceleration ramp
+    /// Shape of the deceleration ramp.
     ///
     /// Constant: [`objects::RDECPRO`]. Values: [`RampProfile`](types::RampProfile).
     pub fn rdecpro(&mut self) -> objects::ReadWriteAccess<'_, C, types::RampProfile> {
@@ -495,7 +495,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdeceme: 0x2049:01, register 73.
     ///
-    /// Deceleration ramp of emergency stops
+    /// Deceleration ramp of emergency stops.
     ///
     /// Constant: [`objects::RDECEME`].
     pub fn rdeceme(
@@ -505,7 +505,7 @@ impl<C> VectorStep<C> {
     }
     /// Rvelact: 0x204B:01, register 75.
     ///
-    /// Speed that the motor has now
+    /// Speed that the motor has now.
     ///
     /// Constant: [`objects::RVELACT`].
     pub fn rvelact(
@@ -515,7 +515,7 @@ impl<C> VectorStep<C> {
     }
     /// Rvelactreq: 0x204D:01, register 77.
     ///
-    /// Speed that is asked of the motor now
+    /// Speed that is asked of the motor now.
     ///
     /// Constant: [`objects::RVELACTREQ`].
     pub fn rvelactreq(
@@ -525,7 +525,7 @@ impl<C> VectorStep<C> {
     }
     /// Rvelmax: 0x204F:01, register 79.
     ///
-    /// Highest speed while a lost position is regained
+    /// Highest speed while a lost position is regained.
     ///
     /// Constant: [`objects::RVELMAX`].
     pub fn rvelmax(
@@ -535,7 +535,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdefum: 0x2064:01, register 100.
     ///
-    /// Divisor of speeds and accelerations: the ratio of the set value to the real one
+    /// Divisor of speeds and accelerations: the ratio of the set value to the real one.
     ///
     /// Constant: [`objects::RDEFUM`]. Values: [`SpeedDivisor`](types::SpeedDivisor).
     pub fn rdefum(&mut self) -> objects::ReadWriteAccess<'_, C, types::SpeedDivisor> {
@@ -543,7 +543,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpwmacc: 0x2147:01, register 327.
     ///
-    /// Acceleration ramp in PWM mode
+    /// Acceleration ramp in PWM mode.
     ///
     /// Constant: [`objects::RPWMACC`].
     pub fn rpwmacc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -551,7 +551,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpwm: 0x2148:01, register 328.
     ///
-    /// How far the PWM opens in PWM mode: 1250 is 100 %
+    /// How far the PWM opens in PWM mode: 1250 is 100 %.
     ///
     /// Constant: [`objects::RPWM`].
     pub fn rpwm(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u16, 2, 25>> {
@@ -559,7 +559,7 @@ impl<C> VectorStep<C> {
     }
     /// Rveladjpicur: 0x216E:01, register 366.
     ///
-    /// Speed up to which the current regulator's PI is reduced, for low speeds
+    /// Speed up to which the current regulator's PI is reduced, for low speeds.
     ///
     /// Constant: [`objects::RVELADJPICUR`].
     pub fn rveladjpicur(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -567,7 +567,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdlyadjpicur: 0x2196:01, register 406.
     ///
-    /// Delay before the correction of the current regulator's PI sets in
+    /// Delay before the correction of the current regulator's PI sets in.
     ///
     /// Constant: [`objects::RDLYADJPICUR`].
     pub fn rdlyadjpicur(
@@ -577,7 +577,7 @@ impl<C> VectorStep<C> {
     }
     /// Rzerovellim: 0x219A:01, register 410.
     ///
-    /// Motor encoder counts from which the axis is taken for moving; detects standstill when homing on a mechanical stop in SmartMode
+    /// Motor encoder counts from which the axis is taken for moving; detects standstill when homing on a mechanical stop in SmartMode.
     ///
     /// Constant: [`objects::RZEROVELLIM`].
     pub fn rzerovellim(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -585,7 +585,7 @@ impl<C> VectorStep<C> {
     }
     /// Rzeroveltim: 0x219B:01, register 411.
     ///
-    /// Sampling time of the motor encoder for that standstill detection
+    /// Sampling time of the motor encoder for that standstill detection.
     ///
     /// Constant: [`objects::RZEROVELTIM`].
     pub fn rzeroveltim(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -593,7 +593,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcurlimtim: 0x219C:01, register 412.
     ///
-    /// Filter time before the motor is reported at its current limit in FOC\_CLOSE
+    /// Filter time before the motor is reported at its current limit in FOC\_CLOSE.
     ///
     /// Constant: [`objects::RCURLIMTIM`].
     pub fn rcurlimtim(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -601,7 +601,7 @@ impl<C> VectorStep<C> {
     }
     /// Rveltarg: 0x21ED:01.
     ///
-    /// Target speed of operating mode 9, cyclic synchronous velocity
+    /// Target speed of operating mode 9, cyclic synchronous velocity.
     ///
     /// Constant: [`objects::RVELTARG`].
     pub fn rveltarg(
@@ -611,7 +611,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcmdwr: 0x203B:01, register 59.
     ///
-    /// Commands to the drive, raised one at a time; each bit falls when its command is done
+    /// Commands to the drive, raised one at a time; each bit falls when its command is done.
     ///
     /// Constant: [`objects::RCMDWR`]. Values: [`Command`](types::Command).
     pub fn rcmdwr(&mut self) -> objects::WriteOnlyAccess<'_, C, types::Command> {
@@ -619,7 +619,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcmd1wr: 0x203C:01, register 60.
     ///
-    /// Further commands: phase tests, winding and Smit modes, SmartMode positions; Rcmd1rd answers
+    /// Further commands: phase tests, winding and Smit modes, SmartMode positions; Rcmd1rd answers.
     ///
     /// Constant: [`objects::RCMD1WR`]. Values: [`Command1`](types::Command1).
     pub fn rcmd1wr(&mut self) -> objects::WriteOnlyAccess<'_, C, types::Command1> {
@@ -627,7 +627,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcmdrd: 0x203D:01, register 61.
     ///
-    /// Which commands the drive is carrying out
+    /// Which commands the drive is carrying out.
     ///
     /// Constant: [`objects::RCMDRD`]. Values: [`CommandState`](types::CommandState).
     pub fn rcmdrd(&mut self) -> objects::ReadOnlyAccess<'_, C, types::CommandState> {
@@ -635,7 +635,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcmd1rd: 0x203E:01, register 62.
     ///
-    /// Answers to the commands of Rcmd1wr
+    /// Answers to the commands of Rcmd1wr.
     ///
     /// Constant: [`objects::RCMD1RD`]. Values: [`CommandState1`](types::CommandState1).
     pub fn rcmd1rd(&mut self) -> objects::ReadOnlyAccess<'_, C, types::CommandState1> {
@@ -643,7 +643,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtasknum: 0x206A:01, register 106.
     ///
-    /// Number of the task that a command over the serial line runs
+    /// Number of the task that a command over the serial line runs.
     ///
     /// Constant: [`objects::RTASKNUM`].
     pub fn rtasknum(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -651,7 +651,7 @@ impl<C> VectorStep<C> {
     }
     /// Rptroldcmd: 0x21C2:01, register 450.
     ///
-    /// Which of the last eight commands Rbufcmdstatus, Rbufcmdcommand and Rbufcmdparameter show: 0 the latest, 7 the oldest
+    /// Which of the last eight commands Rbufcmdstatus, Rbufcmdcommand and Rbufcmdparameter show: 0 the latest, 7 the oldest.
     ///
     /// Constant: [`objects::RPTROLDCMD`].
     pub fn rptroldcmd(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -659,7 +659,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbufcmdstatus: 0x21C3:01, register 451.
     ///
-    /// Where the command came from: user program, serial line or fieldbus
+    /// Where the command came from: user program, serial line or fieldbus.
     ///
     /// Constant: [`objects::RBUFCMDSTATUS`].
     pub fn rbufcmdstatus(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -667,7 +667,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbufcmdcommand: 0x21C4:01, register 452.
     ///
-    /// The command that was carried out
+    /// The command that was carried out.
     ///
     /// Constant: [`objects::RBUFCMDCOMMAND`].
     pub fn rbufcmdcommand(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
@@ -675,7 +675,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbufcmdparameter: 0x21C6:01, register 454.
     ///
-    /// Parameter of the command that was carried out
+    /// Parameter of the command that was carried out.
     ///
     /// Constant: [`objects::RBUFCMDPARAMETER`].
     pub fn rbufcmdparameter(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -683,7 +683,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhmaxspc: 0x2020:01, register 32.
     ///
-    /// Greatest distance that homing may travel
+    /// Greatest distance that homing may travel.
     ///
     /// Constant: [`objects::RHMAXSPC`].
     pub fn rhmaxspc(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -691,7 +691,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdefinpbls: 0x2022:01, register 34.
     ///
-    /// Input that works as backward limit switch BLS; a digital one must have no other function
+    /// Input that works as backward limit switch BLS; a digital one must have no other function.
     ///
     /// Constant: [`objects::RDEFINPBLS`]. Values: [`LimitSwitchInput`](types::LimitSwitchInput).
     pub fn rdefinpbls(
@@ -701,7 +701,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdefinpfls: 0x2023:01, register 35.
     ///
-    /// Input that works as forward limit switch FLS; a digital one must have no other function
+    /// Input that works as forward limit switch FLS; a digital one must have no other function.
     ///
     /// Constant: [`objects::RDEFINPFLS`]. Values: [`LimitSwitchInput`](types::LimitSwitchInput).
     pub fn rdefinpfls(
@@ -711,7 +711,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhofs: 0x2024:01, register 36.
     ///
-    /// How far the axis moves once the homing routine is over
+    /// How far the axis moves once the homing routine is over.
     ///
     /// Constant: [`objects::RHOFS`].
     pub fn rhofs(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -719,7 +719,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhpos: 0x2026:01, register 38.
     ///
-    /// Position that the axis is given after homing
+    /// Position that the axis is given after homing.
     ///
     /// Constant: [`objects::RHPOS`].
     pub fn rhpos(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -727,7 +727,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhcurcoll: 0x2028:01, register 40.
     ///
-    /// Share of the nominal current at which homing takes a mechanical stop for reached (FOC\_CLOSE)
+    /// Share of the nominal current at which homing takes a mechanical stop for reached (FOC\_CLOSE).
     ///
     /// Constant: [`objects::RHCURCOLL`].
     pub fn rhcurcoll(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -735,7 +735,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhtimcoll: 0x2029:01, register 41.
     ///
-    /// Filter time of that detection of the mechanical stop (FOC\_CLOSE)
+    /// Filter time of that detection of the mechanical stop (FOC\_CLOSE).
     ///
     /// Constant: [`objects::RHTIMCOLL`].
     pub fn rhtimcoll(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -743,7 +743,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhtinv: 0x2051:01, register 81.
     ///
-    /// How long homing rests the axis before it turns round
+    /// How long homing rests the axis before it turns round.
     ///
     /// Constant: [`objects::RHTINV`].
     pub fn rhtinv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -751,7 +751,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhmode: 0x2052:01, register 82.
     ///
-    /// Homing method; the table at 0x6098 (L1625) has every method reset the position and set the synchronised flag
+    /// Homing method; the table at 0x6098 (L1625) has every method reset the position and set the synchronised flag.
     ///
     /// Constant: [`objects::RHMODE`]. Values: [`HomingMethodI16`](types::HomingMethodI16).
     pub fn rhmode(&mut self) -> objects::ReadWriteAccess<'_, C, types::HomingMethodI16> {
@@ -759,7 +759,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhvh: 0x2053:01, register 83.
     ///
-    /// Speed of homing while it looks for the limit switch
+    /// Speed of homing while it looks for the limit switch.
     ///
     /// Constant: [`objects::RHVH`].
     pub fn rhvh(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i32, 1, 100>> {
@@ -767,7 +767,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhvl: 0x2055:01, register 85.
     ///
-    /// Speed of homing while it looks for the zero point; has to lie within the start/stop range
+    /// Speed of homing while it looks for the zero point; has to lie within the start/stop range.
     ///
     /// Constant: [`objects::RHVL`].
     pub fn rhvl(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<i32, 1, 100>> {
@@ -775,7 +775,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhacc: 0x2057:01, register 87.
     ///
-    /// Acceleration and deceleration of homing
+    /// Acceleration and deceleration of homing.
     ///
     /// Constant: [`objects::RHACC`].
     pub fn rhacc(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 1, 10>> {
@@ -783,7 +783,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhsts: 0x20CA:01, register 202.
     ///
-    /// State and errors of homing; the emergencies FF02, FF06 and FF07 carry its low byte
+    /// State and errors of homing; the emergencies FF02, FF06 and FF07 carry its low byte.
     ///
     /// Constant: [`objects::RHSTS`]. Values: [`HomingStatus`](types::HomingStatus).
     pub fn rhsts(&mut self) -> objects::ReadOnlyAccess<'_, C, types::HomingStatus> {
@@ -791,7 +791,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhindexpc: 0x223F:01, register 575.
     ///
-    /// Not described; by its name a distance or position of the index in homing
+    /// Not described; by its name a distance or position of the index in homing.
     ///
     /// Constant: [`objects::RHINDEXPC`].
     pub fn rhindexpc(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -799,7 +799,7 @@ impl<C> VectorStep<C> {
     }
     /// Rshstop: 0x2018:01, register 24.
     ///
-    /// Shift distance of the STOP instruction
+    /// Shift distance of the STOP instruction.
     ///
     /// Constant: [`objects::RSHSTOP`].
     pub fn rshstop(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -807,7 +807,7 @@ impl<C> VectorStep<C> {
     }
     /// Rspcstop: 0x201C:01, register 28.
     ///
-    /// Fixed distance in which the axis stops
+    /// Fixed distance in which the axis stops.
     ///
     /// Constant: [`objects::RSPCSTOP`].
     pub fn rspcstop(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -815,7 +815,7 @@ impl<C> VectorStep<C> {
     }
     /// Rspcstopcalc: 0x201E:01, register 30.
     ///
-    /// Distance that the last stop took
+    /// Distance that the last stop took.
     ///
     /// Constant: [`objects::RSPCSTOPCALC`].
     pub fn rspcstopcalc(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -823,7 +823,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbestpflg: 0x2031:01, register 49.
     ///
-    /// What BESTOP waits for: the state of a bit, or an edge of an encoder's index
+    /// What BESTOP waits for: the state of a bit, or an edge of an encoder's index.
     ///
     /// Constant: [`objects::RBESTPFLG`]. Values: [`BestopSetup`](types::BestopSetup).
     pub fn rbestpflg(&mut self) -> objects::ReadWriteAccess<'_, C, types::BestopSetup> {
@@ -831,7 +831,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbestppar: 0x2032:01, register 50.
     ///
-    /// Number of the register or variable whose bit stops the axis; bit 6 of Rbestpflg says which
+    /// Number of the register or variable whose bit stops the axis; bit 6 of Rbestpflg says which.
     ///
     /// Constant: [`objects::RBESTPPAR`].
     pub fn rbestppar(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -839,7 +839,7 @@ impl<C> VectorStep<C> {
     }
     /// Rshestop: 0x2014:01, register 20.
     ///
-    /// Shift distance of the ESTOP instruction; carries the mark ANA\_T
+    /// Shift distance of the ESTOP instruction; carries the mark ANA\_T.
     ///
     /// Constant: [`objects::RSHESTOP`].
     pub fn rshestop(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -847,7 +847,7 @@ impl<C> VectorStep<C> {
     }
     /// Restpflg: 0x202D:01, register 45.
     ///
-    /// What ESTOP compares and how
+    /// What ESTOP compares and how.
     ///
     /// Constant: [`objects::RESTPFLG`]. Values: [`EstopSetup`](types::EstopSetup).
     pub fn restpflg(&mut self) -> objects::ReadWriteAccess<'_, C, types::EstopSetup> {
@@ -855,7 +855,7 @@ impl<C> VectorStep<C> {
     }
     /// Restppar1: 0x202E:01, register 46.
     ///
-    /// First parameter of the comparison: a number, or the number of a register or variable, as Restpflg says
+    /// First parameter of the comparison: a number, or the number of a register or variable, as Restpflg says.
     ///
     /// Constant: [`objects::RESTPPAR1`].
     pub fn restppar1(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -863,7 +863,7 @@ impl<C> VectorStep<C> {
     }
     /// Restppar2: 0x2030:01, register 48.
     ///
-    /// Second parameter of the comparison, as Restpflg says
+    /// Second parameter of the comparison, as Restpflg says.
     ///
     /// Constant: [`objects::RESTPPAR2`].
     pub fn restppar2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -871,7 +871,7 @@ impl<C> VectorStep<C> {
     }
     /// Rgearmul: 0x2068:01, register 104.
     ///
-    /// Multiplier of the gear ratio
+    /// Multiplier of the gear ratio.
     ///
     /// Constant: [`objects::RGEARMUL`].
     pub fn rgearmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -879,7 +879,7 @@ impl<C> VectorStep<C> {
     }
     /// Rgeardiv: 0x2069:01, register 105.
     ///
-    /// Divisor of the gear ratio
+    /// Divisor of the gear ratio.
     ///
     /// Constant: [`objects::RGEARDIV`].
     pub fn rgeardiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -887,7 +887,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpostimeout: 0x20E0:01, register 224.
     ///
-    /// Time after which a positioning that isn't done is an alarm
+    /// Time after which a positioning that isn't done is an alarm.
     ///
     /// Constant: [`objects::RPOSTIMEOUT`].
     pub fn rpostimeout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -895,7 +895,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdeadpos: 0x20E1:01, register 225.
     ///
-    /// Window around the target, in motor steps, within which the motor is in position
+    /// Window around the target, in motor steps, within which the motor is in position.
     ///
     /// Constant: [`objects::RDEADPOS`].
     pub fn rdeadpos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -903,7 +903,7 @@ impl<C> VectorStep<C> {
     }
     /// Rsettim: 0x20E2:01, register 226.
     ///
-    /// How long the motor has to stay in the window, with no speed asked for, before it is reported in position (closed loop)
+    /// How long the motor has to stay in the window, with no speed asked for, before it is reported in position (closed loop).
     ///
     /// Constant: [`objects::RSETTIM`].
     pub fn rsettim(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -911,7 +911,7 @@ impl<C> VectorStep<C> {
     }
     /// Ralarm: 0x20E3:01, register 227.
     ///
-    /// Alarms of the drive; Ralarm32 has more of them
+    /// Alarms of the drive; Ralarm32 has more of them.
     ///
     /// Constant: [`objects::RALARM`]. Values: [`Alarm`](types::Alarm).
     pub fn ralarm(&mut self) -> objects::ReadWriteAccess<'_, C, types::Alarm> {
@@ -919,7 +919,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwarning: 0x20E4:01, register 228.
     ///
-    /// Warnings, which come before alarms and have no effect on the drive
+    /// Warnings, which come before alarms and have no effect on the drive.
     ///
     /// Constant: [`objects::RWARNING`]. Values: [`Warning`](types::Warning).
     pub fn rwarning(&mut self) -> objects::ReadOnlyAccess<'_, C, types::Warning> {
@@ -927,7 +927,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbufalm0: 0x20E5:01, register 229.
     ///
-    /// Stored alarm 0
+    /// Stored alarm 0.
     ///
     /// Constant: [`objects::RBUFALM0`].
     pub fn rbufalm0(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -935,7 +935,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbufalm1: 0x20E6:01, register 230.
     ///
-    /// Stored alarm 1
+    /// Stored alarm 1.
     ///
     /// Constant: [`objects::RBUFALM1`].
     pub fn rbufalm1(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -943,7 +943,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbufalm2: 0x20E7:01, register 231.
     ///
-    /// Stored alarm 2
+    /// Stored alarm 2.
     ///
     /// Constant: [`objects::RBUFALM2`].
     pub fn rbufalm2(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -951,7 +951,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbufalm3: 0x20E8:01, register 232.
     ///
-    /// Stored alarm 3
+    /// Stored alarm 3.
     ///
     /// Constant: [`objects::RBUFALM3`].
     pub fn rbufalm3(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -959,7 +959,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbufalm4: 0x20E9:01, register 233.
     ///
-    /// Stored alarm 4
+    /// Stored alarm 4.
     ///
     /// Constant: [`objects::RBUFALM4`].
     pub fn rbufalm4(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -967,7 +967,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbufalm5: 0x20EA:01, register 234.
     ///
-    /// Stored alarm 5
+    /// Stored alarm 5.
     ///
     /// Constant: [`objects::RBUFALM5`].
     pub fn rbufalm5(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -975,7 +975,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbufalm6: 0x20EB:01, register 235.
     ///
-    /// Stored alarm 6
+    /// Stored alarm 6.
     ///
     /// Constant: [`objects::RBUFALM6`].
     pub fn rbufalm6(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -983,7 +983,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbufalm7: 0x20EC:01, register 236.
     ///
-    /// Stored alarm 7
+    /// Stored alarm 7.
     ///
     /// Constant: [`objects::RBUFALM7`].
     pub fn rbufalm7(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -991,7 +991,7 @@ impl<C> VectorStep<C> {
     }
     /// Ralmcnt: 0x20ED:01, register 237.
     ///
-    /// How many faults there have been; bit 1 of Ralmack resets it
+    /// How many faults there have been; bit 1 of Ralmack resets it.
     ///
     /// Constant: [`objects::RALMCNT`].
     pub fn ralmcnt(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -999,7 +999,7 @@ impl<C> VectorStep<C> {
     }
     /// Ralmack: 0x20EE:01, register 238.
     ///
-    /// Acknowledges the last alarm and resets the count
+    /// Acknowledges the last alarm and resets the count.
     ///
     /// Constant: [`objects::RALMACK`]. Values: [`AlarmAcknowledge`](types::AlarmAcknowledge).
     pub fn ralmack(
@@ -1009,7 +1009,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtempalm: 0x20EF:01, register 239.
     ///
-    /// Temperature above which there is an alarm
+    /// Temperature above which there is an alarm.
     ///
     /// Constant: [`objects::RTEMPALM`].
     pub fn rtempalm(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1017,7 +1017,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtensmax: 0x20F0:01, register 240.
     ///
-    /// Voltage above which there is an alarm
+    /// Voltage above which there is an alarm.
     ///
     /// Constant: [`objects::RTENSMAX`].
     pub fn rtensmax(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1025,7 +1025,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtensmin: 0x20F1:01, register 241.
     ///
-    /// Voltage below which there is an alarm
+    /// Voltage below which there is an alarm.
     ///
     /// Constant: [`objects::RTENSMIN`].
     pub fn rtensmin(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1033,7 +1033,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcurmax: 0x20F2:01, register 242.
     ///
-    /// Limit that the current may not pass
+    /// Limit that the current may not pass.
     ///
     /// Constant: [`objects::RCURMAX`].
     pub fn rcurmax(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1041,7 +1041,7 @@ impl<C> VectorStep<C> {
     }
     /// Rflwmax: 0x20F3:01, register 243.
     ///
-    /// Following error, whichever its sign, beyond which there is an alarm after a filter time; 0 switches the check off
+    /// Following error, whichever its sign, beyond which there is an alarm after a filter time; 0 switches the check off.
     ///
     /// Constant: [`objects::RFLWMAX`].
     pub fn rflwmax(
@@ -1051,7 +1051,7 @@ impl<C> VectorStep<C> {
     }
     /// Ri2tmax: 0x20F5:01, register 245.
     ///
-    /// I2t from which there is an alarm
+    /// I2t from which there is an alarm.
     ///
     /// Constant: [`objects::RI2TMAX`].
     pub fn ri2tmax(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -1059,7 +1059,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmaskalm: 0x20F7:01, register 247.
     ///
-    /// Which alarms are masked: 1 masks the alarm of the same bit in Ralarm
+    /// Which alarms are masked: 1 masks the alarm of the same bit in Ralarm.
     ///
     /// Constant: [`objects::RMASKALM`]. Values: [`Alarm`](types::Alarm).
     pub fn rmaskalm(&mut self) -> objects::ReadWriteAccess<'_, C, types::Alarm> {
@@ -1067,7 +1067,7 @@ impl<C> VectorStep<C> {
     }
     /// Rposalmtime: 0x20F8:01, register 248.
     ///
-    /// How long the standing motor may be out of position before the position alarm (closed loop); 0 switches the check off
+    /// How long the standing motor may be out of position before the position alarm (closed loop); 0 switches the check off.
     ///
     /// Constant: [`objects::RPOSALMTIME`].
     pub fn rposalmtime(
@@ -1077,7 +1077,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtempwrn: 0x20F9:01, register 249.
     ///
-    /// Temperature from which there is a warning
+    /// Temperature from which there is a warning.
     ///
     /// Constant: [`objects::RTEMPWRN`].
     pub fn rtempwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1085,7 +1085,7 @@ impl<C> VectorStep<C> {
     }
     /// Rovvwrn: 0x20FA:01, register 250.
     ///
-    /// Overvoltage from which there is a warning
+    /// Overvoltage from which there is a warning.
     ///
     /// Constant: [`objects::ROVVWRN`].
     pub fn rovvwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1093,7 +1093,7 @@ impl<C> VectorStep<C> {
     }
     /// Runvwrn: 0x20FB:01, register 251.
     ///
-    /// Undervoltage from which there is a warning
+    /// Undervoltage from which there is a warning.
     ///
     /// Constant: [`objects::RUNVWRN`].
     pub fn runvwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1101,7 +1101,7 @@ impl<C> VectorStep<C> {
     }
     /// Rovcwrn: 0x20FC:01, register 252.
     ///
-    /// Current from which there is a warning
+    /// Current from which there is a warning.
     ///
     /// Constant: [`objects::ROVCWRN`].
     pub fn rovcwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1109,7 +1109,7 @@ impl<C> VectorStep<C> {
     }
     /// Rflwvrn: 0x20FD:01, register 253.
     ///
-    /// Following error, whichever its sign, from which there is a warning at once; 0 switches the check off
+    /// Following error, whichever its sign, from which there is a warning at once; 0 switches the check off.
     ///
     /// Constant: [`objects::RFLWVRN`].
     pub fn rflwvrn(
@@ -1119,7 +1119,7 @@ impl<C> VectorStep<C> {
     }
     /// Ri2twrn: 0x20FF:01, register 255.
     ///
-    /// I2t from which there is a warning
+    /// I2t from which there is a warning.
     ///
     /// Constant: [`objects::RI2TWRN`].
     pub fn ri2twrn(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -1127,7 +1127,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmaskwrn: 0x2101:01, register 257.
     ///
-    /// Which warnings are masked: 1 masks the warning of the same bit in Rwarning
+    /// Which warnings are masked: 1 masks the warning of the same bit in Rwarning.
     ///
     /// Constant: [`objects::RMASKWRN`]. Values: [`Warning`](types::Warning).
     pub fn rmaskwrn(&mut self) -> objects::ReadWriteAccess<'_, C, types::Warning> {
@@ -1135,7 +1135,7 @@ impl<C> VectorStep<C> {
     }
     /// Rposwrtime: 0x2102:01, register 258.
     ///
-    /// How long the standing motor may be out of position before the position warning (closed loop); 0 switches the check off
+    /// How long the standing motor may be out of position before the position warning (closed loop); 0 switches the check off.
     ///
     /// Constant: [`objects::RPOSWRTIME`].
     pub fn rposwrtime(
@@ -1145,7 +1145,7 @@ impl<C> VectorStep<C> {
     }
     /// Rflwdisp: 0x2103:01, register 259.
     ///
-    /// Following error now
+    /// Following error now.
     ///
     /// Constant: [`objects::RFLWDISP`].
     pub fn rflwdisp(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -1153,7 +1153,7 @@ impl<C> VectorStep<C> {
     }
     /// Rflwmem: 0x2105:01, register 261.
     ///
-    /// Greatest following error since it was cleared, without its sign
+    /// Greatest following error since it was cleared, without its sign.
     ///
     /// Constant: [`objects::RFLWMEM`].
     pub fn rflwmem(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -1161,7 +1161,7 @@ impl<C> VectorStep<C> {
     }
     /// Rflwtim: 0x2107:01, register 263.
     ///
-    /// How long the following error has to be out of its range before the alarm; warnings aren't filtered
+    /// How long the following error has to be out of its range before the alarm; warnings aren't filtered.
     ///
     /// Constant: [`objects::RFLWTIM`].
     pub fn rflwtim(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1169,7 +1169,7 @@ impl<C> VectorStep<C> {
     }
     /// Rflwmemp: 0x210A:01, register 266.
     ///
-    /// Greatest positive following error since it was cleared
+    /// Greatest positive following error since it was cleared.
     ///
     /// Constant: [`objects::RFLWMEMP`].
     pub fn rflwmemp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1177,7 +1177,7 @@ impl<C> VectorStep<C> {
     }
     /// Rflwmemn: 0x210B:01, register 267.
     ///
-    /// Greatest negative following error since it was cleared, shown as a positive number
+    /// Greatest negative following error since it was cleared, shown as a positive number.
     ///
     /// Constant: [`objects::RFLWMEMN`].
     pub fn rflwmemn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1185,7 +1185,7 @@ impl<C> VectorStep<C> {
     }
     /// Rflwencerr: 0x2197:01, register 407.
     ///
-    /// Difference of encoder and motor steps that is an alarm at once, to notice a missing encoder; where used, one or two revolutions
+    /// Difference of encoder and motor steps that is an alarm at once, to notice a missing encoder; where used, one or two revolutions.
     ///
     /// Constant: [`objects::RFLWENCERR`].
     pub fn rflwencerr(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -1193,7 +1193,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpostimeoutwrn: 0x2199:01, register 409.
     ///
-    /// Time after which a positioning that isn't done is a warning
+    /// Time after which a positioning that isn't done is a warning.
     ///
     /// Constant: [`objects::RPOSTIMEOUTWRN`].
     pub fn rpostimeoutwrn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1201,7 +1201,7 @@ impl<C> VectorStep<C> {
     }
     /// Ralarm32: 0x222F:01, register 559.
     ///
-    /// All alarms of the drive; the lower half is Ralarm
+    /// All alarms of the drive; the lower half is Ralarm.
     ///
     /// Constant: [`objects::RALARM32`]. Values: [`Alarm32`](types::Alarm32).
     pub fn ralarm32(&mut self) -> objects::ReadWriteAccess<'_, C, types::Alarm32> {
@@ -1209,7 +1209,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwarning32: 0x2231:01, register 561.
     ///
-    /// All warnings of the drive; the lower half is Rwarning
+    /// All warnings of the drive; the lower half is Rwarning.
     ///
     /// Constant: [`objects::RWARNING32`]. Values: [`Warning32`](types::Warning32).
     pub fn rwarning32(&mut self) -> objects::ReadWriteAccess<'_, C, types::Warning32> {
@@ -1217,7 +1217,7 @@ impl<C> VectorStep<C> {
     }
     /// Ralarmreact: 0x471E:01, register 10014.
     ///
-    /// What the drive does when there is an alarm
+    /// What the drive does when there is an alarm.
     ///
     /// Constant: [`objects::RALARMREACT`]. Values: [`AlarmReaction`](types::AlarmReaction).
     pub fn ralarmreact(
@@ -1227,7 +1227,7 @@ impl<C> VectorStep<C> {
     }
     /// Ralmbuffres: 0x47A0:01, register 10144.
     ///
-    /// Clears the alarm history
+    /// Clears the alarm history.
     ///
     /// Constant: [`objects::RALMBUFFRES`].
     pub fn ralmbuffres(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1235,7 +1235,7 @@ impl<C> VectorStep<C> {
     }
     /// Ralmbuffptr: 0x47A1:01, register 10145.
     ///
-    /// Which entry of the alarm history Ralmbufftime and Ralmbuffcode show
+    /// Which entry of the alarm history Ralmbufftime and Ralmbuffcode show.
     ///
     /// Constant: [`objects::RALMBUFFPTR`].
     pub fn ralmbuffptr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1243,7 +1243,7 @@ impl<C> VectorStep<C> {
     }
     /// Ralmbufftime: 0x47A2:01, register 10146.
     ///
-    /// When the alarm pointed to happened
+    /// When the alarm pointed to happened.
     ///
     /// Constant: [`objects::RALMBUFFTIME`].
     pub fn ralmbufftime(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
@@ -1251,7 +1251,7 @@ impl<C> VectorStep<C> {
     }
     /// Ralmbuffcode: 0x47A4:01, register 10148.
     ///
-    /// Code of the alarm pointed to
+    /// Code of the alarm pointed to.
     ///
     /// Constant: [`objects::RALMBUFFCODE`].
     pub fn ralmbuffcode(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
@@ -1259,7 +1259,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhslsi: 0x206B:01, register 107.
     ///
-    /// Limit switches and encoder lines, sampled every 50 µs
+    /// Limit switches and encoder lines, sampled every 50 µs.
     ///
     /// Constant: [`objects::RHSLSI`]. Values: [`LimitSwitches`](types::LimitSwitches).
     pub fn rhslsi(&mut self) -> objects::ReadOnlyAccess<'_, C, types::LimitSwitches> {
@@ -1267,7 +1267,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhsinp: 0x206C:01, register 108.
     ///
-    /// Digital inputs, sampled every 50 µs
+    /// Digital inputs, sampled every 50 µs.
     ///
     /// Constant: [`objects::RHSINP`]. Values: [`DigitalInputs`](types::DigitalInputs).
     pub fn rhsinp(&mut self) -> objects::ReadOnlyAccess<'_, C, types::DigitalInputs> {
@@ -1275,7 +1275,7 @@ impl<C> VectorStep<C> {
     }
     /// Rlsi: 0x206D:01, register 109.
     ///
-    /// Limit switches and encoder lines
+    /// Limit switches and encoder lines.
     ///
     /// Constant: [`objects::RLSI`]. Values: [`LimitSwitches`](types::LimitSwitches).
     pub fn rlsi(&mut self) -> objects::ReadOnlyAccess<'_, C, types::LimitSwitches> {
@@ -1283,7 +1283,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdeflsi: 0x206E:01, register 110.
     ///
-    /// Which level counts as active, for each limit switch and encoder line
+    /// Which level counts as active, for each limit switch and encoder line.
     ///
     /// Constant: [`objects::RDEFLSI`]. Values: [`LimitSwitchPolarity`](types::LimitSwitchPolarity).
     pub fn rdeflsi(
@@ -1293,7 +1293,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfillsi: 0x206F:01, register 111.
     ///
-    /// Time of the digital filter of the limit switch inputs
+    /// Time of the digital filter of the limit switch inputs.
     ///
     /// Constant: [`objects::RFILLSI`].
     pub fn rfillsi(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1301,7 +1301,7 @@ impl<C> VectorStep<C> {
     }
     /// Renflsi: 0x2070:01, register 112.
     ///
-    /// Turns the filter of the limit switch inputs on
+    /// Turns the filter of the limit switch inputs on.
     ///
     /// Constant: [`objects::RENFLSI`].
     pub fn renflsi(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1309,7 +1309,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmemlsi: 0x2071:01, register 113.
     ///
-    /// Memory of the limit switch inputs
+    /// Memory of the limit switch inputs.
     ///
     /// Constant: [`objects::RMEMLSI`].
     pub fn rmemlsi(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1317,7 +1317,7 @@ impl<C> VectorStep<C> {
     }
     /// Rinp: 0x2072:01, register 114.
     ///
-    /// State of the digital inputs
+    /// State of the digital inputs.
     ///
     /// Constant: [`objects::RINP`]. Values: [`DigitalInputs`](types::DigitalInputs).
     pub fn rinp(&mut self) -> objects::ReadOnlyAccess<'_, C, types::DigitalInputs> {
@@ -1325,7 +1325,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdefinp: 0x2073:01, register 115.
     ///
-    /// Which level counts as active, for each digital input
+    /// Which level counts as active, for each digital input.
     ///
     /// Constant: [`objects::RDEFINP`]. Values: [`DigitalInputPolarity`](types::DigitalInputPolarity).
     pub fn rdefinp(
@@ -1335,7 +1335,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfillnp: 0x2074:01, register 116.
     ///
-    /// Time of the digital filter of the digital inputs
+    /// Time of the digital filter of the digital inputs.
     ///
     /// Constant: [`objects::RFILLNP`].
     pub fn rfillnp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1343,7 +1343,7 @@ impl<C> VectorStep<C> {
     }
     /// Renfinp: 0x2075:01, register 117.
     ///
-    /// Turns the filter on for each digital input
+    /// Turns the filter on for each digital input.
     ///
     /// Constant: [`objects::RENFINP`]. Values: [`DigitalInputs`](types::DigitalInputs).
     pub fn renfinp(&mut self) -> objects::ReadWriteAccess<'_, C, types::DigitalInputs> {
@@ -1351,7 +1351,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmeminp: 0x2076:01, register 118.
     ///
-    /// Memory of the digital inputs
+    /// Memory of the digital inputs.
     ///
     /// Constant: [`objects::RMEMINP`]. Values: [`DigitalInputs`](types::DigitalInputs).
     pub fn rmeminp(&mut self) -> objects::ReadWriteAccess<'_, C, types::DigitalInputs> {
@@ -1359,7 +1359,7 @@ impl<C> VectorStep<C> {
     }
     /// Rout: 0x2077:01, register 119.
     ///
-    /// Switches the digital outputs, a bit each
+    /// Switches the digital outputs, a bit each.
     ///
     /// Constant: [`objects::ROUT`]. Values: [`DigitalOutputs`](types::DigitalOutputs).
     pub fn rout(&mut self) -> objects::ReadWriteAccess<'_, C, types::DigitalOutputs> {
@@ -1367,7 +1367,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdefout: 0x2078:01, register 120.
     ///
-    /// Which level counts as active, for each digital output
+    /// Which level counts as active, for each digital output.
     ///
     /// Constant: [`objects::RDEFOUT`]. Values: [`DigitalOutputPolarity`](types::DigitalOutputPolarity).
     pub fn rdefout(
@@ -1377,7 +1377,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuno0: 0x2079:01, register 121.
     ///
-    /// What digital output 0 shows
+    /// What digital output 0 shows.
     ///
     /// Constant: [`objects::RFUNO0`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno0(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
@@ -1385,7 +1385,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuno1: 0x207A:01, register 122.
     ///
-    /// What digital output 1 shows
+    /// What digital output 1 shows.
     ///
     /// Constant: [`objects::RFUNO1`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno1(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
@@ -1393,7 +1393,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuno2: 0x207B:01, register 123.
     ///
-    /// What digital output 2 shows
+    /// What digital output 2 shows.
     ///
     /// Constant: [`objects::RFUNO2`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno2(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
@@ -1401,7 +1401,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuno3: 0x207C:01, register 124.
     ///
-    /// What digital output 3 shows
+    /// What digital output 3 shows.
     ///
     /// Constant: [`objects::RFUNO3`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno3(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
@@ -1409,7 +1409,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuno4: 0x207D:01, register 125.
     ///
-    /// What digital output 4 shows
+    /// What digital output 4 shows.
     ///
     /// Constant: [`objects::RFUNO4`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno4(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
@@ -1417,7 +1417,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuno5: 0x207E:01, register 126.
     ///
-    /// What digital output 5 shows
+    /// What digital output 5 shows.
     ///
     /// Constant: [`objects::RFUNO5`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno5(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
@@ -1425,7 +1425,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuno6: 0x207F:01, register 127.
     ///
-    /// What digital output 6 shows
+    /// What digital output 6 shows.
     ///
     /// Constant: [`objects::RFUNO6`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno6(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
@@ -1433,7 +1433,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuno7: 0x2080:01, register 128.
     ///
-    /// What digital output 7 shows
+    /// What digital output 7 shows.
     ///
     /// Constant: [`objects::RFUNO7`]. Values: [`OutputFunction`](types::OutputFunction).
     pub fn rfuno7(&mut self) -> objects::ReadWriteAccess<'_, C, types::OutputFunction> {
@@ -1441,7 +1441,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni0: 0x2081:01, register 129.
     ///
-    /// What digital input 0 does
+    /// What digital input 0 does.
     ///
     /// Constant: [`objects::RFUNI0`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni0(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1449,7 +1449,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni1: 0x2082:01, register 130.
     ///
-    /// What digital input 1 does
+    /// What digital input 1 does.
     ///
     /// Constant: [`objects::RFUNI1`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni1(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1457,7 +1457,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni2: 0x2083:01, register 131.
     ///
-    /// What digital input 2 does
+    /// What digital input 2 does.
     ///
     /// Constant: [`objects::RFUNI2`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni2(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1465,7 +1465,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni3: 0x2084:01, register 132.
     ///
-    /// What digital input 3 does
+    /// What digital input 3 does.
     ///
     /// Constant: [`objects::RFUNI3`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni3(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1473,7 +1473,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni4: 0x2085:01, register 133.
     ///
-    /// What digital input 4 does
+    /// What digital input 4 does.
     ///
     /// Constant: [`objects::RFUNI4`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni4(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1481,7 +1481,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni5: 0x2086:01, register 134.
     ///
-    /// What digital input 5 does
+    /// What digital input 5 does.
     ///
     /// Constant: [`objects::RFUNI5`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni5(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1489,7 +1489,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni6: 0x2087:01, register 135.
     ///
-    /// What digital input 6 does
+    /// What digital input 6 does.
     ///
     /// Constant: [`objects::RFUNI6`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni6(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1497,7 +1497,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni7: 0x2088:01, register 136.
     ///
-    /// What digital input 7 does
+    /// What digital input 7 does.
     ///
     /// Constant: [`objects::RFUNI7`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni7(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1505,7 +1505,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdiginplev: 0x2129:01, register 297.
     ///
-    /// Which threshold the digital inputs use; the voltages are in Rtrginp24v and Rtrginp5v
+    /// Which threshold the digital inputs use; the voltages are in Rtrginp24v and Rtrginp5v.
     ///
     /// Constant: [`objects::RDIGINPLEV`]. Values: [`DigitalInputLevel`](types::DigitalInputLevel).
     pub fn rdiginplev(
@@ -1515,7 +1515,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstpoutmaxfreq: 0x212A:01, register 298.
     ///
-    /// Highest frequency of a digital output with the step function; steps above it come out later, once the motor slows down or stands
+    /// Highest frequency of a digital output with the step function; steps above it come out later, once the motor slows down or stands.
     ///
     /// Constant: [`objects::RSTPOUTMAXFREQ`].
     pub fn rstpoutmaxfreq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1523,7 +1523,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtrginp5v: 0x2132:01, register 306.
     ///
-    /// Threshold of the inputs where they are set to 5 V
+    /// Threshold of the inputs where they are set to 5 V.
     ///
     /// Constant: [`objects::RTRGINP5V`].
     pub fn rtrginp5v(
@@ -1533,7 +1533,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtrginp24v: 0x2133:01, register 307.
     ///
-    /// Threshold of the inputs where they are set to 24 V
+    /// Threshold of the inputs where they are set to 24 V.
     ///
     /// Constant: [`objects::RTRGINP24V`].
     pub fn rtrginp24v(
@@ -1543,7 +1543,7 @@ impl<C> VectorStep<C> {
     }
     /// Routenable: 0x21AC:01, register 428.
     ///
-    /// Which digital outputs are enabled
+    /// Which digital outputs are enabled.
     ///
     /// Constant: [`objects::ROUTENABLE`]. Values: [`DigitalOutputEnable`](types::DigitalOutputEnable).
     pub fn routenable(
@@ -1553,7 +1553,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni8: 0x21BA:01, register 442.
     ///
-    /// What digital input 8 does
+    /// What digital input 8 does.
     ///
     /// Constant: [`objects::RFUNI8`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni8(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1561,7 +1561,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni9: 0x21BB:01, register 443.
     ///
-    /// What digital input 9 does
+    /// What digital input 9 does.
     ///
     /// Constant: [`objects::RFUNI9`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni9(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1569,7 +1569,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni10: 0x21BC:01, register 444.
     ///
-    /// What digital input 10 does
+    /// What digital input 10 does.
     ///
     /// Constant: [`objects::RFUNI10`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni10(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1577,7 +1577,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni11: 0x21BD:01, register 445.
     ///
-    /// What digital input 11 does
+    /// What digital input 11 does.
     ///
     /// Constant: [`objects::RFUNI11`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni11(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1585,7 +1585,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni12: 0x21BE:01, register 446.
     ///
-    /// What digital input 12 does
+    /// What digital input 12 does.
     ///
     /// Constant: [`objects::RFUNI12`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni12(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1593,7 +1593,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni13: 0x21BF:01, register 447.
     ///
-    /// What digital input 13 does
+    /// What digital input 13 does.
     ///
     /// Constant: [`objects::RFUNI13`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni13(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1601,7 +1601,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni14: 0x21C0:01, register 448.
     ///
-    /// What digital input 14 does
+    /// What digital input 14 does.
     ///
     /// Constant: [`objects::RFUNI14`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni14(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1609,7 +1609,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfuni15: 0x21C1:01, register 449.
     ///
-    /// What digital input 15 does
+    /// What digital input 15 does.
     ///
     /// Constant: [`objects::RFUNI15`]. Values: [`InputFunction`](types::InputFunction).
     pub fn rfuni15(&mut self) -> objects::ReadWriteAccess<'_, C, types::InputFunction> {
@@ -1617,7 +1617,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstepouttime: 0x47A7:01, register 10151.
     ///
-    /// How long the step output stays active
+    /// How long the step output stays active.
     ///
     /// Constant: [`objects::RSTEPOUTTIME`].
     pub fn rstepouttime(
@@ -1627,7 +1627,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstepoutcount: 0x47A8:01, register 10152.
     ///
-    /// Number of steps to count before the step output becomes active
+    /// Number of steps to count before the step output becomes active.
     ///
     /// Constant: [`objects::RSTEPOUTCOUNT`].
     pub fn rstepoutcount(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -1635,7 +1635,7 @@ impl<C> VectorStep<C> {
     }
     /// Ranainp: 0x2089:01, register 137.
     ///
-    /// Value of the analogue input, 12 bits
+    /// Value of the analogue input, 12 bits.
     ///
     /// Constant: [`objects::RANAINP`].
     pub fn ranainp(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -1643,7 +1643,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdefanainp: 0x208A:01, register 138.
     ///
-    /// What the analogue input is used for, probably the number of the register that it sets
+    /// What the analogue input is used for, probably the number of the register that it sets.
     ///
     /// Constant: [`objects::RDEFANAINP`].
     pub fn rdefanainp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1651,7 +1651,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmulanainp: 0x208B:01, register 139.
     ///
-    /// Multiplier of the analogue input
+    /// Multiplier of the analogue input.
     ///
     /// Constant: [`objects::RMULANAINP`].
     pub fn rmulanainp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1659,7 +1659,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdivanainp: 0x208C:01, register 140.
     ///
-    /// Divisor of the analogue input
+    /// Divisor of the analogue input.
     ///
     /// Constant: [`objects::RDIVANAINP`].
     pub fn rdivanainp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1667,7 +1667,7 @@ impl<C> VectorStep<C> {
     }
     /// Roffsanainp: 0x208D:01, register 141.
     ///
-    /// Offset of the analogue input
+    /// Offset of the analogue input.
     ///
     /// Constant: [`objects::ROFFSANAINP`].
     pub fn roffsanainp(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1675,7 +1675,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdeadainp: 0x208E:01, register 142.
     ///
-    /// Dead band of the analogue input, in counts of the converter
+    /// Dead band of the analogue input, in counts of the converter.
     ///
     /// Constant: [`objects::RDEADAINP`].
     pub fn rdeadainp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1683,7 +1683,7 @@ impl<C> VectorStep<C> {
     }
     /// Ranaout: 0x208F:01, register 143.
     ///
-    /// Value of the analogue output, 10 bits, in counts of the converter
+    /// Value of the analogue output, 10 bits, in counts of the converter.
     ///
     /// Constant: [`objects::RANAOUT`].
     pub fn ranaout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1691,7 +1691,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdefanaout: 0x2090:01, register 144.
     ///
-    /// Which parameter goes to Ranaout, probably the number of its register
+    /// Which parameter goes to Ranaout, probably the number of its register.
     ///
     /// Constant: [`objects::RDEFANAOUT`].
     pub fn rdefanaout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1699,7 +1699,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmulanaout: 0x2091:01, register 145.
     ///
-    /// Multiplier of the value for the analogue output
+    /// Multiplier of the value for the analogue output.
     ///
     /// Constant: [`objects::RMULANAOUT`].
     pub fn rmulanaout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1707,7 +1707,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdivanaout: 0x2092:01, register 146.
     ///
-    /// Divisor of the value for the analogue output
+    /// Divisor of the value for the analogue output.
     ///
     /// Constant: [`objects::RDIVANAOUT`].
     pub fn rdivanaout(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1715,7 +1715,7 @@ impl<C> VectorStep<C> {
     }
     /// Roffsananaout: 0x2093:01, register 147.
     ///
-    /// Offset added to the value for the analogue output
+    /// Offset added to the value for the analogue output.
     ///
     /// Constant: [`objects::ROFFSANANAOUT`].
     pub fn roffsananaout(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1723,7 +1723,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfloatingrollerperc: 0x2139:01, register 313.
     ///
-    /// Percentage of the dancer roller
+    /// Percentage of the dancer roller.
     ///
     /// Constant: [`objects::RFLOATINGROLLERPERC`].
     pub fn rfloatingrollerperc(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1731,7 +1731,7 @@ impl<C> VectorStep<C> {
     }
     /// Ranainpdisable: 0x21AD:01, register 429.
     ///
-    /// Turns analogue inputs off, each with its bit
+    /// Turns analogue inputs off, each with its bit.
     ///
     /// Constant: [`objects::RANAINPDISABLE`]. Values: [`AnalogueInputDisable`](types::AnalogueInputDisable).
     pub fn ranainpdisable(
@@ -1741,7 +1741,7 @@ impl<C> VectorStep<C> {
     }
     /// Ranainp1: 0x21AE:01, register 430.
     ///
-    /// Value of analogue input 1, 12 bits
+    /// Value of analogue input 1, 12 bits.
     ///
     /// Constant: [`objects::RANAINP1`].
     pub fn ranainp1(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -1749,7 +1749,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdefanainp1: 0x21AF:01, register 431.
     ///
-    /// What analogue input 1 is used for, as Rdefanainp
+    /// What analogue input 1 is used for, as Rdefanainp.
     ///
     /// Constant: [`objects::RDEFANAINP1`].
     pub fn rdefanainp1(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1757,7 +1757,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmulanainp1: 0x21B0:01, register 432.
     ///
-    /// Multiplier of analogue input 1
+    /// Multiplier of analogue input 1.
     ///
     /// Constant: [`objects::RMULANAINP1`].
     pub fn rmulanainp1(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1765,7 +1765,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdivanainp1: 0x21B1:01, register 433.
     ///
-    /// Divisor of analogue input 1
+    /// Divisor of analogue input 1.
     ///
     /// Constant: [`objects::RDIVANAINP1`].
     pub fn rdivanainp1(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1773,7 +1773,7 @@ impl<C> VectorStep<C> {
     }
     /// Roffsanainp1: 0x21B2:01, register 434.
     ///
-    /// Offset of analogue input 1
+    /// Offset of analogue input 1.
     ///
     /// Constant: [`objects::ROFFSANAINP1`].
     pub fn roffsanainp1(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1781,7 +1781,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdeadainp1: 0x21B3:01, register 435.
     ///
-    /// Dead band of analogue input 1, in counts of the converter
+    /// Dead band of analogue input 1, in counts of the converter.
     ///
     /// Constant: [`objects::RDEADAINP1`].
     pub fn rdeadainp1(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1789,7 +1789,7 @@ impl<C> VectorStep<C> {
     }
     /// Ranainp2: 0x21B4:01, register 436.
     ///
-    /// Value of analogue input 2, 12 bits
+    /// Value of analogue input 2, 12 bits.
     ///
     /// Constant: [`objects::RANAINP2`].
     pub fn ranainp2(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -1797,7 +1797,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdefanainp2: 0x21B5:01, register 437.
     ///
-    /// What analogue input 2 is used for, as Rdefanainp
+    /// What analogue input 2 is used for, as Rdefanainp.
     ///
     /// Constant: [`objects::RDEFANAINP2`].
     pub fn rdefanainp2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1805,7 +1805,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmulanainp2: 0x21B6:01, register 438.
     ///
-    /// Multiplier of analogue input 2
+    /// Multiplier of analogue input 2.
     ///
     /// Constant: [`objects::RMULANAINP2`].
     pub fn rmulanainp2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1813,7 +1813,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdivanainp2: 0x21B7:01, register 439.
     ///
-    /// Divisor of analogue input 2
+    /// Divisor of analogue input 2.
     ///
     /// Constant: [`objects::RDIVANAINP2`].
     pub fn rdivanainp2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1821,7 +1821,7 @@ impl<C> VectorStep<C> {
     }
     /// Roffsnainp2: 0x21B8:01, register 440.
     ///
-    /// Offset of analogue input 2
+    /// Offset of analogue input 2.
     ///
     /// Constant: [`objects::ROFFSNAINP2`].
     pub fn roffsnainp2(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -1829,7 +1829,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdeadainp2: 0x21B9:01, register 441.
     ///
-    /// Dead band of analogue input 2, in counts of the converter
+    /// Dead band of analogue input 2, in counts of the converter.
     ///
     /// Constant: [`objects::RDEADAINP2`].
     pub fn rdeadainp2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1837,7 +1837,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencalignsteps: 0x2241:01, register 577.
     ///
-    /// Number of steps made while the encoder is aligned
+    /// Number of steps made while the encoder is aligned.
     ///
     /// Constant: [`objects::RENCALIGNSTEPS`].
     pub fn rencalignsteps(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1845,7 +1845,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencmotfbk: 0x471A:01, register 10010.
     ///
-    /// Which encoder closes the loop of the motor
+    /// Which encoder closes the loop of the motor.
     ///
     /// Constant: [`objects::RENCMOTFBK`]. Values: [`FeedbackEncoder`](types::FeedbackEncoder).
     pub fn rencmotfbk(
@@ -1855,7 +1855,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencnewperiod: 0x473B:01, register 10043.
     ///
-    /// Tells for each encoder that a new period of its pulses was read; was register 165 before
+    /// Tells for each encoder that a new period of its pulses was read; was register 165 before.
     ///
     /// Constant: [`objects::RENCNEWPERIOD`]. Values: [`EncoderPeriods`](types::EncoderPeriods).
     pub fn rencnewperiod(
@@ -1865,7 +1865,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmotcode: 0x479A:01, register 10138.
     ///
-    /// Code of the motor that the drive is set to
+    /// Code of the motor that the drive is set to.
     ///
     /// Constant: [`objects::RMOTCODE`].
     pub fn rmotcode(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -1873,7 +1873,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmotenc: 0x2097:01, register 151.
     ///
-    /// Position of the motor's encoder
+    /// Position of the motor's encoder.
     ///
     /// Constant: [`objects::RMOTENC`].
     pub fn rmotenc(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -1881,7 +1881,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmotencper: 0x20A3:01, register 163.
     ///
-    /// Period measured between pulses of the motor's encoder
+    /// Period measured between pulses of the motor's encoder.
     ///
     /// Constant: [`objects::RMOTENCPER`].
     pub fn rmotencper(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1889,7 +1889,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmotencpuls: 0x210D:01, register 269.
     ///
-    /// Pulses per revolution of the motor's encoder
+    /// Pulses per revolution of the motor's encoder.
     ///
     /// Constant: [`objects::RMOTENCPULS`].
     pub fn rmotencpuls(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1897,7 +1897,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc1pos: 0x471F:01, register 10015.
     ///
-    /// Position of encoder 1
+    /// Position of encoder 1.
     ///
     /// Constant: [`objects::RENC1POS`].
     pub fn renc1pos(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -1905,7 +1905,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc1pulse: 0x4729:01, register 10025.
     ///
-    /// Pulses per revolution of encoder 1
+    /// Pulses per revolution of encoder 1.
     ///
     /// Constant: [`objects::RENC1PULSE`].
     pub fn renc1pulse(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1913,7 +1913,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc1period: 0x4738:01, register 10040.
     ///
-    /// Period measured between pulses of encoder 1
+    /// Period measured between pulses of encoder 1.
     ///
     /// Constant: [`objects::RENC1PERIOD`].
     pub fn renc1period(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -1921,7 +1921,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc1vel: 0x473C:01, register 10044.
     ///
-    /// Present speed of encoder 1
+    /// Present speed of encoder 1.
     ///
     /// Constant: [`objects::RENC1VEL`].
     pub fn renc1vel(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -1929,7 +1929,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc1sample: 0x473D:01, register 10045.
     ///
-    /// Sampling time of encoder 1
+    /// Sampling time of encoder 1.
     ///
     /// Constant: [`objects::RENC1SAMPLE`].
     pub fn renc1sample(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1937,7 +1937,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc1velmul: 0x473E:01, register 10046.
     ///
-    /// Multiplier of the speed of encoder 1
+    /// Multiplier of the speed of encoder 1.
     ///
     /// Constant: [`objects::RENC1VELMUL`].
     pub fn renc1velmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1945,7 +1945,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc1veldiv: 0x473F:01, register 10047.
     ///
-    /// Divisor of the speed of encoder 1
+    /// Divisor of the speed of encoder 1.
     ///
     /// Constant: [`objects::RENC1VELDIV`].
     pub fn renc1veldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1953,7 +1953,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc1topcnt: 0x4740:01, register 10048.
     ///
-    /// Number of pulses that came on the index input of encoder 1
+    /// Number of pulses that came on the index input of encoder 1.
     ///
     /// Constant: [`objects::RENC1TOPCNT`].
     pub fn renc1topcnt(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -1961,7 +1961,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc1topvel: 0x4742:01, register 10050.
     ///
-    /// Speed measured on the index input of encoder 1
+    /// Speed measured on the index input of encoder 1.
     ///
     /// Constant: [`objects::RENC1TOPVEL`].
     pub fn renc1topvel(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -1969,7 +1969,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc1topsample: 0x4743:01, register 10051.
     ///
-    /// Sampling time of the index input of encoder 1
+    /// Sampling time of the index input of encoder 1.
     ///
     /// Constant: [`objects::RENC1TOPSAMPLE`].
     pub fn renc1topsample(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1977,7 +1977,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc1topvelmul: 0x4744:01, register 10052.
     ///
-    /// Multiplier of the speed on the index input of encoder 1
+    /// Multiplier of the speed on the index input of encoder 1.
     ///
     /// Constant: [`objects::RENC1TOPVELMUL`].
     pub fn renc1topvelmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1985,7 +1985,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc1topveldiv: 0x4745:01, register 10053.
     ///
-    /// Divisor of the speed on the index input of encoder 1
+    /// Divisor of the speed on the index input of encoder 1.
     ///
     /// Constant: [`objects::RENC1TOPVELDIV`].
     pub fn renc1topveldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -1993,7 +1993,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc1code: 0x475A:01, register 10074.
     ///
-    /// Model of encoder 1
+    /// Model of encoder 1.
     ///
     /// Constant: [`objects::RENC1CODE`]. Values: [`EncoderModel`](types::EncoderModel).
     pub fn renc1code(&mut self) -> objects::ReadWriteAccess<'_, C, types::EncoderModel> {
@@ -2001,7 +2001,7 @@ impl<C> VectorStep<C> {
     }
     /// Rextencvel: 0x2033:01, register 51.
     ///
-    /// Present speed of the external encoder; bit 13 of Rstsflg1 tells that it was updated
+    /// Present speed of the external encoder; bit 13 of Rstsflg1 tells that it was updated.
     ///
     /// Constant: [`objects::REXTENCVEL`].
     pub fn rextencvel(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -2009,7 +2009,7 @@ impl<C> VectorStep<C> {
     }
     /// Rextencsmp: 0x2034:01, register 52.
     ///
-    /// Sampling time of the external encoder, and of its index input
+    /// Sampling time of the external encoder, and of its index input.
     ///
     /// Constant: [`objects::REXTENCSMP`].
     pub fn rextencsmp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2017,7 +2017,7 @@ impl<C> VectorStep<C> {
     }
     /// Rextencvelmul: 0x2035:01, register 53.
     ///
-    /// Multiplier of the speed of the external encoder
+    /// Multiplier of the speed of the external encoder.
     ///
     /// Constant: [`objects::REXTENCVELMUL`].
     pub fn rextencvelmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2025,7 +2025,7 @@ impl<C> VectorStep<C> {
     }
     /// Rextencveldiv: 0x2036:01, register 54.
     ///
-    /// Divisor of the speed of the external encoder
+    /// Divisor of the speed of the external encoder.
     ///
     /// Constant: [`objects::REXTENCVELDIV`].
     pub fn rextencveldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2033,7 +2033,7 @@ impl<C> VectorStep<C> {
     }
     /// Rextencotovel: 0x2059:01, register 89.
     ///
-    /// Speed measured on the external encoder's index input, with the sampling time of Rextencsmp
+    /// Speed measured on the external encoder's index input, with the sampling time of Rextencsmp.
     ///
     /// Constant: [`objects::REXTENCOTOVEL`].
     pub fn rextencotovel(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2041,7 +2041,7 @@ impl<C> VectorStep<C> {
     }
     /// Rextencotovelmul: 0x205A:01, register 90.
     ///
-    /// Multiplier of the speed on the external encoder's index input
+    /// Multiplier of the speed on the external encoder's index input.
     ///
     /// Constant: [`objects::REXTENCOTOVELMUL`].
     pub fn rextencotovelmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2049,7 +2049,7 @@ impl<C> VectorStep<C> {
     }
     /// Rextencotoveldiv: 0x205B:01, register 91.
     ///
-    /// Divisor of the speed on the external encoder's index input
+    /// Divisor of the speed on the external encoder's index input.
     ///
     /// Constant: [`objects::REXTENCOTOVELDIV`].
     pub fn rextencotoveldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2057,7 +2057,7 @@ impl<C> VectorStep<C> {
     }
     /// Rextencotopcncnt: 0x205C:01, register 92.
     ///
-    /// Number of pulses that came on the external encoder's index input
+    /// Number of pulses that came on the external encoder's index input.
     ///
     /// Constant: [`objects::REXTENCOTOPCNCNT`].
     pub fn rextencotopcncnt(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -2065,7 +2065,7 @@ impl<C> VectorStep<C> {
     }
     /// Rextencmode: 0x2065:01, register 101.
     ///
-    /// How the external encoder counts
+    /// How the external encoder counts.
     ///
     /// Constant: [`objects::REXTENCMODE`]. Values: [`EncoderMode`](types::EncoderMode).
     pub fn rextencmode(
@@ -2075,7 +2075,7 @@ impl<C> VectorStep<C> {
     }
     /// Rextenc: 0x2099:01, register 153.
     ///
-    /// Position of the external encoder
+    /// Position of the external encoder.
     ///
     /// Constant: [`objects::REXTENC`].
     pub fn rextenc(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -2083,7 +2083,7 @@ impl<C> VectorStep<C> {
     }
     /// Rextencper: 0x20A4:01, register 164.
     ///
-    /// Period measured between pulses of the external encoder
+    /// Period measured between pulses of the external encoder.
     ///
     /// Constant: [`objects::REXTENCPER`].
     pub fn rextencper(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2091,7 +2091,7 @@ impl<C> VectorStep<C> {
     }
     /// Rnewencper: 0x20A5:01, register 165.
     ///
-    /// Tells for each encoder that a new period of its pulses was read
+    /// Tells for each encoder that a new period of its pulses was read.
     ///
     /// Constant: [`objects::RNEWENCPER`]. Values: [`OldEncoderPeriods`](types::OldEncoderPeriods).
     pub fn rnewencper(
@@ -2101,7 +2101,7 @@ impl<C> VectorStep<C> {
     }
     /// Rextencpuls: 0x210C:01, register 268.
     ///
-    /// Pulses per revolution of the external encoder
+    /// Pulses per revolution of the external encoder.
     ///
     /// Constant: [`objects::REXTENCPULS`].
     pub fn rextencpuls(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2109,7 +2109,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc2pos: 0x4721:01, register 10017.
     ///
-    /// Position of encoder 2
+    /// Position of encoder 2.
     ///
     /// Constant: [`objects::RENC2POS`].
     pub fn renc2pos(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -2117,7 +2117,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc2pulse: 0x472A:01, register 10026.
     ///
-    /// Pulses per revolution of encoder 2
+    /// Pulses per revolution of encoder 2.
     ///
     /// Constant: [`objects::RENC2PULSE`].
     pub fn renc2pulse(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2125,7 +2125,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc2period: 0x4739:01, register 10041.
     ///
-    /// Period measured between pulses of encoder 2
+    /// Period measured between pulses of encoder 2.
     ///
     /// Constant: [`objects::RENC2PERIOD`].
     pub fn renc2period(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -2133,7 +2133,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc2vel: 0x4746:01, register 10054.
     ///
-    /// Present speed of encoder 2
+    /// Present speed of encoder 2.
     ///
     /// Constant: [`objects::RENC2VEL`].
     pub fn renc2vel(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -2141,7 +2141,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc2sample: 0x4747:01, register 10055.
     ///
-    /// Sampling time of encoder 2
+    /// Sampling time of encoder 2.
     ///
     /// Constant: [`objects::RENC2SAMPLE`].
     pub fn renc2sample(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2149,7 +2149,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc2velmul: 0x4748:01, register 10056.
     ///
-    /// Multiplier of the speed of encoder 2
+    /// Multiplier of the speed of encoder 2.
     ///
     /// Constant: [`objects::RENC2VELMUL`].
     pub fn renc2velmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2157,7 +2157,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc2veldiv: 0x4749:01, register 10057.
     ///
-    /// Divisor of the speed of encoder 2
+    /// Divisor of the speed of encoder 2.
     ///
     /// Constant: [`objects::RENC2VELDIV`].
     pub fn renc2veldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2165,7 +2165,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc2topcnt: 0x474A:01, register 10058.
     ///
-    /// Number of pulses that came on the index input of encoder 2
+    /// Number of pulses that came on the index input of encoder 2.
     ///
     /// Constant: [`objects::RENC2TOPCNT`].
     pub fn renc2topcnt(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -2173,7 +2173,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc2topvel: 0x474C:01, register 10060.
     ///
-    /// Speed measured on the index input of encoder 2
+    /// Speed measured on the index input of encoder 2.
     ///
     /// Constant: [`objects::RENC2TOPVEL`].
     pub fn renc2topvel(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -2181,7 +2181,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc2topsample: 0x474D:01, register 10061.
     ///
-    /// Sampling time of the index input of encoder 2
+    /// Sampling time of the index input of encoder 2.
     ///
     /// Constant: [`objects::RENC2TOPSAMPLE`].
     pub fn renc2topsample(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2189,7 +2189,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc2topvelmul: 0x474E:01, register 10062.
     ///
-    /// Multiplier of the speed on the index input of encoder 2
+    /// Multiplier of the speed on the index input of encoder 2.
     ///
     /// Constant: [`objects::RENC2TOPVELMUL`].
     pub fn renc2topvelmul(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2197,7 +2197,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc2topveldiv: 0x474F:01, register 10063.
     ///
-    /// Divisor of the speed on the index input of encoder 2
+    /// Divisor of the speed on the index input of encoder 2.
     ///
     /// Constant: [`objects::RENC2TOPVELDIV`].
     pub fn renc2topveldiv(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2205,7 +2205,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc2code: 0x475B:01, register 10075.
     ///
-    /// Model of encoder 2
+    /// Model of encoder 2.
     ///
     /// Constant: [`objects::RENC2CODE`]. Values: [`EncoderModel`](types::EncoderModel).
     pub fn renc2code(&mut self) -> objects::ReadWriteAccess<'_, C, types::EncoderModel> {
@@ -2213,7 +2213,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc3code: 0x475C:01, register 10076.
     ///
-    /// Model of encoder 3
+    /// Model of encoder 3.
     ///
     /// Constant: [`objects::RENC3CODE`]. Values: [`EncoderModel`](types::EncoderModel).
     pub fn renc3code(&mut self) -> objects::ReadWriteAccess<'_, C, types::EncoderModel> {
@@ -2221,7 +2221,7 @@ impl<C> VectorStep<C> {
     }
     /// Rssiencframelen: 0x202C:01, register 44.
     ///
-    /// Length of the frame of the SSI encoder
+    /// Length of the frame of the SSI encoder.
     ///
     /// Constant: [`objects::RSSIENCFRAMELEN`].
     pub fn rssiencframelen(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2229,7 +2229,7 @@ impl<C> VectorStep<C> {
     }
     /// Rssiencturnbit: 0x205E:01, register 94.
     ///
-    /// How many bits of the frame count turns
+    /// How many bits of the frame count turns.
     ///
     /// Constant: [`objects::RSSIENCTURNBIT`].
     pub fn rssiencturnbit(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2237,7 +2237,7 @@ impl<C> VectorStep<C> {
     }
     /// Rssienccountsbit: 0x205F:01, register 95.
     ///
-    /// How many bits of the frame are the position within the turn
+    /// How many bits of the frame are the position within the turn.
     ///
     /// Constant: [`objects::RSSIENCCOUNTSBIT`].
     pub fn rssienccountsbit(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2245,7 +2245,7 @@ impl<C> VectorStep<C> {
     }
     /// Rssienccounts: 0x2060:01, register 96.
     ///
-    /// Position of the SSI encoder within the turn; bits 6 and 7 of Rhwconfig preset and complement it
+    /// Position of the SSI encoder within the turn; bits 6 and 7 of Rhwconfig preset and complement it.
     ///
     /// Constant: [`objects::RSSIENCCOUNTS`].
     pub fn rssienccounts(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -2253,7 +2253,7 @@ impl<C> VectorStep<C> {
     }
     /// Rssiencturns: 0x2061:01, register 97.
     ///
-    /// Turns of the SSI encoder; bits 6 and 7 of Rhwconfig preset and complement them
+    /// Turns of the SSI encoder; bits 6 and 7 of Rhwconfig preset and complement them.
     ///
     /// Constant: [`objects::RSSIENCTURNS`].
     pub fn rssiencturns(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -2261,7 +2261,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencabsquote: 0x4725:01, register 10021.
     ///
-    /// Position of the absolute encoder
+    /// Position of the absolute encoder.
     ///
     /// Constant: [`objects::RENCABSQUOTE`].
     pub fn rencabsquote(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -2269,7 +2269,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencabspos: 0x4727:01, register 10023.
     ///
-    /// Position of the absolute encoder within the turn
+    /// Position of the absolute encoder within the turn.
     ///
     /// Constant: [`objects::RENCABSPOS`].
     pub fn rencabspos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2277,7 +2277,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencabsturns: 0x4728:01, register 10024.
     ///
-    /// Turns of the absolute encoder
+    /// Turns of the absolute encoder.
     ///
     /// Constant: [`objects::RENCABSTURNS`].
     pub fn rencabsturns(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -2285,7 +2285,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencabsframembit: 0x472C:01, register 10028.
     ///
-    /// Length of the absolute encoder's frame
+    /// Length of the absolute encoder's frame.
     ///
     /// Constant: [`objects::RENCABSFRAMEMBIT`].
     pub fn rencabsframembit(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2293,7 +2293,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencabsposbit: 0x472D:01, register 10029.
     ///
-    /// How many bits of the frame are the position within the turn
+    /// How many bits of the frame are the position within the turn.
     ///
     /// Constant: [`objects::RENCABSPOSBIT`].
     pub fn rencabsposbit(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2301,7 +2301,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencabsturnsbit: 0x472E:01, register 10030.
     ///
-    /// How many bits of the frame count turns
+    /// How many bits of the frame count turns.
     ///
     /// Constant: [`objects::RENCABSTURNSBIT`].
     pub fn rencabsturnsbit(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2309,7 +2309,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc1mode: 0x472F:01, register 10031.
     ///
-    /// How encoder 1 counts; bits 1 and 5 of Rhwconfig moved here
+    /// How encoder 1 counts; bits 1 and 5 of Rhwconfig moved here.
     ///
     /// Constant: [`objects::RENC1MODE`]. Values: [`EncoderMode`](types::EncoderMode).
     pub fn renc1mode(&mut self) -> objects::ReadWriteAccess<'_, C, types::EncoderMode> {
@@ -2317,7 +2317,7 @@ impl<C> VectorStep<C> {
     }
     /// Renc2mode: 0x4730:01, register 10032.
     ///
-    /// How encoder 2 counts
+    /// How encoder 2 counts.
     ///
     /// Constant: [`objects::RENC2MODE`]. Values: [`EncoderMode`](types::EncoderMode).
     pub fn renc2mode(&mut self) -> objects::ReadWriteAccess<'_, C, types::EncoderMode> {
@@ -2325,7 +2325,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencabsmode: 0x4732:01, register 10034.
     ///
-    /// How the absolute encoder is read; bits 7 to 10 of Rhwconfig moved here
+    /// How the absolute encoder is read; bits 7 to 10 of Rhwconfig moved here.
     ///
     /// Constant: [`objects::RENCABSMODE`]. Values: [`AbsoluteEncoderMode`](types::AbsoluteEncoderMode).
     pub fn rencabsmode(
@@ -2335,7 +2335,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencabsctrl: 0x4733:01, register 10035.
     ///
-    /// Commands to the absolute encoder
+    /// Commands to the absolute encoder.
     ///
     /// Constant: [`objects::RENCABSCTRL`]. Values: [`AbsoluteEncoderControl`](types::AbsoluteEncoderControl).
     pub fn rencabsctrl(
@@ -2345,7 +2345,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencabsbrate: 0x4735:01, register 10037.
     ///
-    /// Clock with which the absolute encoder is read: 25 MHz divided by the value
+    /// Clock with which the absolute encoder is read: 25 MHz divided by the value.
     ///
     /// Constant: [`objects::RENCABSBRATE`].
     pub fn rencabsbrate(
@@ -2355,7 +2355,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencabsframepause: 0x4736:01, register 10038.
     ///
-    /// Pause between two frames of the absolute encoder
+    /// Pause between two frames of the absolute encoder.
     ///
     /// Constant: [`objects::RENCABSFRAMEPAUSE`].
     pub fn rencabsframepause(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2363,7 +2363,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencabsprebit: 0x4737:01, register 10039.
     ///
-    /// Number of bits at the head of the absolute encoder's frame, which are ignored
+    /// Number of bits at the head of the absolute encoder's frame, which are ignored.
     ///
     /// Constant: [`objects::RENCABSPREBIT`].
     pub fn rencabsprebit(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2371,7 +2371,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencabscode: 0x475D:01, register 10077.
     ///
-    /// Model of the absolute encoder
+    /// Model of the absolute encoder.
     ///
     /// Constant: [`objects::RENCABSCODE`]. Values: [`AbsoluteEncoderModel`](types::AbsoluteEncoderModel).
     pub fn rencabscode(
@@ -2381,7 +2381,7 @@ impl<C> VectorStep<C> {
     }
     /// Rencabspulse: 0x475E:01, register 10078.
     ///
-    /// Pulses per revolution of the absolute encoder
+    /// Pulses per revolution of the absolute encoder.
     ///
     /// Constant: [`objects::RENCABSPULSE`].
     pub fn rencabspulse(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2389,7 +2389,7 @@ impl<C> VectorStep<C> {
     }
     /// Rthetainit: 0x4792:01, register 10130.
     ///
-    /// Angle that was taken from the resolver while aligning
+    /// Angle that was taken from the resolver while aligning.
     ///
     /// Constant: [`objects::RTHETAINIT`].
     pub fn rthetainit(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -2397,7 +2397,7 @@ impl<C> VectorStep<C> {
     }
     /// Rthetaack: 0x4794:01, register 10132.
     ///
-    /// Tells that the angle was taken from the resolver
+    /// Tells that the angle was taken from the resolver.
     ///
     /// Constant: [`objects::RTHETAACK`].
     pub fn rthetaack(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2405,7 +2405,7 @@ impl<C> VectorStep<C> {
     }
     /// Rrslvact: 0x4795:01, register 10133.
     ///
-    /// Present value of the resolver
+    /// Present value of the resolver.
     ///
     /// Constant: [`objects::RRSLVACT`].
     pub fn rrslvact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -2413,7 +2413,7 @@ impl<C> VectorStep<C> {
     }
     /// Rrslvoffsetsin: 0x4796:01, register 10134.
     ///
-    /// Correction of the offset of the resolver's sine
+    /// Correction of the offset of the resolver's sine.
     ///
     /// Constant: [`objects::RRSLVOFFSETSIN`].
     pub fn rrslvoffsetsin(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -2421,7 +2421,7 @@ impl<C> VectorStep<C> {
     }
     /// Rrslvoffsetcos: 0x4798:01, register 10136.
     ///
-    /// Correction of the offset of the resolver's cosine
+    /// Correction of the offset of the resolver's cosine.
     ///
     /// Constant: [`objects::RRSLVOFFSETCOS`].
     pub fn rrslvoffsetcos(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -2429,7 +2429,7 @@ impl<C> VectorStep<C> {
     }
     /// Rrslvcorr: 0x47D1:01, register 10193.
     ///
-    /// Correction of the resolver
+    /// Correction of the resolver.
     ///
     /// Constant: [`objects::RRSLVCORR`].
     pub fn rrslvcorr(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -2437,7 +2437,7 @@ impl<C> VectorStep<C> {
     }
     /// Rrslvrawangleout: 0x47D2:01, register 10194.
     ///
-    /// Angle of the resolver before correction
+    /// Angle of the resolver before correction.
     ///
     /// Constant: [`objects::RRSLVRAWANGLEOUT`].
     pub fn rrslvrawangleout(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -2445,7 +2445,7 @@ impl<C> VectorStep<C> {
     }
     /// Rrslvsinfirot: 0x47D4:01, register 10196.
     ///
-    /// Sine of the resolver after the FIR filter
+    /// Sine of the resolver after the FIR filter.
     ///
     /// Constant: [`objects::RRSLVSINFIROT`].
     pub fn rrslvsinfirot(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -2453,7 +2453,7 @@ impl<C> VectorStep<C> {
     }
     /// Rrslvcosfirot: 0x47D6:01, register 10198.
     ///
-    /// Cosine of the resolver after the FIR filter
+    /// Cosine of the resolver after the FIR filter.
     ///
     /// Constant: [`objects::RRSLVCOSFIROT`].
     pub fn rrslvcosfirot(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -2461,7 +2461,7 @@ impl<C> VectorStep<C> {
     }
     /// Rloadsav: 0x20C2:01, register 194.
     ///
-    /// Command to the EEPROM, and to the communication chip; goes back to 0 once it was carried out
+    /// Command to the EEPROM, and to the communication chip; goes back to 0 once it was carried out.
     ///
     /// Constant: [`objects::RLOADSAV`]. Values: [`EepromCommand`](types::EepromCommand).
     pub fn rloadsav(&mut self) -> objects::ReadWriteAccess<'_, C, types::EepromCommand> {
@@ -2469,7 +2469,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmemvar: 0x20C3:01, register 195.
     ///
-    /// Loads one variable from the EEPROM, or saves it there
+    /// Loads one variable from the EEPROM, or saves it there.
     ///
     /// Constant: [`objects::RMEMVAR`]. Values: [`VariableCommand`](types::VariableCommand).
     pub fn rmemvar(
@@ -2479,7 +2479,7 @@ impl<C> VectorStep<C> {
     }
     /// Reepsts: 0x20C4:01, register 196.
     ///
-    /// State of the EEPROM; 0 means that all is well
+    /// State of the EEPROM; 0 means that all is well.
     ///
     /// Constant: [`objects::REEPSTS`]. Values: [`EepromStatus`](types::EepromStatus).
     pub fn reepsts(&mut self) -> objects::ReadOnlyAccess<'_, C, types::EepromStatus> {
@@ -2487,7 +2487,7 @@ impl<C> VectorStep<C> {
     }
     /// Rindex: 0x20C9:01, register 201.
     ///
-    /// Index with which a MIL program reaches the variables
+    /// Index with which a MIL program reaches the variables.
     ///
     /// Constant: [`objects::RINDEX`].
     pub fn rindex(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2495,7 +2495,7 @@ impl<C> VectorStep<C> {
     }
     /// Reepsts32: 0x2149:01, register 329.
     ///
-    /// State of the EEPROM in 32 bits, on drives from the SMD5106 on; its lower word is Reepsts
+    /// State of the EEPROM in 32 bits, on drives from the SMD5106 on; its lower word is Reepsts.
     ///
     /// Constant: [`objects::REEPSTS32`]. Values: [`EepromStatus32`](types::EepromStatus32).
     pub fn reepsts32(
@@ -2505,7 +2505,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstrtmode: 0x20D8:01, register 216.
     ///
-    /// What the drive does at power-on
+    /// What the drive does at power-on.
     ///
     /// Constant: [`objects::RSTRTMODE`]. Values: [`StartMode`](types::StartMode).
     pub fn rstrtmode(&mut self) -> objects::ReadWriteAccess<'_, C, types::StartMode> {
@@ -2513,7 +2513,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstrtconf: 0x20D9:01, register 217.
     ///
-    /// Rconfig at power-on; saving the registers copies Rconfig here where its bit 15 is 0
+    /// Rconfig at power-on; saving the registers copies Rconfig here where its bit 15 is 0.
     ///
     /// Constant: [`objects::RSTRTCONF`]. Values: [`Configuration`](types::Configuration).
     pub fn rstrtconf(
@@ -2523,7 +2523,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstrtvel: 0x2185:01, register 389.
     ///
-    /// Rvel at power-on
+    /// Rvel at power-on.
     ///
     /// Constant: [`objects::RSTRTVEL`].
     pub fn rstrtvel(
@@ -2533,7 +2533,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstrtvss: 0x2187:01, register 391.
     ///
-    /// Rvss at power-on
+    /// Rvss at power-on.
     ///
     /// Constant: [`objects::RSTRTVSS`].
     pub fn rstrtvss(
@@ -2543,7 +2543,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstrtacc: 0x2189:01, register 393.
     ///
-    /// Racc at power-on
+    /// Racc at power-on.
     ///
     /// Constant: [`objects::RSTRTACC`].
     pub fn rstrtacc(
@@ -2553,7 +2553,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstrtdec: 0x218B:01, register 395.
     ///
-    /// Rdec at power-on
+    /// Rdec at power-on.
     ///
     /// Constant: [`objects::RSTRTDEC`].
     pub fn rstrtdec(
@@ -2563,7 +2563,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstrtpostarg: 0x218D:01, register 397.
     ///
-    /// Rpostarg at power-on
+    /// Rpostarg at power-on.
     ///
     /// Constant: [`objects::RSTRTPOSTARG`].
     pub fn rstrtpostarg(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -2571,7 +2571,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstrthvh: 0x218F:01, register 399.
     ///
-    /// Rhvh at power-on
+    /// Rhvh at power-on.
     ///
     /// Constant: [`objects::RSTRTHVH`].
     pub fn rstrthvh(
@@ -2581,7 +2581,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstrthvl: 0x2191:01, register 401.
     ///
-    /// Rhvl at power-on
+    /// Rhvl at power-on.
     ///
     /// Constant: [`objects::RSTRTHVL`].
     pub fn rstrthvl(
@@ -2591,7 +2591,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstrthacc: 0x2193:01, register 403.
     ///
-    /// Rhacc at power-on
+    /// Rhacc at power-on.
     ///
     /// Constant: [`objects::RSTRTHACC`].
     pub fn rstrthacc(
@@ -2601,7 +2601,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstrthmode: 0x2195:01, register 405.
     ///
-    /// Rhmode at power-on
+    /// Rhmode at power-on.
     ///
     /// Constant: [`objects::RSTRTHMODE`]. Values: [`HomingMethodI16`](types::HomingMethodI16).
     pub fn rstrthmode(
@@ -2611,7 +2611,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcuronramptime: 0x2063:01, register 99.
     ///
-    /// Duration of the ramp by which the current rises when it is switched on
+    /// Duration of the ramp by which the current rises when it is switched on.
     ///
     /// Constant: [`objects::RCURONRAMPTIME`].
     pub fn rcuronramptime(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2619,7 +2619,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcuract: 0x20D1:01, register 209.
     ///
-    /// Motor current at present
+    /// Motor current at present.
     ///
     /// Constant: [`objects::RCURACT`].
     pub fn rcuract(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -2627,7 +2627,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcurnom: 0x20D2:01, register 210.
     ///
-    /// Nominal current that the motor gets
+    /// Nominal current that the motor gets.
     ///
     /// Constant: [`objects::RCURNOM`].
     pub fn rcurnom(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2635,7 +2635,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcurred: 0x20D3:01, register 211.
     ///
-    /// Reduced current that the motor gets
+    /// Reduced current that the motor gets.
     ///
     /// Constant: [`objects::RCURRED`].
     pub fn rcurred(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2643,7 +2643,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcurboost: 0x20D4:01, register 212.
     ///
-    /// Boost current applied during the ramps
+    /// Boost current applied during the ramps.
     ///
     /// Constant: [`objects::RCURBOOST`].
     pub fn rcurboost(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2651,7 +2651,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcurtorque: 0x20D5:01, register 213.
     ///
-    /// Current wanted in torque mode; the note ANA offers it as a target of an analogue input
+    /// Current wanted in torque mode; the note ANA offers it as a target of an analogue input.
     ///
     /// Constant: [`objects::RCURTORQUE`].
     pub fn rcurtorque(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -2659,7 +2659,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtboost: 0x20D6:01, register 214.
     ///
-    /// Longest time that the boost current may last
+    /// Longest time that the boost current may last.
     ///
     /// Constant: [`objects::RTBOOST`].
     pub fn rtboost(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2667,7 +2667,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtcred: 0x20D7:01, register 215.
     ///
-    /// Delay before the drive goes to the reduced current
+    /// Delay before the drive goes to the reduced current.
     ///
     /// Constant: [`objects::RTCRED`].
     pub fn rtcred(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2675,7 +2675,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfocmode: 0x20DB:01, register 219.
     ///
-    /// How the motor is being controlled at present
+    /// How the motor is being controlled at present.
     ///
     /// Constant: [`objects::RFOCMODE`]. Values: [`ControlState`](types::ControlState).
     pub fn rfocmode(&mut self) -> objects::ReadOnlyAccess<'_, C, types::ControlState> {
@@ -2683,7 +2683,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcurmodeact: 0x20DC:01, register 220.
     ///
-    /// Which current level is in use at present
+    /// Which current level is in use at present.
     ///
     /// Constant: [`objects::RCURMODEACT`]. Values: [`CurrentLevelState`](types::CurrentLevelState).
     pub fn rcurmodeact(
@@ -2693,7 +2693,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcurmode: 0x20DD:01, register 221.
     ///
-    /// Which current level the drive is to use
+    /// Which current level the drive is to use.
     ///
     /// Constant: [`objects::RCURMODE`]. Values: [`CurrentLevel`](types::CurrentLevel).
     pub fn rcurmode(&mut self) -> objects::ReadWriteAccess<'_, C, types::CurrentLevel> {
@@ -2701,7 +2701,7 @@ impl<C> VectorStep<C> {
     }
     /// Rconfig: 0x20DE:01, register 222.
     ///
-    /// Kind of control loop (open, closed, smart) and what it follows; saving the registers copies it to Rstrtconf while its bit 15 is 0
+    /// Kind of control loop (open, closed, smart) and what it follows; saving the registers copies it to Rstrtconf while its bit 15 is 0.
     ///
     /// Constant: [`objects::RCONFIG`]. Values: [`Configuration`](types::Configuration).
     pub fn rconfig(&mut self) -> objects::ReadWriteAccess<'_, C, types::Configuration> {
@@ -2709,7 +2709,7 @@ impl<C> VectorStep<C> {
     }
     /// Renmask: 0x20DF:01, register 223.
     ///
-    /// Mask of the checks for enabling the drive
+    /// Mask of the checks for enabling the drive.
     ///
     /// Constant: [`objects::RENMASK`]. Values: [`EnableMask`](types::EnableMask).
     pub fn renmask(&mut self) -> objects::ReadOnlyAccess<'_, C, types::EnableMask> {
@@ -2717,7 +2717,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtrqdisp: 0x2108:01, register 264.
     ///
-    /// Torque, for display; the manual gives no unit
+    /// Torque, for display; the manual gives no unit.
     ///
     /// Constant: [`objects::RTRQDISP`].
     pub fn rtrqdisp(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
@@ -2725,7 +2725,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstpres: 0x210E:01, register 270.
     ///
-    /// Microstep resolution of the motor; from firmware 3.44 in step/direction mode as well
+    /// Microstep resolution of the motor; from firmware 3.44 in step/direction mode as well.
     ///
     /// Constant: [`objects::RSTPRES`].
     pub fn rstpres(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2733,7 +2733,7 @@ impl<C> VectorStep<C> {
     }
     /// Rkpiq: 0x2117:01, register 279.
     ///
-    /// Proportional gain of the PI controller of the quadrature current
+    /// Proportional gain of the PI controller of the quadrature current.
     ///
     /// Constant: [`objects::RKPIQ`].
     pub fn rkpiq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2741,7 +2741,7 @@ impl<C> VectorStep<C> {
     }
     /// Rkiiq: 0x2118:01, register 280.
     ///
-    /// Integral gain of the PI controller of the quadrature current
+    /// Integral gain of the PI controller of the quadrature current.
     ///
     /// Constant: [`objects::RKIIQ`].
     pub fn rkiiq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2749,7 +2749,7 @@ impl<C> VectorStep<C> {
     }
     /// Rkpid: 0x2119:01, register 281.
     ///
-    /// Proportional gain of the PI controller of the direct current
+    /// Proportional gain of the PI controller of the direct current.
     ///
     /// Constant: [`objects::RKPID`].
     pub fn rkpid(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2757,7 +2757,7 @@ impl<C> VectorStep<C> {
     }
     /// Rkiid: 0x211A:01, register 282.
     ///
-    /// Integral gain of the PI controller of the direct current
+    /// Integral gain of the PI controller of the direct current.
     ///
     /// Constant: [`objects::RKIID`].
     pub fn rkiid(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2765,7 +2765,7 @@ impl<C> VectorStep<C> {
     }
     /// Rkpvel: 0x211B:01, register 283.
     ///
-    /// Proportional gain of the speed controller in closed loop
+    /// Proportional gain of the speed controller in closed loop.
     ///
     /// Constant: [`objects::RKPVEL`].
     pub fn rkpvel(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2773,7 +2773,7 @@ impl<C> VectorStep<C> {
     }
     /// Rkivel: 0x211C:01, register 284.
     ///
-    /// Integral gain of the speed controller in closed loop
+    /// Integral gain of the speed controller in closed loop.
     ///
     /// Constant: [`objects::RKIVEL`].
     pub fn rkivel(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2781,7 +2781,7 @@ impl<C> VectorStep<C> {
     }
     /// Rkcvel: 0x211D:01, register 285.
     ///
-    /// Gain Kc of the speed controller in closed loop
+    /// Gain Kc of the speed controller in closed loop.
     ///
     /// Constant: [`objects::RKCVEL`].
     pub fn rkcvel(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2789,7 +2789,7 @@ impl<C> VectorStep<C> {
     }
     /// Rkppos: 0x211E:01, register 286.
     ///
-    /// Proportional gain of the position controller in closed loop
+    /// Proportional gain of the position controller in closed loop.
     ///
     /// Constant: [`objects::RKPPOS`].
     pub fn rkppos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2797,7 +2797,7 @@ impl<C> VectorStep<C> {
     }
     /// Rkipos: 0x211F:01, register 287.
     ///
-    /// Integral gain of the position controller in closed loop
+    /// Integral gain of the position controller in closed loop.
     ///
     /// Constant: [`objects::RKIPOS`].
     pub fn rkipos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2805,7 +2805,7 @@ impl<C> VectorStep<C> {
     }
     /// Rkcipos: 0x2120:01, register 288.
     ///
-    /// Gain Kci of the position controller in closed loop
+    /// Gain Kci of the position controller in closed loop.
     ///
     /// Constant: [`objects::RKCIPOS`].
     pub fn rkcipos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2813,7 +2813,7 @@ impl<C> VectorStep<C> {
     }
     /// Rkffpos: 0x2121:01, register 289.
     ///
-    /// Gain Kff of the position controller in closed loop
+    /// Gain Kff of the position controller in closed loop.
     ///
     /// Constant: [`objects::RKFFPOS`].
     pub fn rkffpos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2821,7 +2821,7 @@ impl<C> VectorStep<C> {
     }
     /// Rkafpos: 0x2122:01, register 290.
     ///
-    /// Gain Kaf of the position controller in closed loop
+    /// Gain Kaf of the position controller in closed loop.
     ///
     /// Constant: [`objects::RKAFPOS`].
     pub fn rkafpos(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2829,7 +2829,7 @@ impl<C> VectorStep<C> {
     }
     /// Rswacfw: 0x2123:01, register 291.
     ///
-    /// Chooses current or speed for the acceleration feed-forward
+    /// Chooses current or speed for the acceleration feed-forward.
     ///
     /// Constant: [`objects::RSWACFW`]. Values: [`AccelerationForward`](types::AccelerationForward).
     pub fn rswacfw(
@@ -2839,7 +2839,7 @@ impl<C> VectorStep<C> {
     }
     /// Radpicur: 0x2124:01, register 292.
     ///
-    /// Correction of the current controller's gains from greatest to least current, to stay responsive without oscillation
+    /// Correction of the current controller's gains from greatest to least current, to stay responsive without oscillation.
     ///
     /// Constant: [`objects::RADPICUR`].
     pub fn radpicur(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -2847,7 +2847,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstpressd: 0x212B:01, register 299.
     ///
-    /// Microstep resolution in step/direction mode; without function where Rstpres has taken its place
+    /// Microstep resolution in step/direction mode; without function where Rstpres has taken its place.
     ///
     /// Constant: [`objects::RSTPRESSD`].
     pub fn rstpressd(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2855,7 +2855,7 @@ impl<C> VectorStep<C> {
     }
     /// Rkpstpdir: 0x212C:01, register 300.
     ///
-    /// Proportional gain that ramps between incoming steps, in step/direction or gear mode
+    /// Proportional gain that ramps between incoming steps, in step/direction or gear mode.
     ///
     /// Constant: [`objects::RKPSTPDIR`].
     pub fn rkpstpdir(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2863,7 +2863,7 @@ impl<C> VectorStep<C> {
     }
     /// Rampfrq: 0x212D:01, register 301.
     ///
-    /// Factor by which incoming steps are multiplied in closed loop, from 1 (1:1) to 10
+    /// Factor by which incoming steps are multiplied in closed loop, from 1 (1:1) to 10.
     ///
     /// Constant: [`objects::RAMPFRQ`].
     pub fn rampfrq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2871,7 +2871,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdefluxen: 0x2135:01, register 309.
     ///
-    /// Enables flux weakening in open loop
+    /// Enables flux weakening in open loop.
     ///
     /// Constant: [`objects::RDEFLUXEN`].
     pub fn rdefluxen(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2879,7 +2879,7 @@ impl<C> VectorStep<C> {
     }
     /// Rdefluxmin: 0x2136:01, register 310.
     ///
-    /// Least current of flux weakening in open loop
+    /// Least current of flux weakening in open loop.
     ///
     /// Constant: [`objects::RDEFLUXMIN`].
     pub fn rdefluxmin(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2887,7 +2887,7 @@ impl<C> VectorStep<C> {
     }
     /// Rphamode: 0x2137:01, register 311.
     ///
-    /// Mode of the phase advance in open loop; the manual names no values
+    /// Mode of the phase advance in open loop; the manual names no values.
     ///
     /// Constant: [`objects::RPHAMODE`].
     pub fn rphamode(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2895,7 +2895,7 @@ impl<C> VectorStep<C> {
     }
     /// Rphagain: 0x2138:01, register 312.
     ///
-    /// Gain of the phase advance in open loop
+    /// Gain of the phase advance in open loop.
     ///
     /// Constant: [`objects::RPHAGAIN`].
     pub fn rphagain(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -2903,7 +2903,7 @@ impl<C> VectorStep<C> {
     }
     /// Rveladjopenmode: 0x213A:01, register 314.
     ///
-    /// Correction of the speed in open loop, that is with feedback from the armature
+    /// Correction of the speed in open loop, that is with feedback from the armature.
     ///
     /// Constant: [`objects::RVELADJOPENMODE`].
     pub fn rveladjopenmode(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -2911,7 +2911,7 @@ impl<C> VectorStep<C> {
     }
     /// Radjcura: 0x215F:01, register 351.
     ///
-    /// Adjusts the amplification of the current sensor's signal of phase A
+    /// Adjusts the amplification of the current sensor's signal of phase A.
     ///
     /// Constant: [`objects::RADJCURA`].
     pub fn radjcura(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -2919,7 +2919,7 @@ impl<C> VectorStep<C> {
     }
     /// Radjcurb: 0x2160:01, register 352.
     ///
-    /// Adjusts the amplification of the current sensor's signal of phase B
+    /// Adjusts the amplification of the current sensor's signal of phase B.
     ///
     /// Constant: [`objects::RADJCURB`].
     pub fn radjcurb(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -2927,7 +2927,7 @@ impl<C> VectorStep<C> {
     }
     /// Rvbusoffs: 0x2170:01, register 368.
     ///
-    /// Offset of the bus voltage's measurement
+    /// Offset of the bus voltage's measurement.
     ///
     /// Constant: [`objects::RVBUSOFFS`].
     pub fn rvbusoffs(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -2935,7 +2935,7 @@ impl<C> VectorStep<C> {
     }
     /// Rla: 0x2172:01, register 370.
     ///
-    /// Current of phase A in counts of the converter
+    /// Current of phase A in counts of the converter.
     ///
     /// Constant: [`objects::RLA`].
     pub fn rla(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -2943,7 +2943,7 @@ impl<C> VectorStep<C> {
     }
     /// Rlb: 0x2173:01, register 371.
     ///
-    /// Current of phase B in counts of the converter
+    /// Current of phase B in counts of the converter.
     ///
     /// Constant: [`objects::RLB`].
     pub fn rlb(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -2951,7 +2951,7 @@ impl<C> VectorStep<C> {
     }
     /// Rlan: 0x2174:01, register 372.
     ///
-    /// Current of phase A, filtered
+    /// Current of phase A, filtered.
     ///
     /// Constant: [`objects::RLAN`].
     pub fn rlan(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -2959,7 +2959,7 @@ impl<C> VectorStep<C> {
     }
     /// Rlbn: 0x2175:01, register 373.
     ///
-    /// Current of phase B, filtered
+    /// Current of phase B, filtered.
     ///
     /// Constant: [`objects::RLBN`].
     pub fn rlbn(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -2967,7 +2967,7 @@ impl<C> VectorStep<C> {
     }
     /// Rla\_offs: 0x2176:01, register 374.
     ///
-    /// Computed offset of the current sensor of phase A
+    /// Computed offset of the current sensor of phase A.
     ///
     /// Constant: [`objects::RLA_OFFS`].
     pub fn rla_offs(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -2975,7 +2975,7 @@ impl<C> VectorStep<C> {
     }
     /// Rlb\_offs: 0x2177:01, register 375.
     ///
-    /// Computed offset of the current sensor of phase B
+    /// Computed offset of the current sensor of phase B.
     ///
     /// Constant: [`objects::RLB_OFFS`].
     pub fn rlb_offs(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -2983,7 +2983,7 @@ impl<C> VectorStep<C> {
     }
     /// Rla\_offsEI: 0x2178:01, register 376.
     ///
-    /// Manual correction of phase A's offset; Rloadsav command 137 saves it, 138 measures and saves it
+    /// Manual correction of phase A's offset; Rloadsav command 137 saves it, 138 measures and saves it.
     ///
     /// Constant: [`objects::RLA_OFFS_EI`].
     pub fn rla_offs_ei(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -2991,7 +2991,7 @@ impl<C> VectorStep<C> {
     }
     /// Rlb\_offsEI: 0x2179:01, register 377.
     ///
-    /// Manual correction of phase B's offset; Rloadsav command 137 saves it, 138 measures and saves it
+    /// Manual correction of phase B's offset; Rloadsav command 137 saves it, 138 measures and saves it.
     ///
     /// Constant: [`objects::RLB_OFFS_EI`].
     pub fn rlb_offs_ei(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -2999,7 +2999,7 @@ impl<C> VectorStep<C> {
     }
     /// Rid: 0x217A:01, register 378.
     ///
-    /// Direct current, component d of the motor current
+    /// Direct current, component d of the motor current.
     ///
     /// Constant: [`objects::RID`].
     pub fn rid(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -3007,7 +3007,7 @@ impl<C> VectorStep<C> {
     }
     /// Riq: 0x217B:01, register 379.
     ///
-    /// Quadrature current, component q of the motor current
+    /// Quadrature current, component q of the motor current.
     ///
     /// Constant: [`objects::RIQ`].
     pub fn riq(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -3015,7 +3015,7 @@ impl<C> VectorStep<C> {
     }
     /// Ridcorr: 0x2184:01, register 388.
     ///
-    /// Correction of the direct current in smart mode
+    /// Correction of the direct current in smart mode.
     ///
     /// Constant: [`objects::RIDCORR`].
     pub fn ridcorr(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -3023,7 +3023,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpwmmode: 0x21EF:01, register 495.
     ///
-    /// How the pulses that make the motor current are aligned; save with Rloadsav command 146 and cycle the power
+    /// How the pulses that make the motor current are aligned; save with Rloadsav command 146 and cycle the power.
     ///
     /// Constant: [`objects::RPWMMODE`]. Values: [`PwmAlignment`](types::PwmAlignment).
     pub fn rpwmmode(&mut self) -> objects::ReadWriteAccess<'_, C, types::PwmAlignment> {
@@ -3031,7 +3031,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidposKp: 0x477E:01, register 10110.
     ///
-    /// Proportional gain of the position PID
+    /// Proportional gain of the position PID.
     ///
     /// Constant: [`objects::RPIDPOS_KP`].
     pub fn rpidpos_kp(
@@ -3041,7 +3041,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidposKi: 0x477F:01, register 10111.
     ///
-    /// Integral gain of the position PID
+    /// Integral gain of the position PID.
     ///
     /// Constant: [`objects::RPIDPOS_KI`].
     pub fn rpidpos_ki(
@@ -3051,7 +3051,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidposKd: 0x4780:01, register 10112.
     ///
-    /// Derivative gain of the position PID
+    /// Derivative gain of the position PID.
     ///
     /// Constant: [`objects::RPIDPOS_KD`].
     pub fn rpidpos_kd(
@@ -3061,7 +3061,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidposTauKd: 0x4781:01, register 10113.
     ///
-    /// Time constant of the filter on the position PID's derivative part
+    /// Time constant of the filter on the position PID's derivative part.
     ///
     /// Constant: [`objects::RPIDPOS_TAU_KD`].
     pub fn rpidpos_tau_kd(
@@ -3071,7 +3071,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidposKff: 0x4782:01, register 10114.
     ///
-    /// Feed-forward gain of the position PID
+    /// Feed-forward gain of the position PID.
     ///
     /// Constant: [`objects::RPIDPOS_KFF`].
     pub fn rpidpos_kff(
@@ -3081,7 +3081,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidposKaf: 0x4783:01, register 10115.
     ///
-    /// Acceleration feed-forward gain of the position PID
+    /// Acceleration feed-forward gain of the position PID.
     ///
     /// Constant: [`objects::RPIDPOS_KAF`].
     pub fn rpidpos_kaf(
@@ -3091,7 +3091,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidposKffFc: 0x4784:01, register 10116.
     ///
-    /// Cut-off frequency of the low-pass filter on the position PID's feed-forward
+    /// Cut-off frequency of the low-pass filter on the position PID's feed-forward.
     ///
     /// Constant: [`objects::RPIDPOS_KFF_FC`].
     pub fn rpidpos_kff_fc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3099,7 +3099,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidposKaw: 0x4785:01, register 10117.
     ///
-    /// Anti-windup gain of the position PID
+    /// Anti-windup gain of the position PID.
     ///
     /// Constant: [`objects::RPIDPOS_KAW`].
     pub fn rpidpos_kaw(
@@ -3109,7 +3109,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidvelKp: 0x4786:01, register 10118.
     ///
-    /// Proportional gain of the speed PID
+    /// Proportional gain of the speed PID.
     ///
     /// Constant: [`objects::RPIDVEL_KP`].
     pub fn rpidvel_kp(
@@ -3119,7 +3119,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidvelKi: 0x4787:01, register 10119.
     ///
-    /// Integral gain of the speed PID
+    /// Integral gain of the speed PID.
     ///
     /// Constant: [`objects::RPIDVEL_KI`].
     pub fn rpidvel_ki(
@@ -3129,7 +3129,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidvelKd: 0x4788:01, register 10120.
     ///
-    /// Derivative gain of the speed PID
+    /// Derivative gain of the speed PID.
     ///
     /// Constant: [`objects::RPIDVEL_KD`].
     pub fn rpidvel_kd(
@@ -3139,7 +3139,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidveltauKd: 0x4789:01, register 10121.
     ///
-    /// Time constant of the filter on the speed PID's derivative part
+    /// Time constant of the filter on the speed PID's derivative part.
     ///
     /// Constant: [`objects::RPIDVELTAU_KD`].
     pub fn rpidveltau_kd(
@@ -3149,7 +3149,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidvelKff: 0x478A:01, register 10122.
     ///
-    /// Feed-forward gain of the speed PID
+    /// Feed-forward gain of the speed PID.
     ///
     /// Constant: [`objects::RPIDVEL_KFF`].
     pub fn rpidvel_kff(
@@ -3159,7 +3159,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidvelKaf: 0x478B:01, register 10123.
     ///
-    /// Acceleration feed-forward gain of the speed PID
+    /// Acceleration feed-forward gain of the speed PID.
     ///
     /// Constant: [`objects::RPIDVEL_KAF`].
     pub fn rpidvel_kaf(
@@ -3169,7 +3169,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidvelKffFc: 0x478C:01, register 10124.
     ///
-    /// Cut-off frequency of the low-pass filter on the speed PID's feed-forward
+    /// Cut-off frequency of the low-pass filter on the speed PID's feed-forward.
     ///
     /// Constant: [`objects::RPIDVEL_KFF_FC`].
     pub fn rpidvel_kff_fc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3177,7 +3177,7 @@ impl<C> VectorStep<C> {
     }
     /// RpidvelKaw: 0x478D:01, register 10125.
     ///
-    /// Anti-windup gain of the speed PID
+    /// Anti-windup gain of the speed PID.
     ///
     /// Constant: [`objects::RPIDVEL_KAW`].
     pub fn rpidvel_kaw(
@@ -3187,7 +3187,7 @@ impl<C> VectorStep<C> {
     }
     /// RfilvelFc: 0x478E:01, register 10126.
     ///
-    /// Cut-off frequency of the filter at the speed loop's input
+    /// Cut-off frequency of the filter at the speed loop's input.
     ///
     /// Constant: [`objects::RFILVEL_FC`].
     pub fn rfilvel_fc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3195,7 +3195,7 @@ impl<C> VectorStep<C> {
     }
     /// RfilvelPG: 0x478F:01, register 10127.
     ///
-    /// Peak gain of the filter at the speed loop's input
+    /// Peak gain of the filter at the speed loop's input.
     ///
     /// Constant: [`objects::RFILVEL_PG`].
     pub fn rfilvel_pg(
@@ -3205,7 +3205,7 @@ impl<C> VectorStep<C> {
     }
     /// RfilcurFc: 0x4790:01, register 10128.
     ///
-    /// Cut-off frequency of the filter at the speed loop's output
+    /// Cut-off frequency of the filter at the speed loop's output.
     ///
     /// Constant: [`objects::RFILCUR_FC`].
     pub fn rfilcur_fc(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3213,7 +3213,7 @@ impl<C> VectorStep<C> {
     }
     /// RfilcurPG: 0x4791:01, register 10129.
     ///
-    /// Peak gain of the filter at the speed loop's output
+    /// Peak gain of the filter at the speed loop's output.
     ///
     /// Constant: [`objects::RFILCUR_PG`].
     pub fn rfilcur_pg(
@@ -3223,7 +3223,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpidposinpact: 0x47AC:01, register 10156.
     ///
-    /// Input of the position PID at present
+    /// Input of the position PID at present.
     ///
     /// Constant: [`objects::RPIDPOSINPACT`].
     pub fn rpidposinpact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3231,7 +3231,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpidpospropact: 0x47AE:01, register 10158.
     ///
-    /// Proportional part of the position PID at present
+    /// Proportional part of the position PID at present.
     ///
     /// Constant: [`objects::RPIDPOSPROPACT`].
     pub fn rpidpospropact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3239,7 +3239,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpidposintact: 0x47B0:01, register 10160.
     ///
-    /// Integral part of the position PID at present
+    /// Integral part of the position PID at present.
     ///
     /// Constant: [`objects::RPIDPOSINTACT`].
     pub fn rpidposintact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3247,7 +3247,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpidposderact: 0x47B2:01, register 10162.
     ///
-    /// Derivative part of the position PID at present
+    /// Derivative part of the position PID at present.
     ///
     /// Constant: [`objects::RPIDPOSDERACT`].
     pub fn rpidposderact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3255,7 +3255,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpidposffact: 0x47B4:01, register 10164.
     ///
-    /// Feed-forward part of the position PID at present
+    /// Feed-forward part of the position PID at present.
     ///
     /// Constant: [`objects::RPIDPOSFFACT`].
     pub fn rpidposffact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3263,7 +3263,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpidposafact: 0x47B6:01, register 10166.
     ///
-    /// Acceleration feed-forward part of the position PID at present
+    /// Acceleration feed-forward part of the position PID at present.
     ///
     /// Constant: [`objects::RPIDPOSAFACT`].
     pub fn rpidposafact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3271,7 +3271,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpidposoutact: 0x47B8:01, register 10168.
     ///
-    /// Output of the position PID at present
+    /// Output of the position PID at present.
     ///
     /// Constant: [`objects::RPIDPOSOUTACT`].
     pub fn rpidposoutact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3279,7 +3279,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpidvelinpact: 0x47BA:01, register 10170.
     ///
-    /// Input of the speed PID at present
+    /// Input of the speed PID at present.
     ///
     /// Constant: [`objects::RPIDVELINPACT`].
     pub fn rpidvelinpact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3287,7 +3287,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpidvelpropact: 0x47BC:01, register 10172.
     ///
-    /// Proportional part of the speed PID at present
+    /// Proportional part of the speed PID at present.
     ///
     /// Constant: [`objects::RPIDVELPROPACT`].
     pub fn rpidvelpropact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3295,7 +3295,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpidvelintact: 0x47BE:01, register 10174.
     ///
-    /// Integral part of the speed PID at present
+    /// Integral part of the speed PID at present.
     ///
     /// Constant: [`objects::RPIDVELINTACT`].
     pub fn rpidvelintact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3303,7 +3303,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpidvelderact: 0x47C0:01, register 10176.
     ///
-    /// Derivative part of the speed PID at present
+    /// Derivative part of the speed PID at present.
     ///
     /// Constant: [`objects::RPIDVELDERACT`].
     pub fn rpidvelderact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3311,7 +3311,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpidvelffact: 0x47C2:01, register 10178.
     ///
-    /// Feed-forward part of the speed PID at present
+    /// Feed-forward part of the speed PID at present.
     ///
     /// Constant: [`objects::RPIDVELFFACT`].
     pub fn rpidvelffact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3319,7 +3319,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpidvelafact: 0x47C4:01, register 10180.
     ///
-    /// Acceleration feed-forward part of the speed PID at present
+    /// Acceleration feed-forward part of the speed PID at present.
     ///
     /// Constant: [`objects::RPIDVELAFACT`].
     pub fn rpidvelafact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3327,7 +3327,7 @@ impl<C> VectorStep<C> {
     }
     /// Rpidveloutact: 0x47C6:01, register 10182.
     ///
-    /// Output of the speed PID at present
+    /// Output of the speed PID at present.
     ///
     /// Constant: [`objects::RPIDVELOUTACT`].
     pub fn rpidveloutact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3335,7 +3335,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfilvelinpact: 0x47C8:01, register 10184.
     ///
-    /// Value before the filter at the speed loop's input
+    /// Value before the filter at the speed loop's input.
     ///
     /// Constant: [`objects::RFILVELINPACT`].
     pub fn rfilvelinpact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3343,7 +3343,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfilveloutact: 0x47CA:01, register 10186.
     ///
-    /// Value after the filter at the speed loop's input
+    /// Value after the filter at the speed loop's input.
     ///
     /// Constant: [`objects::RFILVELOUTACT`].
     pub fn rfilveloutact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3351,7 +3351,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfilcurinpact: 0x47CC:01, register 10188.
     ///
-    /// Value before the filter at the speed loop's output
+    /// Value before the filter at the speed loop's output.
     ///
     /// Constant: [`objects::RFILCURINPACT`].
     pub fn rfilcurinpact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3359,7 +3359,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfilcuroutact: 0x47CE:01, register 10190.
     ///
-    /// Value after the filter at the speed loop's output
+    /// Value after the filter at the speed loop's output.
     ///
     /// Constant: [`objects::RFILCUROUTACT`].
     pub fn rfilcuroutact(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -3367,7 +3367,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmotype: 0x20DA:01, register 218.
     ///
-    /// Position of the configured motor in the motor database
+    /// Position of the configured motor in the motor database.
     ///
     /// Constant: [`objects::RMOTYPE`].
     pub fn rmotype(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3375,7 +3375,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmotres: 0x210F:01, register 271.
     ///
-    /// Phase resistance of the motor
+    /// Phase resistance of the motor.
     ///
     /// Constant: [`objects::RMOTRES`].
     pub fn rmotres(
@@ -3385,7 +3385,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmotind: 0x2110:01, register 272.
     ///
-    /// Phase inductance of the motor
+    /// Phase inductance of the motor.
     ///
     /// Constant: [`objects::RMOTIND`].
     pub fn rmotind(
@@ -3395,7 +3395,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmotkfm: 0x2111:01, register 273.
     ///
-    /// Back-EMF constant of the motor: phase inductance in mH   nominal current in mA   100 / 1000
+    /// Back-EMF constant of the motor: phase inductance in mH   nominal current in mA   100 / 1000.
     ///
     /// Constant: [`objects::RMOTKFM`].
     pub fn rmotkfm(
@@ -3405,7 +3405,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmottensnom: 0x2112:01, register 274.
     ///
-    /// Nominal voltage of the motor
+    /// Nominal voltage of the motor.
     ///
     /// Constant: [`objects::RMOTTENSNOM`].
     pub fn rmottensnom(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3413,7 +3413,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmotiph: 0x2113:01, register 275.
     ///
-    /// Nominal phase current of the motor
+    /// Nominal phase current of the motor.
     ///
     /// Constant: [`objects::RMOTIPH`].
     pub fn rmotiph(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3421,7 +3421,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmotktq: 0x2114:01, register 276.
     ///
-    /// Torque constant of the motor
+    /// Torque constant of the motor.
     ///
     /// Constant: [`objects::RMOTKTQ`].
     pub fn rmotktq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3429,7 +3429,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmotvelnom: 0x2115:01, register 277.
     ///
-    /// Nominal speed of the motor
+    /// Nominal speed of the motor.
     ///
     /// Constant: [`objects::RMOTVELNOM`].
     pub fn rmotvelnom(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3437,7 +3437,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtim0: 0x209B:01, register 155.
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Constant: [`objects::RTIM0`].
     pub fn rtim0(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -3445,7 +3445,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtim1: 0x209D:01, register 157.
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Constant: [`objects::RTIM1`].
     pub fn rtim1(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -3453,7 +3453,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtim2: 0x209F:01, register 159.
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Constant: [`objects::RTIM2`].
     pub fn rtim2(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -3461,7 +3461,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtim3: 0x20A1:01, register 161.
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Constant: [`objects::RTIM3`].
     pub fn rtim3(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -3469,7 +3469,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtim4: 0x2218:01, register 536.
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Constant: [`objects::RTIM4`].
     pub fn rtim4(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -3477,7 +3477,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtim5: 0x221A:01, register 538.
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Constant: [`objects::RTIM5`].
     pub fn rtim5(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -3485,7 +3485,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtim6: 0x221C:01, register 540.
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Constant: [`objects::RTIM6`].
     pub fn rtim6(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -3493,7 +3493,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtim7: 0x221E:01, register 542.
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Constant: [`objects::RTIM7`].
     pub fn rtim7(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -3501,7 +3501,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfreerun: 0x47AA:01, register 10154.
     ///
-    /// Counter that runs freely, by one every millisecond
+    /// Counter that runs freely, by one every millisecond.
     ///
     /// Constant: [`objects::RFREERUN`].
     pub fn rfreerun(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
@@ -3509,7 +3509,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtempact: 0x2094:01, register 148.
     ///
-    /// Temperature of the drive at present
+    /// Temperature of the drive at present.
     ///
     /// Constant: [`objects::RTEMPACT`].
     pub fn rtempact(&mut self) -> objects::ReadOnlyAccess<'_, C, i16> {
@@ -3517,7 +3517,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtensact: 0x2095:01, register 149.
     ///
-    /// Voltage of the drive's DC bus at present
+    /// Voltage of the drive's DC bus at present.
     ///
     /// Constant: [`objects::RTENSACT`].
     pub fn rtensact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -3525,7 +3525,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcurdact: 0x2096:01, register 150.
     ///
-    /// Current that the drive draws from its DC supply at present
+    /// Current that the drive draws from its DC supply at present.
     ///
     /// Constant: [`objects::RCURDACT`].
     pub fn rcurdact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -3533,7 +3533,7 @@ impl<C> VectorStep<C> {
     }
     /// Rswrev: 0x20BE:01, register 190.
     ///
-    /// Revision of the software; from firmware 6 see Rindswrev
+    /// Revision of the software; from firmware 6 see Rindswrev.
     ///
     /// Constant: [`objects::RSWREV`].
     pub fn rswrev(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -3541,7 +3541,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhwrev: 0x20BF:01, register 191.
     ///
-    /// Revision of the hardware; the maker writes it before Rloadsav command 136
+    /// Revision of the hardware; the maker writes it before Rloadsav command 136.
     ///
     /// Constant: [`objects::RHWREV`].
     pub fn rhwrev(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -3549,7 +3549,7 @@ impl<C> VectorStep<C> {
     }
     /// Rserial: 0x20C0:01, register 192.
     ///
-    /// Serial number, set at the final test and locked once it isn't 0
+    /// Serial number, set at the final test and locked once it isn't 0.
     ///
     /// Constant: [`objects::RSERIAL`].
     pub fn rserial(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -3557,7 +3557,7 @@ impl<C> VectorStep<C> {
     }
     /// Rrotsw: 0x20C5:01, register 197.
     ///
-    /// Position of the rotary switches, as the drive has read it
+    /// Position of the rotary switches, as the drive has read it.
     ///
     /// Constant: [`objects::RROTSW`].
     pub fn rrotsw(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -3565,7 +3565,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhwoptions: 0x2157:01, register 343.
     ///
-    /// Hardware options that are fitted and active
+    /// Hardware options that are fitted and active.
     ///
     /// Constant: [`objects::RHWOPTIONS`]. Values: [`HardwareOptions`](types::HardwareOptions).
     pub fn rhwoptions(
@@ -3575,7 +3575,7 @@ impl<C> VectorStep<C> {
     }
     /// Rindtype: 0x20C6:01, register 198.
     ///
-    /// Model of the drive, as one of 126 codes; from firmware 5.50 it reads as 0xFFFF
+    /// Model of the drive, as one of 126 codes; from firmware 5.50 it reads as 0xFFFF.
     ///
     /// Constant: [`objects::RINDTYPE`]. Values: [`ModelCode`](types::ModelCode).
     pub fn rindtype(&mut self) -> objects::ReadOnlyAccess<'_, C, types::ModelCode> {
@@ -3583,7 +3583,7 @@ impl<C> VectorStep<C> {
     }
     /// Rindfamily: 0x4710:01, register 10000.
     ///
-    /// Family of the drive as a decimal number, such as 1204, 2204 or 5206
+    /// Family of the drive as a decimal number, such as 1204, 2204 or 5206.
     ///
     /// Constant: [`objects::RINDFAMILY`].
     pub fn rindfamily(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -3591,7 +3591,7 @@ impl<C> VectorStep<C> {
     }
     /// Rindmodel: 0x4711:01, register 10001.
     ///
-    /// Voltage, application, platform and communication chip of the drive
+    /// Voltage, application, platform and communication chip of the drive.
     ///
     /// Constant: [`objects::RINDMODEL`]. Values: [`ModelDefinition`](types::ModelDefinition).
     pub fn rindmodel(
@@ -3601,7 +3601,7 @@ impl<C> VectorStep<C> {
     }
     /// Rindfielbus: 0x4712:01, register 10002.
     ///
-    /// Fieldbus that the drive has
+    /// Fieldbus that the drive has.
     ///
     /// Constant: [`objects::RINDFIELBUS`]. Values: [`FieldbusKind`](types::FieldbusKind).
     pub fn rindfielbus(
@@ -3611,7 +3611,7 @@ impl<C> VectorStep<C> {
     }
     /// Rindoptions: 0x4713:01, register 10003.
     ///
-    /// Options that the drive has: the absolute encoder
+    /// Options that the drive has: the absolute encoder.
     ///
     /// Constant: [`objects::RINDOPTIONS`]. Values: [`DriveOptions`](types::DriveOptions).
     pub fn rindoptions(
@@ -3621,7 +3621,7 @@ impl<C> VectorStep<C> {
     }
     /// Rindregset: 0x4714:01, register 10004.
     ///
-    /// Revision of the register map
+    /// Revision of the register map.
     ///
     /// Constant: [`objects::RINDREGSET`]. Values: [`RegisterMap`](types::RegisterMap).
     pub fn rindregset(&mut self) -> objects::ReadOnlyAccess<'_, C, types::RegisterMap> {
@@ -3629,7 +3629,7 @@ impl<C> VectorStep<C> {
     }
     /// Rindswrev: 0x4715:01, register 10005.
     ///
-    /// Revision of the software
+    /// Revision of the software.
     ///
     /// Constant: [`objects::RINDSWREV`].
     pub fn rindswrev(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -3637,7 +3637,7 @@ impl<C> VectorStep<C> {
     }
     /// Rindhwrev: 0x4716:01, register 10006.
     ///
-    /// Revision of the hardware
+    /// Revision of the hardware.
     ///
     /// Constant: [`objects::RINDHWREV`].
     pub fn rindhwrev(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -3645,7 +3645,7 @@ impl<C> VectorStep<C> {
     }
     /// Rindsn: 0x4717:01, register 10007.
     ///
-    /// Serial number, a copy of Rserial
+    /// Serial number, a copy of Rserial.
     ///
     /// Constant: [`objects::RINDSN`].
     pub fn rindsn(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
@@ -3653,7 +3653,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtestintmot: 0x202A:01, register 42.
     ///
-    /// Constant that shows, when read as 32 bits, whether the words come in Intel or Motorola order
+    /// Constant that shows, when read as 32 bits, whether the words come in Intel or Motorola order.
     ///
     /// Constant: [`objects::RTESTINTMOT`].
     pub fn rtestintmot(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
@@ -3661,7 +3661,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprofists: 0x20A6:01, register 166.
     ///
-    /// State of the Profibus communication
+    /// State of the Profibus communication.
     ///
     /// Constant: [`objects::RPROFISTS`]. Values: [`ProfibusState`](types::ProfibusState).
     pub fn rprofists(&mut self) -> objects::ReadOnlyAccess<'_, C, types::ProfibusState> {
@@ -3669,7 +3669,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprofibaud: 0x20A7:01, register 167.
     ///
-    /// Bit rate of Profibus
+    /// Bit rate of Profibus.
     ///
     /// Constant: [`objects::RPROFIBAUD`]. Values: [`ProfibusBitRate`](types::ProfibusBitRate).
     pub fn rprofibaud(
@@ -3679,7 +3679,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprofiaddr: 0x20A8:01, register 168.
     ///
-    /// Added to the Profibus address set by hardware
+    /// Added to the Profibus address set by hardware.
     ///
     /// Constant: [`objects::RPROFIADDR`].
     pub fn rprofiaddr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3687,7 +3687,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcanbaud: 0x20A9:01, register 169.
     ///
-    /// Bit rate of CAN
+    /// Bit rate of CAN.
     ///
     /// Constant: [`objects::RCANBAUD`]. Values: [`CanBaudRate`](types::CanBaudRate).
     pub fn rcanbaud(&mut self) -> objects::ReadWriteAccess<'_, C, types::CanBaudRate> {
@@ -3695,7 +3695,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcanaddr: 0x20AA:01, register 170.
     ///
-    /// Added to the CAN address set by hardware
+    /// Added to the CAN address set by hardware.
     ///
     /// Constant: [`objects::RCANADDR`].
     pub fn rcanaddr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3703,7 +3703,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcantx: 0x20AB:01, register 171.
     ///
-    /// Number of CAN messages sent
+    /// Number of CAN messages sent.
     ///
     /// Constant: [`objects::RCANTX`].
     pub fn rcantx(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
@@ -3711,7 +3711,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcanrx: 0x20AD:01, register 173.
     ///
-    /// Number of CAN messages received
+    /// Number of CAN messages received.
     ///
     /// Constant: [`objects::RCANRX`].
     pub fn rcanrx(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
@@ -3719,7 +3719,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcanovr: 0x20AF:01, register 175.
     ///
-    /// Number of CAN overruns
+    /// Number of CAN overruns.
     ///
     /// Constant: [`objects::RCANOVR`].
     pub fn rcanovr(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -3727,7 +3727,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcanerr: 0x20B0:01, register 176.
     ///
-    /// Number of CAN errors
+    /// Number of CAN errors.
     ///
     /// Constant: [`objects::RCANERR`].
     pub fn rcanerr(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -3735,7 +3735,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcanidx: 0x20B1:01, register 177.
     ///
-    /// Index of the CANopen object that Rcancmd reads or writes
+    /// Index of the CANopen object that Rcancmd reads or writes.
     ///
     /// Constant: [`objects::RCANIDX`].
     pub fn rcanidx(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3743,7 +3743,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcansub: 0x20B2:01, register 178.
     ///
-    /// Sub-index of the CANopen object that Rcancmd reads or writes
+    /// Sub-index of the CANopen object that Rcancmd reads or writes.
     ///
     /// Constant: [`objects::RCANSUB`].
     pub fn rcansub(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3751,7 +3751,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcannew: 0x20B3:01, register 179.
     ///
-    /// Value that Rcancmd writes to the CANopen object
+    /// Value that Rcancmd writes to the CANopen object.
     ///
     /// Constant: [`objects::RCANNEW`].
     pub fn rcannew(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -3759,7 +3759,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcancmd: 0x20B5:01, register 181.
     ///
-    /// Writes Rcannew to the object of Rcanidx and Rcansub, or reads that object into Rcanact
+    /// Writes Rcannew to the object of Rcanidx and Rcansub, or reads that object into Rcanact.
     ///
     /// Constant: [`objects::RCANCMD`]. Values: [`CanObjectCommand`](types::CanObjectCommand).
     pub fn rcancmd(
@@ -3769,7 +3769,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcanact: 0x20B6:01, register 182.
     ///
-    /// Value that Rcancmd has read from the CANopen object
+    /// Value that Rcancmd has read from the CANopen object.
     ///
     /// Constant: [`objects::RCANACT`].
     pub fn rcanact(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
@@ -3777,7 +3777,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcansts: 0x20B8:01, register 184.
     ///
-    /// State of CANopen, as its red and green LED show it
+    /// State of CANopen, as its red and green LED show it.
     ///
     /// Constant: [`objects::RCANSTS`]. Values: [`CanopenStatus`](types::CanopenStatus).
     pub fn rcansts(&mut self) -> objects::ReadOnlyAccess<'_, C, types::CanopenStatus> {
@@ -3785,7 +3785,7 @@ impl<C> VectorStep<C> {
     }
     /// Rserbaud: 0x20B9:01, register 185.
     ///
-    /// Bit rate of the serial port
+    /// Bit rate of the serial port.
     ///
     /// Constant: [`objects::RSERBAUD`]. Values: [`SerialBaudRate`](types::SerialBaudRate).
     pub fn rserbaud(
@@ -3795,7 +3795,7 @@ impl<C> VectorStep<C> {
     }
     /// Rserpar: 0x20BA:01, register 186.
     ///
-    /// Parity and stop bits of the serial port
+    /// Parity and stop bits of the serial port.
     ///
     /// Constant: [`objects::RSERPAR`]. Values: [`SerialFormat`](types::SerialFormat).
     pub fn rserpar(&mut self) -> objects::ReadWriteAccess<'_, C, types::SerialFormat> {
@@ -3803,7 +3803,7 @@ impl<C> VectorStep<C> {
     }
     /// Rserdly: 0x20BB:01, register 187.
     ///
-    /// Delay before the drive replies on the serial port
+    /// Delay before the drive replies on the serial port.
     ///
     /// Constant: [`objects::RSERDLY`].
     pub fn rserdly(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3811,7 +3811,7 @@ impl<C> VectorStep<C> {
     }
     /// Rseraddr: 0x20BC:01, register 188.
     ///
-    /// Added to the serial address set by hardware
+    /// Added to the serial address set by hardware.
     ///
     /// Constant: [`objects::RSERADDR`].
     pub fn rseraddr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3819,7 +3819,7 @@ impl<C> VectorStep<C> {
     }
     /// Rintmot: 0x20BD:01, register 189.
     ///
-    /// Order of the words of 32-bit registers on the serial port, RS232 or RS485
+    /// Order of the words of 32-bit registers on the serial port, RS232 or RS485.
     ///
     /// Constant: [`objects::RINTMOT`]. Values: [`WordOrder`](types::WordOrder).
     pub fn rintmot(&mut self) -> objects::ReadWriteAccess<'_, C, types::WordOrder> {
@@ -3827,7 +3827,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfinsenable: 0x212E:01, register 302.
     ///
-    /// Enables Omron FINS/TCP on drives that communicate by Ethernet
+    /// Enables Omron FINS/TCP on drives that communicate by Ethernet.
     ///
     /// Constant: [`objects::RFINSENABLE`].
     pub fn rfinsenable(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3835,7 +3835,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfinsnode: 0x212F:01, register 303.
     ///
-    /// Station number with Omron FINS/TCP
+    /// Station number with Omron FINS/TCP.
     ///
     /// Constant: [`objects::RFINSNODE`].
     pub fn rfinsnode(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3843,7 +3843,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmdbport: 0x2130:01, register 304.
     ///
-    /// TCP port of Modbus/TCP
+    /// TCP port of Modbus/TCP.
     ///
     /// Constant: [`objects::RMDBPORT`].
     pub fn rmdbport(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3851,7 +3851,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethintmot: 0x2131:01, register 305.
     ///
-    /// Order of the words of 32-bit registers with Modbus/TCP and other Ethernet protocols
+    /// Order of the words of 32-bit registers with Modbus/TCP and other Ethernet protocols.
     ///
     /// Constant: [`objects::RETHINTMOT`]. Values: [`WordOrder`](types::WordOrder).
     pub fn rethintmot(&mut self) -> objects::ReadWriteAccess<'_, C, types::WordOrder> {
@@ -3859,7 +3859,7 @@ impl<C> VectorStep<C> {
     }
     /// Rextmdbtime: 0x2134:01, register 308.
     ///
-    /// Additional time between Modbus RTU messages, for slow remote connections
+    /// Additional time between Modbus RTU messages, for slow remote connections.
     ///
     /// Constant: [`objects::REXTMDBTIME`].
     pub fn rextmdbtime(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3867,7 +3867,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstatuscan: 0x2161:01, register 353.
     ///
-    /// Errors of agreement between controlword and statusword on CANopen
+    /// Errors of agreement between controlword and statusword on CANopen.
     ///
     /// Constant: [`objects::RSTATUSCAN`].
     pub fn rstatuscan(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3875,7 +3875,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcanmodeofoperation: 0x2162:01, register 354.
     ///
-    /// Copy of object 0x6060, modes of operation
+    /// Copy of object 0x6060, modes of operation.
     ///
     /// Constant: [`objects::RCANMODEOFOPERATION`]. Values: [`ModesOfOperationI16`](types::ModesOfOperationI16).
     pub fn rcanmodeofoperation(
@@ -3885,7 +3885,7 @@ impl<C> VectorStep<C> {
     }
     /// Rswrevariantais: 0x2163:01, register 355.
     ///
-    /// Firmware version of the Antaios chip; from firmware 6 see Rswrevariantaios
+    /// Firmware version of the Antaios chip; from firmware 6 see Rswrevariantaios.
     ///
     /// Constant: [`objects::RSWREVARIANTAIS`].
     pub fn rswrevariantais(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3893,7 +3893,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhwrevariantais: 0x2164:01, register 356.
     ///
-    /// Hardware version of the Antaios chip; from firmware 6 see Rhwrevariantaios
+    /// Hardware version of the Antaios chip; from firmware 6 see Rhwrevariantaios.
     ///
     /// Constant: [`objects::RHWREVARIANTAIS`].
     pub fn rhwrevariantais(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3901,7 +3901,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethercatid: 0x2165:01, register 357.
     ///
-    /// Explicit address of the drive on EtherCAT
+    /// Explicit address of the drive on EtherCAT.
     ///
     /// Constant: [`objects::RETHERCATID`].
     pub fn rethercatid(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3909,7 +3909,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstrmodeofoperation: 0x2166:01, register 358.
     ///
-    /// Value that object 0x6060 has after power-on, on CANopen and EtherCAT
+    /// Value that object 0x6060 has after power-on, on CANopen and EtherCAT.
     ///
     /// Constant: [`objects::RSTRMODEOFOPERATION`]. Values: [`ModesOfOperationI16`](types::ModesOfOperationI16).
     pub fn rstrmodeofoperation(
@@ -3919,7 +3919,7 @@ impl<C> VectorStep<C> {
     }
     /// Rds402compatibility: 0x216D:01, register 365.
     ///
-    /// Adapts the CiA 402 state machine to masters that expect something else
+    /// Adapts the CiA 402 state machine to masters that expect something else.
     ///
     /// Constant: [`objects::RDS402COMPATIBILITY`]. Values: [`Ds402Compatibility`](types::Ds402Compatibility).
     pub fn rds402compatibility(
@@ -3929,7 +3929,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethlocipaddr32: 0x2203:01, register 515.
     ///
-    /// Bytes 3 and 2 of the drive's own IP address
+    /// Bytes 3 and 2 of the drive's own IP address.
     ///
     /// Constant: [`objects::RETHLOCIPADDR32`].
     pub fn rethlocipaddr32(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3937,7 +3937,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethlocipaddr10: 0x2204:01, register 516.
     ///
-    /// Bytes 1 and 0 of the drive's own IP address
+    /// Bytes 1 and 0 of the drive's own IP address.
     ///
     /// Constant: [`objects::RETHLOCIPADDR10`].
     pub fn rethlocipaddr10(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3945,7 +3945,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethsubnet32: 0x2205:01, register 517.
     ///
-    /// Bytes 3 and 2 of the subnet mask
+    /// Bytes 3 and 2 of the subnet mask.
     ///
     /// Constant: [`objects::RETHSUBNET32`].
     pub fn rethsubnet32(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3953,7 +3953,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethsubnet10: 0x2206:01, register 518.
     ///
-    /// Bytes 1 and 0 of the subnet mask
+    /// Bytes 1 and 0 of the subnet mask.
     ///
     /// Constant: [`objects::RETHSUBNET10`].
     pub fn rethsubnet10(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3961,7 +3961,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethgwaddr32: 0x2207:01, register 519.
     ///
-    /// Bytes 3 and 2 of the gateway's IP address
+    /// Bytes 3 and 2 of the gateway's IP address.
     ///
     /// Constant: [`objects::RETHGWADDR32`].
     pub fn rethgwaddr32(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3969,7 +3969,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethgwaddr10: 0x2208:01, register 520.
     ///
-    /// Bytes 1 and 0 of the gateway's IP address
+    /// Bytes 1 and 0 of the gateway's IP address.
     ///
     /// Constant: [`objects::RETHGWADDR10`].
     pub fn rethgwaddr10(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3977,7 +3977,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethmacaddr054: 0x2209:01, register 521.
     ///
-    /// Bytes 5 and 4 of MAC address 0; write this one first of the three, command 140 saves them
+    /// Bytes 5 and 4 of MAC address 0; write this one first of the three, command 140 saves them.
     ///
     /// Constant: [`objects::RETHMACADDR054`].
     pub fn rethmacaddr054(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3985,7 +3985,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethmacaddr032: 0x220A:01, register 522.
     ///
-    /// Bytes 3 and 2 of MAC address 0; write this one second of the three, command 140 saves them
+    /// Bytes 3 and 2 of MAC address 0; write this one second of the three, command 140 saves them.
     ///
     /// Constant: [`objects::RETHMACADDR032`].
     pub fn rethmacaddr032(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -3993,7 +3993,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethmacaddr010: 0x220B:01, register 523.
     ///
-    /// Bytes 1 and 0 of MAC address 0; write this one last, then at once Rloadsav command 140
+    /// Bytes 1 and 0 of MAC address 0; write this one last, then at once Rloadsav command 140.
     ///
     /// Constant: [`objects::RETHMACADDR010`].
     pub fn rethmacaddr010(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4001,7 +4001,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethmacaddr154: 0x220C:01, register 524.
     ///
-    /// Bytes 5 and 4 of MAC address 1, of PROFINET port 1
+    /// Bytes 5 and 4 of MAC address 1, of PROFINET port 1.
     ///
     /// Constant: [`objects::RETHMACADDR154`].
     pub fn rethmacaddr154(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4009,7 +4009,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethmacaddr132: 0x220D:01, register 525.
     ///
-    /// Bytes 3 and 2 of MAC address 1, of PROFINET port 1
+    /// Bytes 3 and 2 of MAC address 1, of PROFINET port 1.
     ///
     /// Constant: [`objects::RETHMACADDR132`].
     pub fn rethmacaddr132(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4017,7 +4017,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethmacaddr110: 0x220E:01, register 526.
     ///
-    /// Bytes 1 and 0 of MAC address 1, of PROFINET port 1
+    /// Bytes 1 and 0 of MAC address 1, of PROFINET port 1.
     ///
     /// Constant: [`objects::RETHMACADDR110`].
     pub fn rethmacaddr110(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4025,7 +4025,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethmacaddr254: 0x220F:01, register 527.
     ///
-    /// Bytes 5 and 4 of MAC address 2, of PROFINET port 2
+    /// Bytes 5 and 4 of MAC address 2, of PROFINET port 2.
     ///
     /// Constant: [`objects::RETHMACADDR254`].
     pub fn rethmacaddr254(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4033,7 +4033,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethmacaddr232: 0x2210:01, register 528.
     ///
-    /// Bytes 3 and 2 of MAC address 2, of PROFINET port 2
+    /// Bytes 3 and 2 of MAC address 2, of PROFINET port 2.
     ///
     /// Constant: [`objects::RETHMACADDR232`].
     pub fn rethmacaddr232(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4041,7 +4041,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethmacaddr210: 0x2211:01, register 529.
     ///
-    /// Bytes 1 and 0 of MAC address 2, of PROFINET port 2
+    /// Bytes 1 and 0 of MAC address 2, of PROFINET port 2.
     ///
     /// Constant: [`objects::RETHMACADDR210`].
     pub fn rethmacaddr210(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4049,7 +4049,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethprotsock1: 0x2220:01, register 544.
     ///
-    /// Protocol of socket 1
+    /// Protocol of socket 1.
     ///
     /// Constant: [`objects::RETHPROTSOCK1`]. Values: [`SocketProtocol`](types::SocketProtocol).
     pub fn rethprotsock1(
@@ -4059,7 +4059,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethprotsock2: 0x2221:01, register 545.
     ///
-    /// Protocol of socket 2
+    /// Protocol of socket 2.
     ///
     /// Constant: [`objects::RETHPROTSOCK2`]. Values: [`SocketProtocol`](types::SocketProtocol).
     pub fn rethprotsock2(
@@ -4069,7 +4069,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethprotsock3: 0x2222:01, register 546.
     ///
-    /// Protocol of socket 3
+    /// Protocol of socket 3.
     ///
     /// Constant: [`objects::RETHPROTSOCK3`]. Values: [`SocketProtocol`](types::SocketProtocol).
     pub fn rethprotsock3(
@@ -4079,7 +4079,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethprotsock4: 0x2223:01, register 547.
     ///
-    /// Reserved; by its name the protocol of socket 4
+    /// Reserved; by its name the protocol of socket 4.
     ///
     /// Constant: [`objects::RETHPROTSOCK4`].
     pub fn rethprotsock4(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4087,7 +4087,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethprotsock5: 0x2224:01, register 548.
     ///
-    /// Reserved; by its name the protocol of socket 5
+    /// Reserved; by its name the protocol of socket 5.
     ///
     /// Constant: [`objects::RETHPROTSOCK5`].
     pub fn rethprotsock5(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4095,7 +4095,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethprotsock6: 0x2225:01, register 549.
     ///
-    /// Reserved; by its name the protocol of socket 6
+    /// Reserved; by its name the protocol of socket 6.
     ///
     /// Constant: [`objects::RETHPROTSOCK6`].
     pub fn rethprotsock6(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4103,7 +4103,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethprotsock7: 0x2226:01, register 550.
     ///
-    /// Reserved; by its name the protocol of socket 7
+    /// Reserved; by its name the protocol of socket 7.
     ///
     /// Constant: [`objects::RETHPROTSOCK7`].
     pub fn rethprotsock7(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4111,7 +4111,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethportsock1: 0x2227:01, register 551.
     ///
-    /// Port number of socket 1
+    /// Port number of socket 1.
     ///
     /// Constant: [`objects::RETHPORTSOCK1`].
     pub fn rethportsock1(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4119,7 +4119,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethportsock2: 0x2228:01, register 552.
     ///
-    /// Port number of socket 2
+    /// Port number of socket 2.
     ///
     /// Constant: [`objects::RETHPORTSOCK2`].
     pub fn rethportsock2(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4127,7 +4127,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethportsock3: 0x2229:01, register 553.
     ///
-    /// Port number of socket 3
+    /// Port number of socket 3.
     ///
     /// Constant: [`objects::RETHPORTSOCK3`].
     pub fn rethportsock3(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4135,7 +4135,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethportsock4: 0x222A:01, register 554.
     ///
-    /// Port number of socket 4
+    /// Port number of socket 4.
     ///
     /// Constant: [`objects::RETHPORTSOCK4`].
     pub fn rethportsock4(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4143,7 +4143,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethportsock5: 0x222B:01, register 555.
     ///
-    /// Port number of socket 5
+    /// Port number of socket 5.
     ///
     /// Constant: [`objects::RETHPORTSOCK5`].
     pub fn rethportsock5(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4151,7 +4151,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethportsock6: 0x222C:01, register 556.
     ///
-    /// Port number of socket 6
+    /// Port number of socket 6.
     ///
     /// Constant: [`objects::RETHPORTSOCK6`].
     pub fn rethportsock6(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4159,7 +4159,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethportsock7: 0x222D:01, register 557.
     ///
-    /// Port number of socket 7
+    /// Port number of socket 7.
     ///
     /// Constant: [`objects::RETHPORTSOCK7`].
     pub fn rethportsock7(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4167,7 +4167,7 @@ impl<C> VectorStep<C> {
     }
     /// Rethcptimeout: 0x222E:01, register 558.
     ///
-    /// Time-out of a TCP socket without activity; 0 switches it off
+    /// Time-out of a TCP socket without activity; 0 switches it off.
     ///
     /// Constant: [`objects::RETHCPTIMEOUT`].
     pub fn rethcptimeout(
@@ -4177,7 +4177,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprofinetnameptr: 0x4760:01, register 10080.
     ///
-    /// Position in the PROFINET device name of the character that Rprofinetnamechr holds
+    /// Position in the PROFINET device name of the character that Rprofinetnamechr holds.
     ///
     /// Constant: [`objects::RPROFINETNAMEPTR`].
     pub fn rprofinetnameptr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4185,7 +4185,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprofinetnamechr: 0x4761:01, register 10081.
     ///
-    /// Character of the PROFINET device name at the position in Rprofinetnameptr
+    /// Character of the PROFINET device name at the position in Rprofinetnameptr.
     ///
     /// Constant: [`objects::RPROFINETNAMECHR`].
     pub fn rprofinetnamechr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4193,7 +4193,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprofinetname: 0x4762:01, register 10082.
     ///
-    /// PROFINET device name, for a tool; it can't be sent to the drive as a whole
+    /// PROFINET device name, for a tool; it can't be sent to the drive as a whole.
     ///
     /// Constant: [`objects::RPROFINETNAME`].
     pub fn rprofinetname(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Opaque> {
@@ -4201,7 +4201,7 @@ impl<C> VectorStep<C> {
     }
     /// Rswrevariantaios: 0x479C:01, register 10140.
     ///
-    /// Firmware version of the Antaios chip
+    /// Firmware version of the Antaios chip.
     ///
     /// Constant: [`objects::RSWREVARIANTAIOS`].
     pub fn rswrevariantaios(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4209,7 +4209,7 @@ impl<C> VectorStep<C> {
     }
     /// Rhwrevariantaios: 0x479D:01, register 10141.
     ///
-    /// Hardware version of the Antaios chip
+    /// Hardware version of the Antaios chip.
     ///
     /// Constant: [`objects::RHWREVARIANTAIOS`].
     pub fn rhwrevariantaios(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4217,7 +4217,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmodelantaios: 0x479E:01, register 10142.
     ///
-    /// Model of the expansion card, by the Antaios firmware; Rloadsav command 12 reads it from the card
+    /// Model of the expansion card, by the Antaios firmware; Rloadsav command 12 reads it from the card.
     ///
     /// Constant: [`objects::RMODELANTAIOS`].
     pub fn rmodelantaios(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4225,7 +4225,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmodulcmd: 0x219D:01, register 413.
     ///
-    /// Which positions wrap around, and in which direction the axis goes to a target
+    /// Which positions wrap around, and in which direction the axis goes to a target.
     ///
     /// Constant: [`objects::RMODULCMD`]. Values: [`ModuloCommand`](types::ModuloCommand).
     pub fn rmodulcmd(
@@ -4235,7 +4235,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmodulpos: 0x219E:01, register 414.
     ///
-    /// Highest position of the positioner before it rolls over to 0
+    /// Highest position of the positioner before it rolls over to 0.
     ///
     /// Constant: [`objects::RMODULPOS`].
     pub fn rmodulpos(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -4243,7 +4243,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmodulmotenc: 0x21A0:01, register 416.
     ///
-    /// Highest count of encoder 1 before it rolls over to 0
+    /// Highest count of encoder 1 before it rolls over to 0.
     ///
     /// Constant: [`objects::RMODULMOTENC`].
     pub fn rmodulmotenc(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -4251,7 +4251,7 @@ impl<C> VectorStep<C> {
     }
     /// Rmodulextenc: 0x21A2:01, register 418.
     ///
-    /// Highest count of encoder 2 before it rolls over to 0
+    /// Highest count of encoder 2 before it rolls over to 0.
     ///
     /// Constant: [`objects::RMODULEXTENC`].
     pub fn rmodulextenc(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -4259,7 +4259,7 @@ impl<C> VectorStep<C> {
     }
     /// Rlineupcmd: 0x21A4:01, register 420.
     ///
-    /// Starts the line-up of the chosen positions; all wanted bits have to be written together
+    /// Starts the line-up of the chosen positions; all wanted bits have to be written together.
     ///
     /// Constant: [`objects::RLINEUPCMD`]. Values: [`LineUpCommand`](types::LineUpCommand).
     pub fn rlineupcmd(
@@ -4269,7 +4269,7 @@ impl<C> VectorStep<C> {
     }
     /// Rlineuppos: 0x21A5:01, register 421.
     ///
-    /// Position that a line-up puts into Rposactreq; set it before the command
+    /// Position that a line-up puts into Rposactreq; set it before the command.
     ///
     /// Constant: [`objects::RLINEUPPOS`].
     pub fn rlineuppos(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -4277,7 +4277,7 @@ impl<C> VectorStep<C> {
     }
     /// Rlineupmotenc: 0x21A7:01, register 423.
     ///
-    /// Count that a line-up gives to encoder 1; set it before the command
+    /// Count that a line-up gives to encoder 1; set it before the command.
     ///
     /// Constant: [`objects::RLINEUPMOTENC`].
     pub fn rlineupmotenc(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -4285,7 +4285,7 @@ impl<C> VectorStep<C> {
     }
     /// Rlineupextenc: 0x21A9:01, register 425.
     ///
-    /// Count that a line-up gives to encoder 2; set it before the command
+    /// Count that a line-up gives to encoder 2; set it before the command.
     ///
     /// Constant: [`objects::RLINEUPEXTENC`].
     pub fn rlineupextenc(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -4293,7 +4293,7 @@ impl<C> VectorStep<C> {
     }
     /// Rlineupdef: 0x21AB:01, register 427.
     ///
-    /// Bits that are copied to Rlineupcmd when the digital line-up input is activated
+    /// Bits that are copied to Rlineupcmd when the digital line-up input is activated.
     ///
     /// Constant: [`objects::RLINEUPDEF`]. Values: [`LineUpDefinition`](types::LineUpDefinition).
     pub fn rlineupdef(
@@ -4303,7 +4303,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobefunc: 0x214B:01, register 331.
     ///
-    /// Control word of both touch probes; the same as object 0x60B8
+    /// Control word of both touch probes; the same as object 0x60B8.
     ///
     /// Constant: [`objects::RTOUCHPROBEFUNC`]. Values: [`TouchProbeControl`](types::TouchProbeControl).
     pub fn rtouchprobefunc(
@@ -4313,7 +4313,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobestatus: 0x214C:01, register 332.
     ///
-    /// Status word of both touch probes; the same as object 0x60B9
+    /// Status word of both touch probes; the same as object 0x60B9.
     ///
     /// Constant: [`objects::RTOUCHPROBESTATUS`]. Values: [`TouchProbeStatusBeforeV6`](types::TouchProbeStatusBeforeV6).
     pub fn rtouchprobestatus(
@@ -4323,7 +4323,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobepos1pos: 0x214D:01, register 333.
     ///
-    /// Position of probe 1 latched at its positive edge; object 0x60BA
+    /// Position of probe 1 latched at its positive edge; object 0x60BA.
     ///
     /// Constant: [`objects::RTOUCHPROBEPOS1POS`].
     pub fn rtouchprobepos1pos(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -4331,7 +4331,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobepos1neg: 0x214F:01, register 335.
     ///
-    /// Position of probe 1 latched at its negative edge; object 0x60BB
+    /// Position of probe 1 latched at its negative edge; object 0x60BB.
     ///
     /// Constant: [`objects::RTOUCHPROBEPOS1NEG`].
     pub fn rtouchprobepos1neg(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -4339,7 +4339,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobepos2pos: 0x2151:01, register 337.
     ///
-    /// Position of probe 2 latched at its positive edge; object 0x60BC
+    /// Position of probe 2 latched at its positive edge; object 0x60BC.
     ///
     /// Constant: [`objects::RTOUCHPROBEPOS2POS`].
     pub fn rtouchprobepos2pos(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -4347,7 +4347,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe2neg: 0x2153:01, register 339.
     ///
-    /// Position of probe 2 latched at its negative edge; object 0x60BD
+    /// Position of probe 2 latched at its negative edge; object 0x60BD.
     ///
     /// Constant: [`objects::RTOUCHPROBE2NEG`].
     pub fn rtouchprobe2neg(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -4355,7 +4355,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe1inpdef: 0x2155:01, register 341.
     ///
-    /// Signal that triggers touch probe 1
+    /// Signal that triggers touch probe 1.
     ///
     /// Constant: [`objects::RTOUCHPROBE1INPDEF`]. Values: [`TouchProbeInput`](types::TouchProbeInput).
     pub fn rtouchprobe1inpdef(
@@ -4365,7 +4365,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe2inpdef: 0x2156:01, register 342.
     ///
-    /// Signal that triggers touch probe 2
+    /// Signal that triggers touch probe 2.
     ///
     /// Constant: [`objects::RTOUCHPROBE2INPDEF`]. Values: [`TouchProbeInput`](types::TouchProbeInput).
     pub fn rtouchprobe2inpdef(
@@ -4375,7 +4375,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobefunc\_v6: 0x4764:01, register 10084.
     ///
-    /// Control word of both touch probes from firmware 6; the same as object 0x60B8
+    /// Control word of both touch probes from firmware 6; the same as object 0x60B8.
     ///
     /// Constant: [`objects::RTOUCHPROBEFUNC_V6`]. Values: [`TouchProbeControl`](types::TouchProbeControl).
     pub fn rtouchprobefunc_v6(
@@ -4385,7 +4385,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobestatus\_v6: 0x4765:01, register 10085.
     ///
-    /// Status word of both touch probes from firmware 6; the same as object 0x60B9
+    /// Status word of both touch probes from firmware 6; the same as object 0x60B9.
     ///
     /// Constant: [`objects::RTOUCHPROBESTATUS_V6`]. Values: [`TouchProbeStatusV6`](types::TouchProbeStatusV6).
     pub fn rtouchprobestatus_v6(
@@ -4395,7 +4395,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobepos1pos\_v6: 0x4766:01, register 10086.
     ///
-    /// Position of probe 1 latched at its positive edge; object 0x60BA
+    /// Position of probe 1 latched at its positive edge; object 0x60BA.
     ///
     /// Constant: [`objects::RTOUCHPROBEPOS1POS_V6`].
     pub fn rtouchprobepos1pos_v6(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -4403,7 +4403,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobepos1neg\_v6: 0x4768:01, register 10088.
     ///
-    /// Position of probe 1 latched at its negative edge; object 0x60BB
+    /// Position of probe 1 latched at its negative edge; object 0x60BB.
     ///
     /// Constant: [`objects::RTOUCHPROBEPOS1NEG_V6`].
     pub fn rtouchprobepos1neg_v6(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -4411,7 +4411,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe1inp: 0x476A:01, register 10090.
     ///
-    /// Signal that triggers touch probe 1, from firmware 6
+    /// Signal that triggers touch probe 1, from firmware 6.
     ///
     /// Constant: [`objects::RTOUCHPROBE1INP`]. Values: [`TouchProbeInput`](types::TouchProbeInput).
     pub fn rtouchprobe1inp(
@@ -4421,7 +4421,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe1timestamppos: 0x476B:01, register 10091.
     ///
-    /// Time since the positive edge of probe 1, up to 4 s
+    /// Time since the positive edge of probe 1, up to 4 s.
     ///
     /// Constant: [`objects::RTOUCHPROBE1TIMESTAMPPOS`].
     pub fn rtouchprobe1timestamppos(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
@@ -4429,7 +4429,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe1timestampneg: 0x476D:01, register 10093.
     ///
-    /// Time since the negative edge of probe 1, up to 4 s
+    /// Time since the negative edge of probe 1, up to 4 s.
     ///
     /// Constant: [`objects::RTOUCHPROBE1TIMESTAMPNEG`].
     pub fn rtouchprobe1timestampneg(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
@@ -4437,7 +4437,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe1posedgecnt: 0x476F:01, register 10095.
     ///
-    /// Number of positive edges of probe 1
+    /// Number of positive edges of probe 1.
     ///
     /// Constant: [`objects::RTOUCHPROBE1POSEDGECNT`].
     pub fn rtouchprobe1posedgecnt(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -4445,7 +4445,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe1negedgecnt: 0x4770:01, register 10096.
     ///
-    /// Number of negative edges of probe 1
+    /// Number of negative edges of probe 1.
     ///
     /// Constant: [`objects::RTOUCHPROBE1NEGEDGECNT`].
     pub fn rtouchprobe1negedgecnt(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -4453,7 +4453,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe2pos: 0x4771:01, register 10097.
     ///
-    /// Position of probe 2 latched at its positive edge; object 0x60BC
+    /// Position of probe 2 latched at its positive edge; object 0x60BC.
     ///
     /// Constant: [`objects::RTOUCHPROBE2POS`].
     pub fn rtouchprobe2pos(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -4461,7 +4461,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe2neg\_v6: 0x4773:01, register 10099.
     ///
-    /// Position of probe 2 latched at its negative edge; object 0x60BD
+    /// Position of probe 2 latched at its negative edge; object 0x60BD.
     ///
     /// Constant: [`objects::RTOUCHPROBE2NEG_V6`].
     pub fn rtouchprobe2neg_v6(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -4469,7 +4469,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe2inp: 0x4775:01, register 10101.
     ///
-    /// Signal that triggers touch probe 2, from firmware 6
+    /// Signal that triggers touch probe 2, from firmware 6.
     ///
     /// Constant: [`objects::RTOUCHPROBE2INP`]. Values: [`TouchProbeInput`](types::TouchProbeInput).
     pub fn rtouchprobe2inp(
@@ -4479,7 +4479,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe2timestamppos: 0x4776:01, register 10102.
     ///
-    /// Time since the positive edge of probe 2, up to 4 s
+    /// Time since the positive edge of probe 2, up to 4 s.
     ///
     /// Constant: [`objects::RTOUCHPROBE2TIMESTAMPPOS`].
     pub fn rtouchprobe2timestamppos(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
@@ -4487,7 +4487,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe2timestampneg: 0x4778:01, register 10104.
     ///
-    /// Time since the negative edge of probe 2, up to 4 s
+    /// Time since the negative edge of probe 2, up to 4 s.
     ///
     /// Constant: [`objects::RTOUCHPROBE2TIMESTAMPNEG`].
     pub fn rtouchprobe2timestampneg(&mut self) -> objects::ReadOnlyAccess<'_, C, u32> {
@@ -4495,7 +4495,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe2posedgecnt: 0x477A:01, register 10106.
     ///
-    /// Number of positive edges of probe 2
+    /// Number of positive edges of probe 2.
     ///
     /// Constant: [`objects::RTOUCHPROBE2POSEDGECNT`].
     pub fn rtouchprobe2posedgecnt(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -4503,7 +4503,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe2negedgecnt: 0x477B:01, register 10107.
     ///
-    /// Number of negative edges of probe 2
+    /// Number of negative edges of probe 2.
     ///
     /// Constant: [`objects::RTOUCHPROBE2NEGEDGECNT`].
     pub fn rtouchprobe2negedgecnt(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -4511,7 +4511,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe1source: 0x477C:01, register 10108.
     ///
-    /// Position that touch probe 1 latches
+    /// Position that touch probe 1 latches.
     ///
     /// Constant: [`objects::RTOUCHPROBE1SOURCE`]. Values: [`TouchProbeSource`](types::TouchProbeSource).
     pub fn rtouchprobe1source(
@@ -4521,7 +4521,7 @@ impl<C> VectorStep<C> {
     }
     /// Rtouchprobe2source: 0x477D:01, register 10109.
     ///
-    /// Position that touch probe 2 latches
+    /// Position that touch probe 2 latches.
     ///
     /// Constant: [`objects::RTOUCHPROBE2SOURCE`]. Values: [`TouchProbeSource`](types::TouchProbeSource).
     pub fn rtouchprobe2source(
@@ -4531,7 +4531,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcapselinp: 0x2159:01, register 345.
     ///
-    /// Number of the digital input that the capture function watches
+    /// Number of the digital input that the capture function watches.
     ///
     /// Constant: [`objects::RCAPSELINP`].
     pub fn rcapselinp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4539,7 +4539,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcaptvelmax: 0x215A:01, register 346.
     ///
-    /// Highest value that the capture timer can reach, in steps of 20 µs
+    /// Highest value that the capture timer can reach, in steps of 20 µs.
     ///
     /// Constant: [`objects::RCAPTVELMAX`].
     pub fn rcaptvelmax(
@@ -4549,7 +4549,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcaptval: 0x215C:01, register 348.
     ///
-    /// Period between two edges of the captured input, in steps of 20 µs
+    /// Period between two edges of the captured input, in steps of 20 µs.
     ///
     /// Constant: [`objects::RCAPTVAL`].
     pub fn rcaptval(&mut self) -> objects::ReadWriteAccess<'_, C, rt::Scaled<u32, 20>> {
@@ -4557,7 +4557,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcaptcnt: 0x215E:01, register 350.
     ///
-    /// Pulses counted on the captured input; after 65535 it begins again at 0
+    /// Pulses counted on the captured input; after 65535 it begins again at 0.
     ///
     /// Constant: [`objects::RCAPTCNT`].
     pub fn rcaptcnt(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4565,7 +4565,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstpulse: 0x217C:01, register 380.
     ///
-    /// Counts per revolution of the master encoder, for cams of type 1 and 2
+    /// Counts per revolution of the master encoder, for cams of type 1 and 2.
     ///
     /// Constant: [`objects::RCAMSTPULSE`].
     pub fn rcamstpulse(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4573,7 +4573,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstmaxfrq: 0x217D:01, register 381.
     ///
-    /// Highest counts per second of the master encoder, for cams of type 2
+    /// Highest counts per second of the master encoder, for cams of type 2.
     ///
     /// Constant: [`objects::RCAMSTMAXFRQ`].
     pub fn rcamstmaxfrq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4581,7 +4581,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstrtphase: 0x217E:01, register 382.
     ///
-    /// Number of the task that holds the first phase, for cams of type 1 and 2
+    /// Number of the task that holds the first phase, for cams of type 1 and 2.
     ///
     /// Constant: [`objects::RCAMSTRTPHASE`].
     pub fn rcamstrtphase(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4589,7 +4589,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstposact: 0x217F:01, register 383.
     ///
-    /// Position of the master encoder now, for cams of type 1 and 2
+    /// Position of the master encoder now, for cams of type 1 and 2.
     ///
     /// Constant: [`objects::RCAMSTPOSACT`].
     pub fn rcamstposact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -4597,7 +4597,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamphaseact: 0x2180:01, register 384.
     ///
-    /// Phase (task) that runs now, for cams of type 1 and 2
+    /// Phase (task) that runs now, for cams of type 1 and 2.
     ///
     /// Constant: [`objects::RCAMPHASEACT`].
     pub fn rcamphaseact(&mut self) -> objects::ReadOnlyAccess<'_, C, u16> {
@@ -4605,7 +4605,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamflgwr: 0x2181:01, register 385.
     ///
-    /// Control bits of cams of type 1 and 2
+    /// Control bits of cams of type 1 and 2.
     ///
     /// Constant: [`objects::RCAMFLGWR`]. Values: [`CamControl`](types::CamControl).
     pub fn rcamflgwr(&mut self) -> objects::ReadWriteAccess<'_, C, types::CamControl> {
@@ -4613,7 +4613,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamflgrd: 0x2182:01, register 386.
     ///
-    /// Status bits of cams of type 1 and 2
+    /// Status bits of cams of type 1 and 2.
     ///
     /// Constant: [`objects::RCAMFLGRD`]. Values: [`CamStatus`](types::CamStatus).
     pub fn rcamflgrd(&mut self) -> objects::ReadOnlyAccess<'_, C, types::CamStatus> {
@@ -4621,7 +4621,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamkpl: 0x2183:01, register 387.
     ///
-    /// Proportional gain of the increments in all cam modes: type 1, type 2, start/stop and winding
+    /// Proportional gain of the increments in all cam modes: type 1, type 2, start/stop and winding.
     ///
     /// Constant: [`objects::RCAMKPL`].
     pub fn rcamkpl(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4629,7 +4629,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstspmstmmpulse: 0x21C8:01, register 456.
     ///
-    /// Travel of the master per encoder count, in thousandths of a millimetre
+    /// Travel of the master per encoder count, in thousandths of a millimetre.
     ///
     /// Constant: [`objects::RCAMSTSPMSTMMPULSE`].
     pub fn rcamstspmstmmpulse(
@@ -4639,7 +4639,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstspslvmmstep: 0x21C9:01, register 457.
     ///
-    /// Travel of the slave per motor step, in thousandths of a millimetre
+    /// Travel of the slave per motor step, in thousandths of a millimetre.
     ///
     /// Constant: [`objects::RCAMSTSPSLVMMSTEP`].
     pub fn rcamstspslvmmstep(
@@ -4649,7 +4649,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstspcor: 0x21CA:01, register 458.
     ///
-    /// Correction of the ratio between master and slave
+    /// Correction of the ratio between master and slave.
     ///
     /// Constant: [`objects::RCAMSTSPCOR`].
     pub fn rcamstspcor(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -4657,7 +4657,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstspaccspace: 0x21CB:01, register 459.
     ///
-    /// Master travel during which the slave accelerates
+    /// Master travel during which the slave accelerates.
     ///
     /// Constant: [`objects::RCAMSTSPACCSPACE`].
     pub fn rcamstspaccspace(
@@ -4667,7 +4667,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstspctrl: 0x21CC:01, register 460.
     ///
-    /// Control bits of the start/stop cam
+    /// Control bits of the start/stop cam.
     ///
     /// Constant: [`objects::RCAMSTSPCTRL`]. Values: [`CamStartStopControl`](types::CamStartStopControl).
     pub fn rcamstspctrl(
@@ -4677,7 +4677,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstspstatus: 0x21CD:01, register 461.
     ///
-    /// Status bits of the start/stop cam
+    /// Status bits of the start/stop cam.
     ///
     /// Constant: [`objects::RCAMSTSPSTATUS`]. Values: [`CamStartStopStatus`](types::CamStartStopStatus).
     pub fn rcamstspstatus(
@@ -4687,7 +4687,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstsplowquotestlv: 0x21CE:01, register 462.
     ///
-    /// Lowest position of the slave in the start/stop cam
+    /// Lowest position of the slave in the start/stop cam.
     ///
     /// Constant: [`objects::RCAMSTSPLOWQUOTESTLV`].
     pub fn rcamstsplowquotestlv(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -4695,7 +4695,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstsphighquotestlv: 0x21D0:01, register 464.
     ///
-    /// Highest position of the slave in the start/stop cam
+    /// Highest position of the slave in the start/stop cam.
     ///
     /// Constant: [`objects::RCAMSTSPHIGHQUOTESTLV`].
     pub fn rcamstsphighquotestlv(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -4703,7 +4703,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstsplowquotemst: 0x21D2:01, register 466.
     ///
-    /// Lowest position of the master in the start/stop cam
+    /// Lowest position of the master in the start/stop cam.
     ///
     /// Constant: [`objects::RCAMSTSPLOWQUOTEMST`].
     pub fn rcamstsplowquotemst(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -4711,7 +4711,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstsphighquotemst: 0x21D4:01, register 468.
     ///
-    /// Highest position of the master in the start/stop cam
+    /// Highest position of the master in the start/stop cam.
     ///
     /// Constant: [`objects::RCAMSTSPHIGHQUOTEMST`].
     pub fn rcamstsphighquotemst(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -4719,7 +4719,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcammodeselect: 0x21D6:01, register 470.
     ///
-    /// Which kind of cam is used
+    /// Which kind of cam is used.
     ///
     /// Constant: [`objects::RCAMMODESELECT`]. Values: [`CamMode`](types::CamMode).
     pub fn rcammodeselect(&mut self) -> objects::ReadWriteAccess<'_, C, types::CamMode> {
@@ -4727,7 +4727,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstspsimvel: 0x21F0:01, register 496.
     ///
-    /// Speed of the simulated master encoder of the start/stop cam
+    /// Speed of the simulated master encoder of the start/stop cam.
     ///
     /// Constant: [`objects::RCAMSTSPSIMVEL`].
     pub fn rcamstspsimvel(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4735,7 +4735,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstspdecspace: 0x21F1:01, register 497.
     ///
-    /// Master travel during which the slave decelerates
+    /// Master travel during which the slave decelerates.
     ///
     /// Constant: [`objects::RCAMSTSPDECSPACE`].
     pub fn rcamstspdecspace(
@@ -4745,7 +4745,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstspstartdly: 0x21F2:01, register 498.
     ///
-    /// Master travel before the slave starts
+    /// Master travel before the slave starts.
     ///
     /// Constant: [`objects::RCAMSTSPSTARTDLY`].
     pub fn rcamstspstartdly(
@@ -4755,7 +4755,7 @@ impl<C> VectorStep<C> {
     }
     /// Rcamstspstopdly: 0x21F3:01, register 499.
     ///
-    /// Travel of the slave between the stop command and the beginning of its deceleration ramp
+    /// Travel of the slave between the stop command and the beginning of its deceleration ramp.
     ///
     /// Constant: [`objects::RCAMSTSPSTOPDLY`].
     pub fn rcamstspstopdly(
@@ -4765,7 +4765,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindspoolimpturn: 0x21D7:01, register 471.
     ///
-    /// Encoder counts per revolution of the spool
+    /// Encoder counts per revolution of the spool.
     ///
     /// Constant: [`objects::RWINDSPOOLIMPTURN`].
     pub fn rwindspoolimpturn(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4773,7 +4773,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindyarnguidemmstep: 0x21D8:01, register 472.
     ///
-    /// Travel of the yarn guide per motor step
+    /// Travel of the yarn guide per motor step.
     ///
     /// Constant: [`objects::RWINDYARNGUIDEMMSTEP`].
     pub fn rwindyarnguidemmstep(
@@ -4783,7 +4783,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindaccspoolturn: 0x21D9:01, register 473.
     ///
-    /// Revolutions in which the yarn guide accelerates to the speed required
+    /// Revolutions in which the yarn guide accelerates to the speed required.
     ///
     /// Constant: [`objects::RWINDACCSPOOLTURN`].
     pub fn rwindaccspoolturn(
@@ -4793,7 +4793,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindyarnshift: 0x21DA:01, register 474.
     ///
-    /// Travel of the yarn guide per revolution of the spool
+    /// Travel of the yarn guide per revolution of the spool.
     ///
     /// Constant: [`objects::RWINDYARNSHIFT`].
     pub fn rwindyarnshift(
@@ -4803,7 +4803,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindtyingshift: 0x21DB:01, register 475.
     ///
-    /// Travel of the yarn guide per revolution of the spool while it ties
+    /// Travel of the yarn guide per revolution of the spool while it ties.
     ///
     /// Constant: [`objects::RWINDTYINGSHIFT`].
     pub fn rwindtyingshift(
@@ -4813,7 +4813,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindctrl: 0x21DC:01, register 476.
     ///
-    /// Control bits of the winding cam
+    /// Control bits of the winding cam.
     ///
     /// Constant: [`objects::RWINDCTRL`]. Values: [`WindingControl`](types::WindingControl).
     pub fn rwindctrl(
@@ -4823,7 +4823,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindstatus: 0x21DD:01, register 477.
     ///
-    /// Status bits of the winding cam
+    /// Status bits of the winding cam.
     ///
     /// Constant: [`objects::RWINDSTATUS`]. Values: [`WindingStatus`](types::WindingStatus).
     pub fn rwindstatus(
@@ -4833,7 +4833,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindquotelleft: 0x21DE:01, register 478.
     ///
-    /// End position of the yarn guide on the side of the machine
+    /// End position of the yarn guide on the side of the machine.
     ///
     /// Constant: [`objects::RWINDQUOTELLEFT`].
     pub fn rwindquotelleft(
@@ -4843,7 +4843,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindquoteright: 0x21E0:01, register 480.
     ///
-    /// End position of the yarn guide on the side of the operator
+    /// End position of the yarn guide on the side of the operator.
     ///
     /// Constant: [`objects::RWINDQUOTERIGHT`].
     pub fn rwindquoteright(
@@ -4853,7 +4853,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindquotestop: 0x21E2:01, register 482.
     ///
-    /// Position where the yarn guide stops
+    /// Position where the yarn guide stops.
     ///
     /// Constant: [`objects::RWINDQUOTESTOP`].
     pub fn rwindquotestop(
@@ -4863,7 +4863,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindtyingquotelleft: 0x21E4:01, register 484.
     ///
-    /// End position of the yarn guide on the machine's side while it ties
+    /// End position of the yarn guide on the machine's side while it ties.
     ///
     /// Constant: [`objects::RWINDTYINGQUOTELLEFT`].
     pub fn rwindtyingquotelleft(
@@ -4873,7 +4873,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindtyingquoteright: 0x21E6:01, register 486.
     ///
-    /// End position of the yarn guide on the operator's side while it ties
+    /// End position of the yarn guide on the operator's side while it ties.
     ///
     /// Constant: [`objects::RWINDTYINGQUOTERIGHT`].
     pub fn rwindtyingquoteright(
@@ -4883,7 +4883,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindyarnguidemturnmotor: 0x21E8:01, register 488.
     ///
-    /// Travel of the yarn guide per revolution of the stepper motor
+    /// Travel of the yarn guide per revolution of the stepper motor.
     ///
     /// Constant: [`objects::RWINDYARNGUIDEMTURNMOTOR`].
     pub fn rwindyarnguidemturnmotor(
@@ -4893,7 +4893,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindrevcnt: 0x21EA:01, register 490.
     ///
-    /// How often the stepper motor has reversed in winding mode
+    /// How often the stepper motor has reversed in winding mode.
     ///
     /// Constant: [`objects::RWINDREVCNT`].
     pub fn rwindrevcnt(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4901,7 +4901,7 @@ impl<C> VectorStep<C> {
     }
     /// Rwindrevpause: 0x21EB:01, register 491.
     ///
-    /// Counts of the master encoder for which the motor pauses while it reverses
+    /// Counts of the master encoder for which the motor pauses while it reverses.
     ///
     /// Constant: [`objects::RWINDREVPAUSE`].
     pub fn rwindrevpause(&mut self) -> objects::ReadWriteAccess<'_, C, u32> {
@@ -4909,7 +4909,7 @@ impl<C> VectorStep<C> {
     }
     /// Renccamfbk: 0x471C:01, register 10012.
     ///
-    /// Encoder that the cam and winding functions follow
+    /// Encoder that the cam and winding functions follow.
     ///
     /// Constant: [`objects::RENCCAMFBK`]. Values: [`CamFeedback`](types::CamFeedback).
     pub fn renccamfbk(&mut self) -> objects::ReadWriteAccess<'_, C, types::CamFeedback> {
@@ -4917,7 +4917,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbrakedlyopen: 0x2062:01, register 98.
     ///
-    /// Delay with which the external brake opens
+    /// Delay with which the external brake opens.
     ///
     /// Constant: [`objects::RBRAKEDLYOPEN`].
     pub fn rbrakedlyopen(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4925,7 +4925,7 @@ impl<C> VectorStep<C> {
     }
     /// Rbrakedlyclose: 0x2158:01, register 344.
     ///
-    /// Delay with which the external brake closes
+    /// Delay with which the external brake closes.
     ///
     /// Constant: [`objects::RBRAKEDLYCLOSE`].
     pub fn rbrakedlyclose(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4933,7 +4933,7 @@ impl<C> VectorStep<C> {
     }
     /// Rusrpidkp: 0x21F4:01, register 500.
     ///
-    /// Proportional gain of the user PID
+    /// Proportional gain of the user PID.
     ///
     /// Constant: [`objects::RUSRPIDKP`].
     pub fn rusrpidkp(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4941,7 +4941,7 @@ impl<C> VectorStep<C> {
     }
     /// Rusrpidki: 0x21F5:01, register 501.
     ///
-    /// Integral gain of the user PID
+    /// Integral gain of the user PID.
     ///
     /// Constant: [`objects::RUSRPIDKI`].
     pub fn rusrpidki(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4949,7 +4949,7 @@ impl<C> VectorStep<C> {
     }
     /// Rusrpidkd: 0x21F6:01, register 502.
     ///
-    /// Derivative gain of the user PID
+    /// Derivative gain of the user PID.
     ///
     /// Constant: [`objects::RUSRPIDKD`].
     pub fn rusrpidkd(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4957,7 +4957,7 @@ impl<C> VectorStep<C> {
     }
     /// Rusrpidkt: 0x21F7:01, register 503.
     ///
-    /// Integration time of the user PID
+    /// Integration time of the user PID.
     ///
     /// Constant: [`objects::RUSRPIDKT`].
     pub fn rusrpidkt(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -4965,7 +4965,7 @@ impl<C> VectorStep<C> {
     }
     /// Rusrpidflag: 0x21F8:01, register 504.
     ///
-    /// Starts, stops and resets the user PID
+    /// Starts, stops and resets the user PID.
     ///
     /// Constant: [`objects::RUSRPIDFLAG`]. Values: [`UserPidControl`](types::UserPidControl).
     pub fn rusrpidflag(
@@ -4975,7 +4975,7 @@ impl<C> VectorStep<C> {
     }
     /// Rusrpidmaxout: 0x21F9:01, register 505.
     ///
-    /// Highest output of the user PID
+    /// Highest output of the user PID.
     ///
     /// Constant: [`objects::RUSRPIDMAXOUT`].
     pub fn rusrpidmaxout(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -4983,7 +4983,7 @@ impl<C> VectorStep<C> {
     }
     /// Rusrpidminout: 0x21FB:01, register 507.
     ///
-    /// Lowest output of the user PID
+    /// Lowest output of the user PID.
     ///
     /// Constant: [`objects::RUSRPIDMINOUT`].
     pub fn rusrpidminout(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -4991,7 +4991,7 @@ impl<C> VectorStep<C> {
     }
     /// Rusrpidsetpoint: 0x21FD:01, register 509.
     ///
-    /// Set-point of the user PID
+    /// Set-point of the user PID.
     ///
     /// Constant: [`objects::RUSRPIDSETPOINT`].
     pub fn rusrpidsetpoint(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -4999,7 +4999,7 @@ impl<C> VectorStep<C> {
     }
     /// Rusrpidprocessvalue: 0x21FF:01, register 511.
     ///
-    /// Process value of the user PID
+    /// Process value of the user PID.
     ///
     /// Constant: [`objects::RUSRPIDPROCESSVALUE`].
     pub fn rusrpidprocessvalue(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -5007,7 +5007,7 @@ impl<C> VectorStep<C> {
     }
     /// Rusrpidout: 0x2201:01, register 513.
     ///
-    /// Output of the user PID
+    /// Output of the user PID.
     ///
     /// Constant: [`objects::RUSRPIDOUT`].
     pub fn rusrpidout(&mut self) -> objects::ReadWriteAccess<'_, C, i32> {
@@ -5015,7 +5015,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfgapplyto: 0x213B:01, register 315.
     ///
-    /// What the signal of the internal function generator is applied to
+    /// What the signal of the internal function generator is applied to.
     ///
     /// Constant: [`objects::RFGAPPLYTO`]. Values: [`GeneratorTarget`](types::GeneratorTarget).
     pub fn rfgapplyto(
@@ -5025,7 +5025,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfgvalmin: 0x213C:01, register 316.
     ///
-    /// Lowest value of the generated signal
+    /// Lowest value of the generated signal.
     ///
     /// Constant: [`objects::RFGVALMIN`].
     pub fn rfgvalmin(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -5033,7 +5033,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfgvalmax: 0x213E:01, register 318.
     ///
-    /// Highest value of the generated signal
+    /// Highest value of the generated signal.
     ///
     /// Constant: [`objects::RFGVALMAX`].
     pub fn rfgvalmax(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -5041,7 +5041,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfgfreq: 0x2140:01, register 320.
     ///
-    /// Frequency of the generated signal
+    /// Frequency of the generated signal.
     ///
     /// Constant: [`objects::RFGFREQ`].
     pub fn rfgfreq(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -5049,7 +5049,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfgperiod: 0x2141:01, register 321.
     ///
-    /// Period of the generated signal
+    /// Period of the generated signal.
     ///
     /// Constant: [`objects::RFGPERIOD`].
     pub fn rfgperiod(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -5057,7 +5057,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfgcmd: 0x2142:01, register 322.
     ///
-    /// Starts and stops the function generator
+    /// Starts and stops the function generator.
     ///
     /// Constant: [`objects::RFGCMD`]. Values: [`GeneratorCommand`](types::GeneratorCommand).
     pub fn rfgcmd(
@@ -5067,7 +5067,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfgmode: 0x2143:01, register 323.
     ///
-    /// Shape of the generated signal
+    /// Shape of the generated signal.
     ///
     /// Constant: [`objects::RFGMODE`]. Values: [`GeneratorMode`](types::GeneratorMode).
     pub fn rfgmode(&mut self) -> objects::ReadWriteAccess<'_, C, types::GeneratorMode> {
@@ -5075,7 +5075,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfgout32: 0x2144:01, register 324.
     ///
-    /// Output of the function generator in 32 bits
+    /// Output of the function generator in 32 bits.
     ///
     /// Constant: [`objects::RFGOUT32`].
     pub fn rfgout32(&mut self) -> objects::ReadOnlyAccess<'_, C, i32> {
@@ -5083,7 +5083,7 @@ impl<C> VectorStep<C> {
     }
     /// Rfgout16: 0x2146:01, register 326.
     ///
-    /// Output of the function generator in 16 bits
+    /// Output of the function generator in 16 bits.
     ///
     /// Constant: [`objects::RFGOUT16`].
     pub fn rfgout16(&mut self) -> objects::ReadWriteAccess<'_, C, i16> {
@@ -5091,7 +5091,7 @@ impl<C> VectorStep<C> {
     }
     /// Rstsprg: 0x20CC:01, register 204.
     ///
-    /// Whether the user program runs and is valid
+    /// Whether the user program runs and is valid.
     ///
     /// Constant: [`objects::RSTSPRG`]. Values: [`ProgramStatus`](types::ProgramStatus).
     pub fn rstsprg(&mut self) -> objects::ReadOnlyAccess<'_, C, types::ProgramStatus> {
@@ -5099,7 +5099,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgrunmode: 0x20CD:01, register 205.
     ///
-    /// Stops the user program, runs it, or runs one step of it
+    /// Stops the user program, runs it, or runs one step of it.
     ///
     /// Constant: [`objects::RPRGRUNMODE`]. Values: [`ProgramRunMode`](types::ProgramRunMode).
     pub fn rprgrunmode(
@@ -5109,7 +5109,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgstopevent: 0x20CE:01, register 206.
     ///
-    /// Why the user program stopped
+    /// Why the user program stopped.
     ///
     /// Constant: [`objects::RPRGSTOPEVENT`]. Values: [`ProgramStopEvent`](types::ProgramStopEvent).
     pub fn rprgstopevent(
@@ -5119,7 +5119,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgcnt: 0x20CF:01, register 207.
     ///
-    /// Program counter of the user program; it can be written while the program is stopped
+    /// Program counter of the user program; it can be written while the program is stopped.
     ///
     /// Constant: [`objects::RPRGCNT`].
     pub fn rprgcnt(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -5127,7 +5127,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgccflag: 0x20D0:01, register 208.
     ///
-    /// Condition codes of the user program
+    /// Condition codes of the user program.
     ///
     /// Constant: [`objects::RPRGCCFLAG`]. Values: [`ProgramConditionCodes`](types::ProgramConditionCodes).
     pub fn rprgccflag(
@@ -5137,7 +5137,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgeventcounterptr: 0x2242:01, register 578.
     ///
-    /// Program address whose passing is counted in Rprgeventcounter
+    /// Program address whose passing is counted in Rprgeventcounter.
     ///
     /// Constant: [`objects::RPRGEVENTCOUNTERPTR`].
     pub fn rprgeventcounterptr(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -5145,7 +5145,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgeventcounter: 0x2243:01, register 579.
     ///
-    /// How often the program has passed the address in Rprgeventcounterptr
+    /// How often the program has passed the address in Rprgeventcounterptr.
     ///
     /// Constant: [`objects::RPRGEVENTCOUNTER`].
     pub fn rprgeventcounter(&mut self) -> objects::ReadWriteAccess<'_, C, u16> {
@@ -5153,7 +5153,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgusrpsw: register 2000.
     ///
-    /// Password entered; unless it is the one in the EEPROM, the program memory can be neither read nor written
+    /// Password entered; unless it is the one in the EEPROM, the program memory can be neither read nor written.
     ///
     /// Constant: [`objects::RPRGUSRPSW`].
     pub fn rprgusrpsw(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
@@ -5161,7 +5161,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgcmd: register 2001.
     ///
-    /// Saves, loads and erases the user program, and sets its password
+    /// Saves, loads and erases the user program, and sets its password.
     ///
     /// Constant: [`objects::RPRGCMD`]. Values: [`ProgramCommand`](types::ProgramCommand).
     pub fn rprgcmd(
@@ -5171,7 +5171,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgcmdsts: register 2002.
     ///
-    /// Result of the last command in Rprgcmd; its values aren't described
+    /// Result of the last command in Rprgcmd; its values aren't described.
     ///
     /// Constant: [`objects::RPRGCMDSTS`].
     pub fn rprgcmdsts(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
@@ -5179,7 +5179,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgnewpsw: register 2003.
     ///
-    /// Password that the command 0x82 in Rprgcmd sets
+    /// Password that the command 0x82 in Rprgcmd sets.
     ///
     /// Constant: [`objects::RPRGNEWPSW`].
     pub fn rprgnewpsw(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
@@ -5187,7 +5187,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgpswact: register 2004.
     ///
-    /// Whether a password protects the user program
+    /// Whether a password protects the user program.
     ///
     /// Constant: [`objects::RPRGPSWACT`]. Values: [`ProgramProtection`](types::ProgramProtection).
     pub fn rprgpswact(
@@ -5197,7 +5197,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgbpenable: register 2005.
     ///
-    /// Enables software breakpoints
+    /// Enables software breakpoints.
     ///
     /// Constant: [`objects::RPRGBPENABLE`].
     pub fn rprgbpenable(
@@ -5207,7 +5207,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgbpnum: register 2006.
     ///
-    /// Which breakpoint Rprgbpval reads or writes
+    /// Which breakpoint Rprgbpval reads or writes.
     ///
     /// Constant: [`objects::RPRGBPNUM`]. Values: [`ProgramBreakpoint`](types::ProgramBreakpoint).
     pub fn rprgbpnum(
@@ -5217,7 +5217,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgbpval: register 2007.
     ///
-    /// Value of the breakpoint that Rprgbpnum points to
+    /// Value of the breakpoint that Rprgbpnum points to.
     ///
     /// Constant: [`objects::RPRGBPVAL`].
     pub fn rprgbpval(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
@@ -5225,7 +5225,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprglen: register 2008.
     ///
-    /// Length of the user program
+    /// Length of the user program.
     ///
     /// Constant: [`objects::RPRGLEN`].
     pub fn rprglen(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
@@ -5233,7 +5233,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgprgcks: register 2009.
     ///
-    /// Checksum of the user program
+    /// Checksum of the user program.
     ///
     /// Constant: [`objects::RPRGPRGCKS`].
     pub fn rprgprgcks(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
@@ -5241,7 +5241,7 @@ impl<C> VectorStep<C> {
     }
     /// Rprgusrprg: register 2010.
     ///
-    /// First location of the user program
+    /// First location of the user program.
     ///
     /// Constant: [`objects::RPRGUSRPRG`].
     pub fn rprgusrprg(&mut self) -> objects::ReadWriteAccess<'_, C, u16, rt::OnModbus> {
@@ -5249,7 +5249,7 @@ impl<C> VectorStep<C> {
     }
     /// user\_program\_locations: register 2011.
     ///
-    /// Locations 1 to 4988 of the user program
+    /// Locations 1 to 4988 of the user program.
     ///
     /// Constant: [`objects::USER_PROGRAM_LOCATIONS`].
     pub fn user_program_locations(
@@ -5259,7 +5259,7 @@ impl<C> VectorStep<C> {
     }
     /// user\_program\_last\_location: register 6999.
     ///
-    /// Last location of the user program
+    /// Last location of the user program.
     ///
     /// Constant: [`objects::USER_PROGRAM_LAST_LOCATION`].
     pub fn user_program_last_location(
@@ -5269,7 +5269,7 @@ impl<C> VectorStep<C> {
     }
     /// Device Type: 0x1000:00.
     ///
-    /// Device profile in the low word, additional information in the high word
+    /// Device profile in the low word, additional information in the high word.
     ///
     /// Constant: [`objects::DEVICE_TYPE`]. Values: [`DeviceType`](types::DeviceType).
     pub fn device_type(
@@ -5279,7 +5279,7 @@ impl<C> VectorStep<C> {
     }
     /// Error Register: 0x1001:00.
     ///
-    /// Errors of the device, one bit per kind
+    /// Errors of the device, one bit per kind.
     ///
     /// Constant: [`objects::ERROR_REGISTER`]. Values: [`ErrorRegister`](types::ErrorRegister).
     pub fn error_register(
@@ -5298,7 +5298,7 @@ impl<C> VectorStep<C> {
     }
     /// COB-ID SYNC Message: 0x1005:00.
     ///
-    /// Identifier of the SYNC message, and whether the device produces it; changes of bits 29 and 30 are refused (abort 0x06090030)
+    /// Identifier of the SYNC message, and whether the device produces it; changes of bits 29 and 30 are refused (abort 0x06090030).
     ///
     /// Constant: [`objects::COB_ID_SYNC_MESSAGE`]. Values: [`CobIdSync`](types::CobIdSync).
     pub fn cob_id_sync_message(
@@ -5308,7 +5308,7 @@ impl<C> VectorStep<C> {
     }
     /// Communication Cycle Period: 0x1006:00.
     ///
-    /// Interval of SYNC; 0 where it isn't used
+    /// Interval of SYNC; 0 where it isn't used.
     ///
     /// Constant: [`objects::COMMUNICATION_CYCLE_PERIOD`].
     pub fn communication_cycle_period(
@@ -5318,7 +5318,7 @@ impl<C> VectorStep<C> {
     }
     /// Synchronous window length: 0x1007:00.
     ///
-    /// Length of the time window for synchronous PDOs; 0 where it isn't used
+    /// Length of the time window for synchronous PDOs; 0 where it isn't used.
     ///
     /// Constant: [`objects::SYNCHRONOUS_WINDOW_LENGTH`].
     pub fn synchronous_window_length(
@@ -5328,7 +5328,7 @@ impl<C> VectorStep<C> {
     }
     /// Manufacturer Device Name: 0x1008:00.
     ///
-    /// Code of the device
+    /// Code of the device.
     ///
     /// Constant: [`objects::MANUFACTURER_DEVICE_NAME`].
     pub fn manufacturer_device_name(
@@ -5338,7 +5338,7 @@ impl<C> VectorStep<C> {
     }
     /// Manufacturer Hardware Version: 0x1009:00.
     ///
-    /// Hardware version, in the form Hw ver.X.XX
+    /// Hardware version, in the form Hw ver.X.XX.
     ///
     /// Constant: [`objects::MANUFACTURER_HARDWARE_VERSION`].
     pub fn manufacturer_hardware_version(
@@ -5348,7 +5348,7 @@ impl<C> VectorStep<C> {
     }
     /// Manufacturer Software Version: 0x100A:00.
     ///
-    /// Software version, in the form Sw ver.X.XX
+    /// Software version, in the form Sw ver.X.XX.
     ///
     /// Constant: [`objects::MANUFACTURER_SOFTWARE_VERSION`].
     pub fn manufacturer_software_version(
@@ -5358,7 +5358,7 @@ impl<C> VectorStep<C> {
     }
     /// Guard time: 0x100C:00.
     ///
-    /// Times the life-time factor it is the life time of node guarding; 0 where it isn't used
+    /// Times the life-time factor it is the life time of node guarding; 0 where it isn't used.
     ///
     /// Constant: [`objects::GUARD_TIME`].
     pub fn guard_time(
@@ -5368,7 +5368,7 @@ impl<C> VectorStep<C> {
     }
     /// Life-time factor: 0x100D:00.
     ///
-    /// Factor that makes the life time of life guarding out of the guard time; 0 where it isn't used
+    /// Factor that makes the life time of life guarding out of the guard time; 0 where it isn't used.
     ///
     /// Constant: [`objects::LIFE_TIME_FACTOR`].
     pub fn life_time_factor(
@@ -5378,7 +5378,7 @@ impl<C> VectorStep<C> {
     }
     /// COB-ID Emergency Object: 0x1014:00.
     ///
-    /// Identifier of the emergency message; changes of bits 29 and 30 are refused (abort 0x06090030)
+    /// Identifier of the emergency message; changes of bits 29 and 30 are refused (abort 0x06090030).
     ///
     /// Constant: [`objects::COB_ID_EMERGENCY_OBJECT`]. Values: [`CobIdEmergency`](types::CobIdEmergency).
     pub fn cob_id_emergency_object(
@@ -5388,7 +5388,7 @@ impl<C> VectorStep<C> {
     }
     /// Inhibit Time Emergency: 0x1015:00.
     ///
-    /// Least time between two emergency messages, in multiples of 100 µs
+    /// Least time between two emergency messages, in multiples of 100 µs.
     ///
     /// Constant: [`objects::INHIBIT_TIME_EMERGENCY`].
     pub fn inhibit_time_emergency(
@@ -5407,7 +5407,7 @@ impl<C> VectorStep<C> {
     }
     /// Producer Heartbeat Time: 0x1017:00.
     ///
-    /// Cycle time of the heartbeat that the device sends; 0 where it isn't used
+    /// Cycle time of the heartbeat that the device sends; 0 where it isn't used.
     ///
     /// Constant: [`objects::PRODUCER_HEARTBEAT_TIME`].
     pub fn producer_heartbeat_time(
@@ -5584,7 +5584,7 @@ impl<C> VectorStep<C> {
     }
     /// Error code: 0x603F:00.
     ///
-    /// Code of the last error, the low 16 bits of the entry in 0x1003
+    /// Code of the last error, the low 16 bits of the entry in 0x1003.
     ///
     /// Constant: [`objects::ERROR_CODE`]. Values: [`ErrorCode`](types::ErrorCode).
     pub fn error_code(
@@ -5594,7 +5594,7 @@ impl<C> VectorStep<C> {
     }
     /// Controlword: 0x6040:00.
     ///
-    /// Commands the state machine and the mode of operation; the manual has it in the first two bytes of every received PDO
+    /// Commands the state machine and the mode of operation; the manual has it in the first two bytes of every received PDO.
     ///
     /// Constant: [`objects::CONTROLWORD`]. Values: [`Controlword`](types::Controlword). Carried by [`RxPdo1`](pdo::RxPdo1), [`RxPdo2`](pdo::RxPdo2).
     pub fn controlword(
@@ -5604,7 +5604,7 @@ impl<C> VectorStep<C> {
     }
     /// Statusword: 0x6041:00.
     ///
-    /// State of the drive; the manual has it in the first two bytes of every transmitted PDO
+    /// State of the drive; the manual has it in the first two bytes of every transmitted PDO.
     ///
     /// Constant: [`objects::STATUSWORD`]. Values: [`Statusword`](types::Statusword). Carried by [`TxPdo1`](pdo::TxPdo1), [`TxPdo2`](pdo::TxPdo2).
     pub fn statusword(
@@ -5614,7 +5614,7 @@ impl<C> VectorStep<C> {
     }
     /// Quick-Stop option code: 0x605A:00.
     ///
-    /// What a quick stop does (transition 11)
+    /// What a quick stop does (transition 11).
     ///
     /// Constant: [`objects::QUICK_STOP_OPTION_CODE`]. Values: [`QuickStopOptionCode`](types::QuickStopOptionCode).
     pub fn quick_stop_option_code(
@@ -5629,7 +5629,7 @@ impl<C> VectorStep<C> {
     }
     /// Shutdown option code: 0x605B:00.
     ///
-    /// What transition 8 does, from operation enabled to ready to switch on
+    /// What transition 8 does, from operation enabled to ready to switch on.
     ///
     /// Constant: [`objects::SHUTDOWN_OPTION_CODE`]. Values: [`ShutdownOptionCode`](types::ShutdownOptionCode).
     pub fn shutdown_option_code(
@@ -5644,7 +5644,7 @@ impl<C> VectorStep<C> {
     }
     /// Disable operation option code: 0x605C:00.
     ///
-    /// What transition 5 does, from operation enabled to switched on
+    /// What transition 5 does, from operation enabled to switched on.
     ///
     /// Constant: [`objects::DISABLE_OPERATION_OPTION_CODE`]. Values: [`DisableOperationOptionCode`](types::DisableOperationOptionCode).
     pub fn disable_operation_option_code(
@@ -5659,7 +5659,7 @@ impl<C> VectorStep<C> {
     }
     /// Stop option code: 0x605D:00.
     ///
-    /// What a requested stop does
+    /// What a requested stop does.
     ///
     /// Constant: [`objects::STOP_OPTION_CODE`]. Values: [`StopOptionCode`](types::StopOptionCode).
     pub fn stop_option_code(
@@ -5669,7 +5669,7 @@ impl<C> VectorStep<C> {
     }
     /// Fault reaction option code: 0x605E:00.
     ///
-    /// What the drive does on a fault
+    /// What the drive does on a fault.
     ///
     /// Constant: [`objects::FAULT_REACTION_OPTION_CODE`]. Values: [`FaultReactionOptionCode`](types::FaultReactionOptionCode).
     pub fn fault_reaction_option_code(
@@ -5684,7 +5684,7 @@ impl<C> VectorStep<C> {
     }
     /// Modes of operation: 0x6060:00.
     ///
-    /// Chooses the mode of operation
+    /// Chooses the mode of operation.
     ///
     /// Constant: [`objects::MODES_OF_OPERATION`]. Values: [`ModesOfOperation`](types::ModesOfOperation). Carried by [`RxPdo1`](pdo::RxPdo1).
     pub fn modes_of_operation(
@@ -5694,7 +5694,7 @@ impl<C> VectorStep<C> {
     }
     /// Modes of operation display: 0x6061:00.
     ///
-    /// The mode of operation that is in effect
+    /// The mode of operation that is in effect.
     ///
     /// Constant: [`objects::MODES_OF_OPERATION_DISPLAY`]. Values: [`ModesOfOperation`](types::ModesOfOperation). Carried by [`TxPdo1`](pdo::TxPdo1).
     pub fn modes_of_operation_display(
@@ -5704,7 +5704,7 @@ impl<C> VectorStep<C> {
     }
     /// Position actual value: 0x6064:00.
     ///
-    /// Absolute position of the axis in steps
+    /// Absolute position of the axis in steps.
     ///
     /// Constant: [`objects::POSITION_ACTUAL_VALUE`]. Carried by [`TxPdo2`](pdo::TxPdo2).
     pub fn position_actual_value(
@@ -5714,7 +5714,7 @@ impl<C> VectorStep<C> {
     }
     /// Following error window: 0x6065:00.
     ///
-    /// Following error that is tolerated
+    /// Following error that is tolerated.
     ///
     /// Constant: [`objects::FOLLOWING_ERROR_WINDOW`].
     pub fn following_error_window(
@@ -5724,7 +5724,7 @@ impl<C> VectorStep<C> {
     }
     /// Following error time-out: 0x6066:00.
     ///
-    /// How long the following error may exceed its window
+    /// How long the following error may exceed its window.
     ///
     /// Constant: [`objects::FOLLOWING_ERROR_TIME_OUT`].
     pub fn following_error_time_out(
@@ -5734,7 +5734,7 @@ impl<C> VectorStep<C> {
     }
     /// Position window: 0x6067:00.
     ///
-    /// Distance from the target within which it counts as reached
+    /// Distance from the target within which it counts as reached.
     ///
     /// Constant: [`objects::POSITION_WINDOW`].
     pub fn position_window(
@@ -5744,7 +5744,7 @@ impl<C> VectorStep<C> {
     }
     /// Position window time-out: 0x6068:00.
     ///
-    /// How long the position has to stay within its window
+    /// How long the position has to stay within its window.
     ///
     /// Constant: [`objects::POSITION_WINDOW_TIME_OUT`].
     pub fn position_window_time_out(
@@ -5754,7 +5754,7 @@ impl<C> VectorStep<C> {
     }
     /// Velocity actual value: 0x606C:00.
     ///
-    /// Present velocity of the motor
+    /// Present velocity of the motor.
     ///
     /// Constant: [`objects::VELOCITY_ACTUAL_VALUE`].
     pub fn velocity_actual_value(
@@ -5764,7 +5764,7 @@ impl<C> VectorStep<C> {
     }
     /// Target position: 0x607A:00.
     ///
-    /// Position wanted in profile position mode; bit 6 of the Controlword makes it absolute or relative
+    /// Position wanted in profile position mode; bit 6 of the Controlword makes it absolute or relative.
     ///
     /// Constant: [`objects::TARGET_POSITION`]. Carried by [`RxPdo2`](pdo::RxPdo2).
     pub fn target_position(
@@ -5774,7 +5774,7 @@ impl<C> VectorStep<C> {
     }
     /// Home offset: 0x607C:00.
     ///
-    /// Value that the actual position gets at the end of homing
+    /// Value that the actual position gets at the end of homing.
     ///
     /// Constant: [`objects::HOME_OFFSET`].
     pub fn home_offset(
@@ -5784,7 +5784,7 @@ impl<C> VectorStep<C> {
     }
     /// Profile velocity: 0x6081:00.
     ///
-    /// Velocity of a movement
+    /// Velocity of a movement.
     ///
     /// Constant: [`objects::PROFILE_VELOCITY`].
     pub fn profile_velocity(
@@ -5794,7 +5794,7 @@ impl<C> VectorStep<C> {
     }
     /// End Velocity: 0x6082:00.
     ///
-    /// Velocity at which a movement starts and stops
+    /// Velocity at which a movement starts and stops.
     ///
     /// Constant: [`objects::END_VELOCITY`].
     pub fn end_velocity(
@@ -5804,7 +5804,7 @@ impl<C> VectorStep<C> {
     }
     /// Profile acceleration: 0x6083:00.
     ///
-    /// Acceleration of a movement
+    /// Acceleration of a movement.
     ///
     /// Constant: [`objects::PROFILE_ACCELERATION`].
     pub fn profile_acceleration(
@@ -5814,7 +5814,7 @@ impl<C> VectorStep<C> {
     }
     /// Profile deceleration: 0x6084:00.
     ///
-    /// Deceleration of a movement
+    /// Deceleration of a movement.
     ///
     /// Constant: [`objects::PROFILE_DECELERATION`].
     pub fn profile_deceleration(
@@ -5824,7 +5824,7 @@ impl<C> VectorStep<C> {
     }
     /// Quick stop deceleration: 0x6085:00.
     ///
-    /// Deceleration in an emergency
+    /// Deceleration in an emergency.
     ///
     /// Constant: [`objects::QUICK_STOP_DECELERATION`].
     pub fn quick_stop_deceleration(
@@ -5834,7 +5834,7 @@ impl<C> VectorStep<C> {
     }
     /// Motion profile type: 0x6086:00.
     ///
-    /// Shape of the acceleration and deceleration ramps: linear or S
+    /// Shape of the acceleration and deceleration ramps: linear or S.
     ///
     /// Constant: [`objects::MOTION_PROFILE_TYPE`]. Values: [`MotionProfileType`](types::MotionProfileType).
     pub fn motion_profile_type(
@@ -5844,7 +5844,7 @@ impl<C> VectorStep<C> {
     }
     /// Homing method: 0x6098:00.
     ///
-    /// How the axis is homed
+    /// How the axis is homed.
     ///
     /// Constant: [`objects::HOMING_METHOD`]. Values: [`HomingMethod`](types::HomingMethod).
     pub fn homing_method(
@@ -5861,7 +5861,7 @@ impl<C> VectorStep<C> {
     }
     /// Homing acceleration: 0x609A:00.
     ///
-    /// Acceleration and deceleration during homing
+    /// Acceleration and deceleration during homing.
     ///
     /// Constant: [`objects::HOMING_ACCELERATION`].
     pub fn homing_acceleration(
@@ -5871,7 +5871,7 @@ impl<C> VectorStep<C> {
     }
     /// Touch Probe function: 0x60B8:00.
     ///
-    /// Controls the touch probes; the same as register 331, from firmware 6 register 10084 (L2994)
+    /// Controls the touch probes; the same as register 331, from firmware 6 register 10084 (L2994).
     ///
     /// Constant: [`objects::TOUCH_PROBE_FUNCTION`]. Values: [`TouchProbeFunction`](types::TouchProbeFunction).
     pub fn touch_probe_function(
@@ -5886,7 +5886,7 @@ impl<C> VectorStep<C> {
     }
     /// Touch Probe status: 0x60B9:00.
     ///
-    /// State of the touch probes; the same as register 332, from firmware 6 register 10085 (L3035)
+    /// State of the touch probes; the same as register 332, from firmware 6 register 10085 (L3035).
     ///
     /// Constant: [`objects::TOUCH_PROBE_STATUS`]. Values: [`TouchProbeStatus`](types::TouchProbeStatus).
     pub fn touch_probe_status(
@@ -5896,7 +5896,7 @@ impl<C> VectorStep<C> {
     }
     /// Touch probe position 1 positive value: 0x60BA:00.
     ///
-    /// Position at the positive edge of touch probe 1, in the user's position units; register 333-334, from firmware 6 10086-10087
+    /// Position at the positive edge of touch probe 1, in the user's position units; register 333-334, from firmware 6 10086-10087.
     ///
     /// Constant: [`objects::TOUCH_PROBE_POSITION_1_POSITIVE_VALUE`].
     pub fn touch_probe_position_1_positive_value(
@@ -5906,7 +5906,7 @@ impl<C> VectorStep<C> {
     }
     /// Touch probe position 1 negative value: 0x60BB:00.
     ///
-    /// Position at the negative edge of touch probe 1, in the user's position units; register 335-336, from firmware 6 10088-10089
+    /// Position at the negative edge of touch probe 1, in the user's position units; register 335-336, from firmware 6 10088-10089.
     ///
     /// Constant: [`objects::TOUCH_PROBE_POSITION_1_NEGATIVE_VALUE`].
     pub fn touch_probe_position_1_negative_value(
@@ -5916,7 +5916,7 @@ impl<C> VectorStep<C> {
     }
     /// Touch probe position 2 positive value: 0x60BC:00.
     ///
-    /// Position at the positive edge of touch probe 2, in the user's position units; register 337-338, from firmware 6 10097-10098
+    /// Position at the positive edge of touch probe 2, in the user's position units; register 337-338, from firmware 6 10097-10098.
     ///
     /// Constant: [`objects::TOUCH_PROBE_POSITION_2_POSITIVE_VALUE`].
     pub fn touch_probe_position_2_positive_value(
@@ -5926,7 +5926,7 @@ impl<C> VectorStep<C> {
     }
     /// Touch probe position 2 negative value: 0x60BD:00.
     ///
-    /// Position at the negative edge of touch probe 2, in the user's position units; register 339-340, from firmware 6 10099-10100
+    /// Position at the negative edge of touch probe 2, in the user's position units; register 339-340, from firmware 6 10099-10100.
     ///
     /// Constant: [`objects::TOUCH_PROBE_POSITION_2_NEGATIVE_VALUE`].
     pub fn touch_probe_position_2_negative_value(
@@ -5936,7 +5936,7 @@ impl<C> VectorStep<C> {
     }
     /// Interpolation Submode Select: 0x60C0:00.
     ///
-    /// How the drive interpolates
+    /// How the drive interpolates.
     ///
     /// Constant: [`objects::INTERPOLATION_SUBMODE_SELECT`]. Values: [`InterpolationSubmode`](types::InterpolationSubmode).
     pub fn interpolation_submode_select(
@@ -5987,7 +5987,7 @@ impl<C> VectorStep<C> {
     }
     /// Digital inputs: 0x60FD:00.
     ///
-    /// Limit and home switches, and the 16 digital inputs
+    /// Limit and home switches, and the 16 digital inputs.
     ///
     /// Constant: [`objects::DIGITAL_INPUTS`]. Values: [`ProfileDigitalInputs`](types::ProfileDigitalInputs).
     pub fn digital_inputs(
@@ -6009,7 +6009,7 @@ impl<C> VectorStep<C> {
     }
     /// Motor type: 0x6402:00.
     ///
-    /// Kind of motor; 9 again after each power-on
+    /// Kind of motor; 9 again after each power-on.
     ///
     /// Constant: [`objects::MOTOR_TYPE`]. Values: [`MotorType`](types::MotorType).
     pub fn motor_type(
@@ -6019,7 +6019,7 @@ impl<C> VectorStep<C> {
     }
     /// Supported drive modes: 0x6502:00.
     ///
-    /// Modes of operation that the drive has
+    /// Modes of operation that the drive has.
     ///
     /// Constant: [`objects::SUPPORTED_DRIVE_MODES`]. Values: [`SupportedDriveModes`](types::SupportedDriveModes).
     pub fn supported_drive_modes(
@@ -6034,7 +6034,7 @@ impl<C> VectorStep<C> {
     }
     /// Drive manufacturer: 0x6504:00.
     ///
-    /// Name of the manufacturer; what is written is lost at power-off
+    /// Name of the manufacturer; what is written is lost at power-off.
     ///
     /// Constant: [`objects::DRIVE_MANUFACTURER`].
     pub fn drive_manufacturer(
@@ -6044,7 +6044,7 @@ impl<C> VectorStep<C> {
     }
     /// http drive catalog address: 0x6505:00.
     ///
-    /// Web address of the data sheet; what is written is lost at power-off
+    /// Web address of the data sheet; what is written is lost at power-off.
     ///
     /// Constant: [`objects::HTTP_DRIVE_CATALOG_ADDRESS`].
     pub fn http_drive_catalog_address(
@@ -26715,7 +26715,7 @@ pub mod objects {
     /// 0x2000:01, holding registers 0 to 1, low word first, INTEGER32, rw, mappable into TPDOs, range \-2147483648 to 2147483647, in step.
     /// Accessor: [`rposact`](super::VectorStep::rposact).
     ///
-    /// Where the axis really is; a position kept over power-off may be written back here
+    /// Where the axis really is; a position kept over power-off may be written back here.
     ///
     /// Chapter Position registers. Manual, line 2129: Posizione attuale reale dell'asse.
     ///
@@ -26736,7 +26736,7 @@ pub mod objects {
     /// 0x2004:01, holding registers 4 to 5, low word first, INTEGER32, rw, mappable into TPDOs, range \-2147483648 to 2147483647, in step.
     /// Accessor: [`rposactreq`](super::VectorStep::rposactreq).
     ///
-    /// Where the motion profile wants the axis to be now
+    /// Where the motion profile wants the axis to be now.
     ///
     /// Chapter Position registers. Manual, line 2130: Posizione attuale teorica dell'asse.
     pub const RPOSACTREQ: ReadWrite<i32> = ReadWriteI32::register_within(
@@ -26753,7 +26753,7 @@ pub mod objects {
     /// 0x2008:01, holding registers 8 to 9, low word first, INTEGER32, rw, mappable into RPDOs, range \-2147483648 to 2147483647, in step.
     /// Accessor: [`rpostarg`](super::VectorStep::rpostarg).
     ///
-    /// Target of the GO and GOR positioning commands; carries the mark ANA\_T
+    /// Target of the GO and GOR positioning commands; carries the mark ANA\_T.
     ///
     /// Chapter Position registers. Manual, line 2131: Posizione target per funzioni GO/GOR.
     ///
@@ -26772,7 +26772,7 @@ pub mod objects {
     /// 0x200C:01, holding registers 12 to 13, low word first, INTEGER32, rw, mappable into RPDOs, range \-2147483648 to 2147483647, in step.
     /// Accessor: [`rupplim`](super::VectorStep::rupplim).
     ///
-    /// Upper software limit of the travel; Rflag bit 3 enables it, homing methods -8 and -7 rewrite it
+    /// Upper software limit of the travel; Rflag bit 3 enables it, homing methods -8 and -7 rewrite it.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -26791,7 +26791,7 @@ pub mod objects {
     /// 0x2010:01, holding registers 16 to 17, low word first, INTEGER32, rw, mappable into RPDOs, range \-2147483648 to 2147483647, in step.
     /// Accessor: [`rlowlim`](super::VectorStep::rlowlim).
     ///
-    /// Lower software limit of the travel; Rflag bit 2 enables it, homing methods -8 and -7 rewrite it
+    /// Lower software limit of the travel; Rflag bit 2 enables it, homing methods -8 and -7 rewrite it.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -26810,7 +26810,7 @@ pub mod objects {
     /// 0x2037:01, holding registers 55 to 56, low word first, INTEGER32, ro, in step.
     /// Accessor: [`rposactsaved`](super::VectorStep::rposactsaved).
     ///
-    /// Position that the drive kept at the last power-off, 0 where it isn't valid
+    /// Position that the drive kept at the last power-off, 0 where it isn't valid.
     ///
     /// Kept over power-off.
     ///
@@ -26831,7 +26831,7 @@ pub mod objects {
     /// 0x2039:01, holding register 57, UNSIGNED16, ro.
     /// Accessor: [`rposactsavedflag`](super::VectorStep::rposactsavedflag). Values: [`SavedPosition`](super::types::SavedPosition).
     ///
-    /// Tells after power-on whether Rposactsaved holds a valid position; 0 otherwise
+    /// Tells after power-on whether Rposactsaved holds a valid position; 0 otherwise.
     ///
     /// Chapter Position registers. Manual, line 2135: B0: 1= quota salvata correttamente.
     pub const RPOSACTSAVEDFLAG: ReadOnly<super::types::SavedPosition> = ReadOnlyNamedSavedPosition::register(
@@ -26846,7 +26846,7 @@ pub mod objects {
     /// 0x20C7:01, holding register 199, UNSIGNED16, rw, mappable into TPDOs.
     /// Accessor: [`rstsflg`](super::VectorStep::rstsflg). Values: [`Status`](super::types::Status).
     ///
-    /// Main status word of the drive
+    /// Main status word of the drive.
     ///
     /// Only 0 can be written. writing 0 clears bit 2, axis homed; other values are ignored.
     ///
@@ -26869,7 +26869,7 @@ pub mod objects {
     /// 0x20C8:01, holding register 200, UNSIGNED16, ro, mappable into TPDOs.
     /// Accessor: [`rstsflg1`](super::VectorStep::rstsflg1). Values: [`Status1`](super::types::Status1).
     ///
-    /// Second status word: stored alarms, tasks, limits, regulators, STO
+    /// Second status word: stored alarms, tasks, limits, regulators, STO.
     ///
     /// Chapter Status flags of the drive. Manual, line 2163: Registro flag status 1.
     pub const RSTSFLG1: ReadOnly<super::types::Status1> = ReadOnlyNamedStatus1::register(
@@ -26884,7 +26884,7 @@ pub mod objects {
     /// 0x20CB:01, holding register 203, UNSIGNED16, ro.
     /// Accessor: [`rstscllp`](super::VectorStep::rstscllp). Values: [`ClosedLoopStatus`](super::types::ClosedLoopStatus).
     ///
-    /// Status word of closed-loop control; bits 0 to 2 feed bit 7 of Rstsflg
+    /// Status word of closed-loop control; bits 0 to 2 feed bit 7 of Rstsflg.
     ///
     /// Chapter Status flags of the drive. Manual, line 2164: Registro flag status closed loop.
     pub const RSTSCLLP: ReadOnly<super::types::ClosedLoopStatus> = ReadOnlyNamedClosedLoopStatus::register(
@@ -26899,7 +26899,7 @@ pub mod objects {
     /// 0x203A:01, holding register 58, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rflag1`](super::VectorStep::rflag1). Values: [`ModeFlags1`](super::types::ModeFlags1).
     ///
-    /// Flags of the operating mode that can't be kept over power-off
+    /// Flags of the operating mode that can't be kept over power-off.
     ///
     /// Lost at power-off.
     ///
@@ -26916,7 +26916,7 @@ pub mod objects {
     /// 0x2066:01, holding registers 102 to 103, low word first, UNSIGNED32, rw, range 0 to 2147483647.
     /// Accessor: [`rflag`](super::VectorStep::rflag). Values: [`ModeFlags`](super::types::ModeFlags).
     ///
-    /// Flags of the operating mode: limits, resets after homing, corrections, gear directions, USB
+    /// Flags of the operating mode: limits, resets after homing, corrections, gear directions, USB.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -26935,7 +26935,7 @@ pub mod objects {
     /// 0x2116:01, holding register 278, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rhwconfig`](super::VectorStep::rhwconfig). Values: [`HardwareConfig`](super::types::HardwareConfig).
     ///
-    /// Hardware configuration: directions, encoder kinds, PWM range, realignment for two CANopen masters
+    /// Hardware configuration: directions, encoder kinds, PWM range, realignment for two CANopen masters.
     ///
     /// Kept over power-off once 129 was given. from firmware 6.27 on, writing 8 requests bit 3 and leaves the other bits as they are.
     ///
@@ -26956,7 +26956,7 @@ pub mod objects {
     /// 0x203F:01, holding registers 63 to 64, low word first, INTEGER32, rw, mappable into RPDOs, range \-10000 to 10000 (-100 to 100 rev/s), in 0.01 rev/s.
     /// Accessor: [`rvel`](super::VectorStep::rvel).
     ///
-    /// Highest speed of a movement; carries the mark ANA
+    /// Highest speed of a movement; carries the mark ANA.
     ///
     /// Chapter Motion parameters. Manual, line 2178: Velocità massima traslazione.
     ///
@@ -26975,7 +26975,7 @@ pub mod objects {
     /// 0x2041:01, holding registers 65 to 66, low word first, INTEGER32, rw, mappable into RPDOs, range 0 to 10000 (0 to 100 rev/s), in 0.01 rev/s.
     /// Accessor: [`rvss`](super::VectorStep::rvss).
     ///
-    /// Speed at which movements start and end
+    /// Speed at which movements start and end.
     ///
     /// Chapter Motion parameters. Manual, line 2179: Velocità iniziale e finale (Start/Stop).
     ///
@@ -26994,7 +26994,7 @@ pub mod objects {
     /// 0x2043:01, holding registers 67 to 68, low word first, UNSIGNED32, rw, mappable into RPDOs, range 0 to 200000 (0 to 20000 rev/s²), in 0.1 rev/s².
     /// Accessor: [`racc`](super::VectorStep::racc).
     ///
-    /// Acceleration ramp, 0 switches it off; carries the mark ANA
+    /// Acceleration ramp, 0 switches it off; carries the mark ANA.
     ///
     /// 0 means: ramp off.
     ///
@@ -27015,7 +27015,7 @@ pub mod objects {
     /// 0x2045:01, holding register 69, UNSIGNED16, rw, range 0 to 10.
     /// Accessor: [`raccpro`](super::VectorStep::raccpro). Values: [`RampProfile`](super::types::RampProfile).
     ///
-    /// Shape of the acceleration ramp
+    /// Shape of the acceleration ramp.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27036,7 +27036,7 @@ pub mod objects {
     /// 0x2046:01, holding registers 70 to 71, low word first, UNSIGNED32, rw, mappable into RPDOs, range 0 to 200000 (0 to 20000 rev/s²), in 0.1 rev/s².
     /// Accessor: [`rdec`](super::VectorStep::rdec).
     ///
-    /// Deceleration ramp, 0 switches it off; carries the mark ANA
+    /// Deceleration ramp, 0 switches it off; carries the mark ANA.
     ///
     /// 0 means: ramp off.
     ///
@@ -27057,7 +27057,7 @@ pub mod objects {
     /// 0x2048:01, holding register 72, UNSIGNED16, rw, range 0 to 10.
     /// Accessor: [`rdecpro`](super::VectorStep::rdecpro). Values: [`RampProfile`](super::types::RampProfile).
     ///
-    /// Shape of the deceleration ramp
+    /// Shape of the deceleration ramp.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27076,7 +27076,7 @@ pub mod objects {
     /// 0x2049:01, holding registers 73 to 74, low word first, UNSIGNED32, rw, mappable into RPDOs, range 0 to 200000 (0 to 20000 rev/s²), in 0.1 rev/s².
     /// Accessor: [`rdeceme`](super::VectorStep::rdeceme).
     ///
-    /// Deceleration ramp of emergency stops
+    /// Deceleration ramp of emergency stops.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27095,7 +27095,7 @@ pub mod objects {
     /// 0x204B:01, holding registers 75 to 76, low word first, INTEGER32, ro, mappable into TPDOs, in 0.01 rev/s.
     /// Accessor: [`rvelact`](super::VectorStep::rvelact).
     ///
-    /// Speed that the motor has now
+    /// Speed that the motor has now.
     ///
     /// Chapter Motion parameters. Manual, line 2185: Velocità attuale del motore.
     pub const RVELACT: ReadOnly<rt::Scaled<i32, 1, 100>> = ReadOnlyI32Times1Per100::register_within(
@@ -27112,7 +27112,7 @@ pub mod objects {
     /// 0x204D:01, holding registers 77 to 78, low word first, INTEGER32, ro, mappable into TPDOs, in 0.01 rev/s.
     /// Accessor: [`rvelactreq`](super::VectorStep::rvelactreq).
     ///
-    /// Speed that is asked of the motor now
+    /// Speed that is asked of the motor now.
     ///
     /// Chapter Motion parameters. Manual, line 2186: Velocità attuale richiesta del motore.
     pub const RVELACTREQ: ReadOnly<rt::Scaled<i32, 1, 100>> = ReadOnlyI32Times1Per100::register_within(
@@ -27129,7 +27129,7 @@ pub mod objects {
     /// 0x204F:01, holding registers 79 to 80, low word first, INTEGER32, rw, range 0 to 10000 (0 to 100 rev/s), in 0.01 rev/s.
     /// Accessor: [`rvelmax`](super::VectorStep::rvelmax).
     ///
-    /// Highest speed while a lost position is regained
+    /// Highest speed while a lost position is regained.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27148,7 +27148,7 @@ pub mod objects {
     /// 0x2064:01, holding register 100, UNSIGNED16, rw, one of 1, 10, 100.
     /// Accessor: [`rdefum`](super::VectorStep::rdefum). Values: [`SpeedDivisor`](super::types::SpeedDivisor).
     ///
-    /// Divisor of speeds and accelerations: the ratio of the set value to the real one
+    /// Divisor of speeds and accelerations: the ratio of the set value to the real one.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27184,7 +27184,7 @@ pub mod objects {
     /// 0x2147:01, holding register 327, UNSIGNED16, rw, in bit/s².
     /// Accessor: [`rpwmacc`](super::VectorStep::rpwmacc).
     ///
-    /// Acceleration ramp in PWM mode
+    /// Acceleration ramp in PWM mode.
     ///
     /// Only of DMD\*.
     ///
@@ -27203,7 +27203,7 @@ pub mod objects {
     /// 0x2148:01, holding register 328, UNSIGNED16, rw, range 0 to 1250 (0 to 100 %), in 0.08 %.
     /// Accessor: [`rpwm`](super::VectorStep::rpwm).
     ///
-    /// How far the PWM opens in PWM mode: 1250 is 100 %
+    /// How far the PWM opens in PWM mode: 1250 is 100 %.
     ///
     /// Only of DMD\*.
     ///
@@ -27224,7 +27224,7 @@ pub mod objects {
     /// 0x216E:01, holding register 366, UNSIGNED16, rw, range 0 to 32767.
     /// Accessor: [`rveladjpicur`](super::VectorStep::rveladjpicur).
     ///
-    /// Speed up to which the current regulator's PI is reduced, for low speeds
+    /// Speed up to which the current regulator's PI is reduced, for low speeds.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27245,7 +27245,7 @@ pub mod objects {
     /// 0x2196:01, holding register 406, UNSIGNED16, rw, range 0 to 32767, in ms.
     /// Accessor: [`rdlyadjpicur`](super::VectorStep::rdlyadjpicur).
     ///
-    /// Delay before the correction of the current regulator's PI sets in
+    /// Delay before the correction of the current regulator's PI sets in.
     ///
     /// 0 means: correction off.
     ///
@@ -27266,7 +27266,7 @@ pub mod objects {
     /// 0x219A:01, holding register 410, UNSIGNED16, rw, range 0 to 65535, in count.
     /// Accessor: [`rzerovellim`](super::VectorStep::rzerovellim).
     ///
-    /// Motor encoder counts from which the axis is taken for moving; detects standstill when homing on a mechanical stop in SmartMode
+    /// Motor encoder counts from which the axis is taken for moving; detects standstill when homing on a mechanical stop in SmartMode.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27285,7 +27285,7 @@ pub mod objects {
     /// 0x219B:01, holding register 411, UNSIGNED16, rw, range 0 to 65535, in ms.
     /// Accessor: [`rzeroveltim`](super::VectorStep::rzeroveltim).
     ///
-    /// Sampling time of the motor encoder for that standstill detection
+    /// Sampling time of the motor encoder for that standstill detection.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27304,7 +27304,7 @@ pub mod objects {
     /// 0x219C:01, holding register 412, UNSIGNED16, rw, range 0 to 65535, in ms.
     /// Accessor: [`rcurlimtim`](super::VectorStep::rcurlimtim).
     ///
-    /// Filter time before the motor is reported at its current limit in FOC\_CLOSE
+    /// Filter time before the motor is reported at its current limit in FOC\_CLOSE.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27323,7 +27323,7 @@ pub mod objects {
     /// 0x21ED:01, INTEGER32, rw, mappable into RPDOs, range \-20000 to 20000.
     /// Accessor: [`rveltarg`](super::VectorStep::rveltarg).
     ///
-    /// Target speed of operating mode 9, cyclic synchronous velocity
+    /// Target speed of operating mode 9, cyclic synchronous velocity.
     ///
     /// Chapter Motion parameters. Manual, line 2197: Target di velocità in modalità 9 (CSV).
     ///
@@ -27343,7 +27343,7 @@ pub mod objects {
     /// 0x203B:01, holding register 59, UNSIGNED16, wo, mappable into RPDOs, range 0 to 65535.
     /// Accessor: [`rcmdwr`](super::VectorStep::rcmdwr). Values: [`Command`](super::types::Command).
     ///
-    /// Commands to the drive, raised one at a time; each bit falls when its command is done
+    /// Commands to the drive, raised one at a time; each bit falls when its command is done.
     ///
     /// The device clears it by itself. one bit at a time: the drive carries its command out and clears it.
     ///
@@ -27360,7 +27360,7 @@ pub mod objects {
     /// 0x203C:01, holding register 60, UNSIGNED16, wo, mappable into RPDOs, range 0 to 65535.
     /// Accessor: [`rcmd1wr`](super::VectorStep::rcmd1wr). Values: [`Command1`](super::types::Command1).
     ///
-    /// Further commands: phase tests, winding and Smit modes, SmartMode positions; Rcmd1rd answers
+    /// Further commands: phase tests, winding and Smit modes, SmartMode positions; Rcmd1rd answers.
     ///
     /// writing 0 clears bit 1 of Rcmd1rd, phase test done.
     ///
@@ -27381,7 +27381,7 @@ pub mod objects {
     /// 0x203D:01, holding register 61, UNSIGNED16, ro, mappable into TPDOs.
     /// Accessor: [`rcmdrd`](super::VectorStep::rcmdrd). Values: [`CommandState`](super::types::CommandState).
     ///
-    /// Which commands the drive is carrying out
+    /// Which commands the drive is carrying out.
     ///
     /// Chapter Motion commands. Manual, line 2206: Registro comando lettura PC/scrittura indexer.
     pub const RCMDRD: ReadOnly<super::types::CommandState> = ReadOnlyNamedCommandState::register(
@@ -27396,7 +27396,7 @@ pub mod objects {
     /// 0x203E:01, holding register 62, UNSIGNED16, ro, mappable into TPDOs.
     /// Accessor: [`rcmd1rd`](super::VectorStep::rcmd1rd). Values: [`CommandState1`](super::types::CommandState1).
     ///
-    /// Answers to the commands of Rcmd1wr
+    /// Answers to the commands of Rcmd1wr.
     ///
     /// Chapter Motion commands. Manual, line 2207: Registro comando 1 lettura PC.
     ///
@@ -27413,7 +27413,7 @@ pub mod objects {
     /// 0x206A:01, holding register 106, UNSIGNED16, rw, range 0 to 63.
     /// Accessor: [`rtasknum`](super::VectorStep::rtasknum).
     ///
-    /// Number of the task that a command over the serial line runs
+    /// Number of the task that a command over the serial line runs.
     ///
     /// Chapter Motion commands. Manual, line 2208: Numero di task da eseguire.
     pub const RTASKNUM: ReadWrite<u16> = ReadWriteU16::register_within(
@@ -27430,7 +27430,7 @@ pub mod objects {
     /// 0x21C2:01, holding register 450, UNSIGNED16, rw, range 0 to 7.
     /// Accessor: [`rptroldcmd`](super::VectorStep::rptroldcmd).
     ///
-    /// Which of the last eight commands Rbufcmdstatus, Rbufcmdcommand and Rbufcmdparameter show: 0 the latest, 7 the oldest
+    /// Which of the last eight commands Rbufcmdstatus, Rbufcmdcommand and Rbufcmdparameter show: 0 the latest, 7 the oldest.
     ///
     /// Chapter Motion commands. Manual, line 2209: Puntatore buffer comandi eseguiti.
     ///
@@ -27449,7 +27449,7 @@ pub mod objects {
     /// 0x21C3:01, holding register 451, UNSIGNED16, ro.
     /// Accessor: [`rbufcmdstatus`](super::VectorStep::rbufcmdstatus).
     ///
-    /// Where the command came from: user program, serial line or fieldbus
+    /// Where the command came from: user program, serial line or fieldbus.
     ///
     /// Chapter Motion commands. Manual, line 2210: Stato dell'ultimo comando.
     ///
@@ -27466,7 +27466,7 @@ pub mod objects {
     /// 0x21C4:01, holding registers 452 to 453, UNSIGNED32, ro.
     /// Accessor: [`rbufcmdcommand`](super::VectorStep::rbufcmdcommand).
     ///
-    /// The command that was carried out
+    /// The command that was carried out.
     ///
     /// Chapter Motion commands. Manual, line 2211: Ultimo comando eseguito.
     pub const RBUFCMDCOMMAND: ReadOnly<u32> = ReadOnlyU32::register(
@@ -27481,7 +27481,7 @@ pub mod objects {
     /// 0x21C6:01, holding registers 454 to 455, INTEGER32, ro.
     /// Accessor: [`rbufcmdparameter`](super::VectorStep::rbufcmdparameter).
     ///
-    /// Parameter of the command that was carried out
+    /// Parameter of the command that was carried out.
     ///
     /// Chapter Motion commands. Manual, line 2212: Parametro dell'ultimo comando eseguito.
     pub const RBUFCMDPARAMETER: ReadOnly<i32> = ReadOnlyI32::register(
@@ -27496,7 +27496,7 @@ pub mod objects {
     /// 0x2020:01, holding registers 32 to 33, low word first, UNSIGNED32, rw, range 0 to 2147483647, in step.
     /// Accessor: [`rhmaxspc`](super::VectorStep::rhmaxspc).
     ///
-    /// Greatest distance that homing may travel
+    /// Greatest distance that homing may travel.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27515,7 +27515,7 @@ pub mod objects {
     /// 0x2022:01, holding register 34, UNSIGNED16, rw, range 0 to 255.
     /// Accessor: [`rdefinpbls`](super::VectorStep::rdefinpbls). Values: [`LimitSwitchInput`](super::types::LimitSwitchInput).
     ///
-    /// Input that works as backward limit switch BLS; a digital one must have no other function
+    /// Input that works as backward limit switch BLS; a digital one must have no other function.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27534,7 +27534,7 @@ pub mod objects {
     /// 0x2023:01, holding register 35, UNSIGNED16, rw, range 0 to 255.
     /// Accessor: [`rdefinpfls`](super::VectorStep::rdefinpfls). Values: [`LimitSwitchInput`](super::types::LimitSwitchInput).
     ///
-    /// Input that works as forward limit switch FLS; a digital one must have no other function
+    /// Input that works as forward limit switch FLS; a digital one must have no other function.
     ///
     /// Chapter HOME instruction. Manual, line 2219: Definizione numero ingresso per FLS.
     ///
@@ -27553,7 +27553,7 @@ pub mod objects {
     /// 0x2024:01, holding registers 36 to 37, low word first, INTEGER32, rw, range \-2147483648 to 2147483647, in step.
     /// Accessor: [`rhofs`](super::VectorStep::rhofs).
     ///
-    /// How far the axis moves once the homing routine is over
+    /// How far the axis moves once the homing routine is over.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27572,7 +27572,7 @@ pub mod objects {
     /// 0x2026:01, holding registers 38 to 39, low word first, INTEGER32, rw, range \-2147483648 to 2147483647, in step.
     /// Accessor: [`rhpos`](super::VectorStep::rhpos).
     ///
-    /// Position that the axis is given after homing
+    /// Position that the axis is given after homing.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27593,7 +27593,7 @@ pub mod objects {
     /// 0x2028:01, holding register 40, UNSIGNED16, rw, mappable into RPDOs, range 1 to 100, in %.
     /// Accessor: [`rhcurcoll`](super::VectorStep::rhcurcoll).
     ///
-    /// Share of the nominal current at which homing takes a mechanical stop for reached (FOC\_CLOSE)
+    /// Share of the nominal current at which homing takes a mechanical stop for reached (FOC\_CLOSE).
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27612,7 +27612,7 @@ pub mod objects {
     /// 0x2029:01, holding register 41, UNSIGNED16, rw, range 0 to 10000, in ms.
     /// Accessor: [`rhtimcoll`](super::VectorStep::rhtimcoll).
     ///
-    /// Filter time of that detection of the mechanical stop (FOC\_CLOSE)
+    /// Filter time of that detection of the mechanical stop (FOC\_CLOSE).
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27631,7 +27631,7 @@ pub mod objects {
     /// 0x2051:01, holding register 81, UNSIGNED16, rw, default 512, range 0 to 32767, in ms.
     /// Accessor: [`rhtinv`](super::VectorStep::rhtinv).
     ///
-    /// How long homing rests the axis before it turns round
+    /// How long homing rests the axis before it turns round.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27649,7 +27649,7 @@ pub mod objects {
     /// 0x2052:01, holding register 82, INTEGER16, rw, mappable into RPDOs, range \-16 to 37.
     /// Accessor: [`rhmode`](super::VectorStep::rhmode). Values: [`HomingMethodI16`](super::types::HomingMethodI16).
     ///
-    /// Homing method; the table at 0x6098 (L1625) has every method reset the position and set the synchronised flag
+    /// Homing method; the table at 0x6098 (L1625) has every method reset the position and set the synchronised flag.
     ///
     /// Chapter HOME instruction. Manual, line 2227: Homing method (Tipo di routine di home).
     ///
@@ -27673,7 +27673,7 @@ pub mod objects {
     /// 0x2053:01, holding registers 83 to 84, low word first, INTEGER32, rw, mappable into RPDOs, range 0 to 10000 (0 to 100 rev/s), in 0.01 rev/s.
     /// Accessor: [`rhvh`](super::VectorStep::rhvh).
     ///
-    /// Speed of homing while it looks for the limit switch
+    /// Speed of homing while it looks for the limit switch.
     ///
     /// Chapter HOME instruction. Manual, line 2228: Velocità di homing ricerca fine corsa.
     ///
@@ -27692,7 +27692,7 @@ pub mod objects {
     /// 0x2055:01, holding registers 85 to 86, low word first, INTEGER32, rw, mappable into RPDOs, range 0 to 10000 (0 to 100 rev/s), in 0.01 rev/s.
     /// Accessor: [`rhvl`](super::VectorStep::rhvl).
     ///
-    /// Speed of homing while it looks for the zero point; has to lie within the start/stop range
+    /// Speed of homing while it looks for the zero point; has to lie within the start/stop range.
     ///
     /// Chapter HOME instruction. Manual, line 2229: Velocità di homing ricerca punto 0.
     ///
@@ -27711,7 +27711,7 @@ pub mod objects {
     /// 0x2057:01, holding registers 87 to 88, low word first, UNSIGNED32, rw, mappable into RPDOs, range 0 to 200000 (0 to 20000 rev/s²), in 0.1 rev/s².
     /// Accessor: [`rhacc`](super::VectorStep::rhacc).
     ///
-    /// Acceleration and deceleration of homing
+    /// Acceleration and deceleration of homing.
     ///
     /// Chapter HOME instruction. Manual, line 2230: Accelerazione/Decelerazione in fase di homing.
     ///
@@ -27730,7 +27730,7 @@ pub mod objects {
     /// 0x20CA:01, holding register 202, UNSIGNED16, ro.
     /// Accessor: [`rhsts`](super::VectorStep::rhsts). Values: [`HomingStatus`](super::types::HomingStatus).
     ///
-    /// State and errors of homing; the emergencies FF02, FF06 and FF07 carry its low byte
+    /// State and errors of homing; the emergencies FF02, FF06 and FF07 carry its low byte.
     ///
     /// Chapter HOME instruction. Manual, line 2231: Codice di errore sequenza di home.
     pub const RHSTS: ReadOnly<super::types::HomingStatus> = ReadOnlyNamedHomingStatus::register(
@@ -27745,7 +27745,7 @@ pub mod objects {
     /// 0x223F:01, holding registers 575 to 576, low word first, INTEGER32, rw, in step.
     /// Accessor: [`rhindexpc`](super::VectorStep::rhindexpc).
     ///
-    /// Not described; by its name a distance or position of the index in homing
+    /// Not described; by its name a distance or position of the index in homing.
     ///
     /// Chapter HOME instruction. Manual, line 2232: Rhindexpc.
     ///
@@ -27764,7 +27764,7 @@ pub mod objects {
     /// 0x2018:01, holding registers 24 to 25, low word first, UNSIGNED32, rw, range 0 to 2147483647, in step.
     /// Accessor: [`rshstop`](super::VectorStep::rshstop).
     ///
-    /// Shift distance of the STOP instruction
+    /// Shift distance of the STOP instruction.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27783,7 +27783,7 @@ pub mod objects {
     /// 0x201C:01, holding registers 28 to 29, low word first, UNSIGNED32, rw, range 0 to 2147483647, in step.
     /// Accessor: [`rspcstop`](super::VectorStep::rspcstop).
     ///
-    /// Fixed distance in which the axis stops
+    /// Fixed distance in which the axis stops.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27802,7 +27802,7 @@ pub mod objects {
     /// 0x201E:01, holding registers 30 to 31, low word first, UNSIGNED32, rw, in step.
     /// Accessor: [`rspcstopcalc`](super::VectorStep::rspcstopcalc).
     ///
-    /// Distance that the last stop took
+    /// Distance that the last stop took.
     ///
     /// Chapter STOP instruction. Manual, line 2239: Spazio di arresto ultimo stop.
     pub const RSPCSTOPCALC: ReadWrite<u32> = ReadWriteU32::register_within(
@@ -27819,7 +27819,7 @@ pub mod objects {
     /// 0x2031:01, holding register 49, UNSIGNED16, rw, mappable into RPDOs.
     /// Accessor: [`rbestpflg`](super::VectorStep::rbestpflg). Values: [`BestopSetup`](super::types::BestopSetup).
     ///
-    /// What BESTOP waits for: the state of a bit, or an edge of an encoder's index
+    /// What BESTOP waits for: the state of a bit, or an edge of an encoder's index.
     ///
     /// Chapter BESTOP instruction: stop on a bit. Manual, line 2244: Attivazione comando BESTOP.
     pub const RBESTPFLG: ReadWrite<super::types::BestopSetup> = ReadWriteNamedBestopSetup::register(
@@ -27834,7 +27834,7 @@ pub mod objects {
     /// 0x2032:01, holding register 50, UNSIGNED16, rw, mappable into RPDOs.
     /// Accessor: [`rbestppar`](super::VectorStep::rbestppar).
     ///
-    /// Number of the register or variable whose bit stops the axis; bit 6 of Rbestpflg says which
+    /// Number of the register or variable whose bit stops the axis; bit 6 of Rbestpflg says which.
     ///
     /// Chapter BESTOP instruction: stop on a bit. Manual, line 2245: Parametro BESTOP.
     ///
@@ -27851,7 +27851,7 @@ pub mod objects {
     /// 0x2014:01, holding registers 20 to 21, low word first, UNSIGNED32, rw, range 0 to 2147483647, in step.
     /// Accessor: [`rshestop`](super::VectorStep::rshestop).
     ///
-    /// Shift distance of the ESTOP instruction; carries the mark ANA\_T
+    /// Shift distance of the ESTOP instruction; carries the mark ANA\_T.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27872,7 +27872,7 @@ pub mod objects {
     /// 0x202D:01, holding register 45, UNSIGNED16, rw, mappable into RPDOs.
     /// Accessor: [`restpflg`](super::VectorStep::restpflg). Values: [`EstopSetup`](super::types::EstopSetup).
     ///
-    /// What ESTOP compares and how
+    /// What ESTOP compares and how.
     ///
     /// Chapter ESTOP instruction: stop on the value of a register or variable. Manual, line 2253: Flag di impostazione per funzione ESTOP.
     ///
@@ -27889,7 +27889,7 @@ pub mod objects {
     /// 0x202E:01, holding registers 46 to 47, low word first, UNSIGNED32, rw, mappable into RPDOs.
     /// Accessor: [`restppar1`](super::VectorStep::restppar1).
     ///
-    /// First parameter of the comparison: a number, or the number of a register or variable, as Restpflg says
+    /// First parameter of the comparison: a number, or the number of a register or variable, as Restpflg says.
     ///
     /// Chapter ESTOP instruction: stop on the value of a register or variable. Manual, line 2254: Parametro 1 per funzione ESTOP.
     ///
@@ -27906,7 +27906,7 @@ pub mod objects {
     /// 0x2030:01, holding register 48, UNSIGNED16, rw, mappable into RPDOs.
     /// Accessor: [`restppar2`](super::VectorStep::restppar2).
     ///
-    /// Second parameter of the comparison, as Restpflg says
+    /// Second parameter of the comparison, as Restpflg says.
     ///
     /// Chapter ESTOP instruction: stop on the value of a register or variable. Manual, line 2255: Parametro 2 per funzione ESTOP.
     pub const RESTPPAR2: ReadWrite<u16> = ReadWriteU16::register(
@@ -27921,7 +27921,7 @@ pub mod objects {
     /// 0x2068:01, holding register 104, UNSIGNED16, rw, range 1 to 32767.
     /// Accessor: [`rgearmul`](super::VectorStep::rgearmul).
     ///
-    /// Multiplier of the gear ratio
+    /// Multiplier of the gear ratio.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27940,7 +27940,7 @@ pub mod objects {
     /// 0x2069:01, holding register 105, UNSIGNED16, rw, range 1 to 32767.
     /// Accessor: [`rgeardiv`](super::VectorStep::rgeardiv).
     ///
-    /// Divisor of the gear ratio
+    /// Divisor of the gear ratio.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27959,7 +27959,7 @@ pub mod objects {
     /// 0x20E0:01, holding register 224, UNSIGNED16, rw, range 0 to 65535, in ms.
     /// Accessor: [`rpostimeout`](super::VectorStep::rpostimeout).
     ///
-    /// Time after which a positioning that isn't done is an alarm
+    /// Time after which a positioning that isn't done is an alarm.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27978,7 +27978,7 @@ pub mod objects {
     /// 0x20E1:01, holding register 225, UNSIGNED16, rw, range 0 to 32767, in step.
     /// Accessor: [`rdeadpos`](super::VectorStep::rdeadpos).
     ///
-    /// Window around the target, in motor steps, within which the motor is in position
+    /// Window around the target, in motor steps, within which the motor is in position.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -27997,7 +27997,7 @@ pub mod objects {
     /// 0x20E2:01, holding register 226, UNSIGNED16, rw, range 0 to 1000, in ms.
     /// Accessor: [`rsettim`](super::VectorStep::rsettim).
     ///
-    /// How long the motor has to stay in the window, with no speed asked for, before it is reported in position (closed loop)
+    /// How long the motor has to stay in the window, with no speed asked for, before it is reported in position (closed loop).
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28016,7 +28016,7 @@ pub mod objects {
     /// 0x20E3:01, holding register 227, UNSIGNED16, rw, mappable into TPDOs, range 0 to 65535.
     /// Accessor: [`ralarm`](super::VectorStep::ralarm). Values: [`Alarm`](super::types::Alarm).
     ///
-    /// Alarms of the drive; Ralarm32 has more of them
+    /// Alarms of the drive; Ralarm32 has more of them.
     ///
     /// Only 0 can be written. writing 0 resets the alarms.
     ///
@@ -28041,7 +28041,7 @@ pub mod objects {
     /// 0x20E4:01, holding register 228, UNSIGNED16, ro, mappable into TPDOs, range 0 to 65535.
     /// Accessor: [`rwarning`](super::VectorStep::rwarning). Values: [`Warning`](super::types::Warning).
     ///
-    /// Warnings, which come before alarms and have no effect on the drive
+    /// Warnings, which come before alarms and have no effect on the drive.
     ///
     /// Chapter Alarms and warnings. Manual, line 2276: Segnalazioni pre allarme azionamento.
     ///
@@ -28060,7 +28060,7 @@ pub mod objects {
     /// 0x20E5:01, holding register 229, UNSIGNED16, ro.
     /// Accessor: [`rbufalm0`](super::VectorStep::rbufalm0).
     ///
-    /// Stored alarm 0
+    /// Stored alarm 0.
     ///
     /// Chapter Alarms and warnings. Manual, line 2277: Buffer allarme 0.
     ///
@@ -28077,7 +28077,7 @@ pub mod objects {
     /// 0x20E6:01, holding register 230, UNSIGNED16, ro.
     /// Accessor: [`rbufalm1`](super::VectorStep::rbufalm1).
     ///
-    /// Stored alarm 1
+    /// Stored alarm 1.
     ///
     /// Chapter Alarms and warnings. Manual, line 2278: Buffer allarme 1.
     pub const RBUFALM1: ReadOnly<u16> = ReadOnlyU16::register(
@@ -28092,7 +28092,7 @@ pub mod objects {
     /// 0x20E7:01, holding register 231, UNSIGNED16, ro.
     /// Accessor: [`rbufalm2`](super::VectorStep::rbufalm2).
     ///
-    /// Stored alarm 2
+    /// Stored alarm 2.
     ///
     /// Chapter Alarms and warnings. Manual, line 2279: Buffer allarme 2.
     pub const RBUFALM2: ReadOnly<u16> = ReadOnlyU16::register(
@@ -28107,7 +28107,7 @@ pub mod objects {
     /// 0x20E8:01, holding register 232, UNSIGNED16, ro.
     /// Accessor: [`rbufalm3`](super::VectorStep::rbufalm3).
     ///
-    /// Stored alarm 3
+    /// Stored alarm 3.
     ///
     /// Chapter Alarms and warnings. Manual, line 2280: Buffer allarme 3.
     pub const RBUFALM3: ReadOnly<u16> = ReadOnlyU16::register(
@@ -28122,7 +28122,7 @@ pub mod objects {
     /// 0x20E9:01, holding register 233, UNSIGNED16, ro.
     /// Accessor: [`rbufalm4`](super::VectorStep::rbufalm4).
     ///
-    /// Stored alarm 4
+    /// Stored alarm 4.
     ///
     /// Chapter Alarms and warnings. Manual, line 2281: Buffer allarme 4.
     pub const RBUFALM4: ReadOnly<u16> = ReadOnlyU16::register(
@@ -28137,7 +28137,7 @@ pub mod objects {
     /// 0x20EA:01, holding register 234, UNSIGNED16, ro.
     /// Accessor: [`rbufalm5`](super::VectorStep::rbufalm5).
     ///
-    /// Stored alarm 5
+    /// Stored alarm 5.
     ///
     /// Chapter Alarms and warnings. Manual, line 2282: Buffer allarme 5.
     pub const RBUFALM5: ReadOnly<u16> = ReadOnlyU16::register(
@@ -28152,7 +28152,7 @@ pub mod objects {
     /// 0x20EB:01, holding register 235, UNSIGNED16, ro.
     /// Accessor: [`rbufalm6`](super::VectorStep::rbufalm6).
     ///
-    /// Stored alarm 6
+    /// Stored alarm 6.
     ///
     /// Chapter Alarms and warnings. Manual, line 2283: Buffer allarme 6.
     pub const RBUFALM6: ReadOnly<u16> = ReadOnlyU16::register(
@@ -28167,7 +28167,7 @@ pub mod objects {
     /// 0x20EC:01, holding register 236, UNSIGNED16, ro.
     /// Accessor: [`rbufalm7`](super::VectorStep::rbufalm7).
     ///
-    /// Stored alarm 7
+    /// Stored alarm 7.
     ///
     /// Chapter Alarms and warnings. Manual, line 2284: Buffer allarme 7.
     pub const RBUFALM7: ReadOnly<u16> = ReadOnlyU16::register(
@@ -28182,7 +28182,7 @@ pub mod objects {
     /// 0x20ED:01, holding register 237, UNSIGNED16, ro, range 0 to 65535.
     /// Accessor: [`ralmcnt`](super::VectorStep::ralmcnt).
     ///
-    /// How many faults there have been; bit 1 of Ralmack resets it
+    /// How many faults there have been; bit 1 of Ralmack resets it.
     ///
     /// Chapter Alarms and warnings. Manual, line 2285: Contatore fault.
     pub const RALMCNT: ReadOnly<u16> = ReadOnlyU16::register(
@@ -28197,7 +28197,7 @@ pub mod objects {
     /// 0x20EE:01, holding register 238, UNSIGNED16, rw, range 0 to 3.
     /// Accessor: [`ralmack`](super::VectorStep::ralmack). Values: [`AlarmAcknowledge`](super::types::AlarmAcknowledge).
     ///
-    /// Acknowledges the last alarm and resets the count
+    /// Acknowledges the last alarm and resets the count.
     ///
     /// Chapter Alarms and warnings. Manual, line 2286: Acknowledge ultimo allarme.
     pub const RALMACK: ReadWrite<super::types::AlarmAcknowledge> = ReadWriteNamedAlarmAcknowledge::register_within(
@@ -28214,7 +28214,7 @@ pub mod objects {
     /// 0x20EF:01, holding register 239, UNSIGNED16, rw, range 0 to 150, in °C.
     /// Accessor: [`rtempalm`](super::VectorStep::rtempalm).
     ///
-    /// Temperature above which there is an alarm
+    /// Temperature above which there is an alarm.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28233,7 +28233,7 @@ pub mod objects {
     /// 0x20F0:01, holding register 240, UNSIGNED16, rw, range 0 to 200, in V.
     /// Accessor: [`rtensmax`](super::VectorStep::rtensmax).
     ///
-    /// Voltage above which there is an alarm
+    /// Voltage above which there is an alarm.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28252,7 +28252,7 @@ pub mod objects {
     /// 0x20F1:01, holding register 241, UNSIGNED16, rw, range 0 to 200, in V.
     /// Accessor: [`rtensmin`](super::VectorStep::rtensmin).
     ///
-    /// Voltage below which there is an alarm
+    /// Voltage below which there is an alarm.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28271,7 +28271,7 @@ pub mod objects {
     /// 0x20F2:01, holding register 242, UNSIGNED16, rw, range 0 to 20000, in mA.
     /// Accessor: [`rcurmax`](super::VectorStep::rcurmax).
     ///
-    /// Limit that the current may not pass
+    /// Limit that the current may not pass.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28290,7 +28290,7 @@ pub mod objects {
     /// 0x20F3:01, holding registers 243 to 244, low word first, UNSIGNED32, rw, range 0 to 32000, in count.
     /// Accessor: [`rflwmax`](super::VectorStep::rflwmax).
     ///
-    /// Following error, whichever its sign, beyond which there is an alarm after a filter time; 0 switches the check off
+    /// Following error, whichever its sign, beyond which there is an alarm after a filter time; 0 switches the check off.
     ///
     /// 0 means: following alarm off.
     ///
@@ -28311,7 +28311,7 @@ pub mod objects {
     /// 0x20F5:01, holding registers 245 to 246, low word first, UNSIGNED32, rw, range 0 to 9999999.
     /// Accessor: [`ri2tmax`](super::VectorStep::ri2tmax).
     ///
-    /// I2t from which there is an alarm
+    /// I2t from which there is an alarm.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28330,7 +28330,7 @@ pub mod objects {
     /// 0x20F7:01, holding register 247, UNSIGNED16, rw.
     /// Accessor: [`rmaskalm`](super::VectorStep::rmaskalm). Values: [`Alarm`](super::types::Alarm).
     ///
-    /// Which alarms are masked: 1 masks the alarm of the same bit in Ralarm
+    /// Which alarms are masked: 1 masks the alarm of the same bit in Ralarm.
     ///
     /// Kept over power-off once 129 was given. a bit that is 1 keeps its alarm from being raised; bits 0, 1, 5 to 7, 9 to 11, 13 and 14 mask nothing.
     ///
@@ -28353,7 +28353,7 @@ pub mod objects {
     /// 0x20F8:01, holding register 248, UNSIGNED16, rw, range 0 to 32000, in ms.
     /// Accessor: [`rposalmtime`](super::VectorStep::rposalmtime).
     ///
-    /// How long the standing motor may be out of position before the position alarm (closed loop); 0 switches the check off
+    /// How long the standing motor may be out of position before the position alarm (closed loop); 0 switches the check off.
     ///
     /// 0 means: position alarm off.
     ///
@@ -28374,7 +28374,7 @@ pub mod objects {
     /// 0x20F9:01, holding register 249, UNSIGNED16, rw, range 0 to 150, in °C.
     /// Accessor: [`rtempwrn`](super::VectorStep::rtempwrn).
     ///
-    /// Temperature from which there is a warning
+    /// Temperature from which there is a warning.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28393,7 +28393,7 @@ pub mod objects {
     /// 0x20FA:01, holding register 250, UNSIGNED16, rw, range 0 to 200, in V.
     /// Accessor: [`rovvwrn`](super::VectorStep::rovvwrn).
     ///
-    /// Overvoltage from which there is a warning
+    /// Overvoltage from which there is a warning.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28412,7 +28412,7 @@ pub mod objects {
     /// 0x20FB:01, holding register 251, UNSIGNED16, rw, range 0 to 200, in V.
     /// Accessor: [`runvwrn`](super::VectorStep::runvwrn).
     ///
-    /// Undervoltage from which there is a warning
+    /// Undervoltage from which there is a warning.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28431,7 +28431,7 @@ pub mod objects {
     /// 0x20FC:01, holding register 252, UNSIGNED16, rw, range 0 to 20000, in mA.
     /// Accessor: [`rovcwrn`](super::VectorStep::rovcwrn).
     ///
-    /// Current from which there is a warning
+    /// Current from which there is a warning.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28450,7 +28450,7 @@ pub mod objects {
     /// 0x20FD:01, holding registers 253 to 254, low word first, UNSIGNED32, rw, range 0 to 32000, in count.
     /// Accessor: [`rflwvrn`](super::VectorStep::rflwvrn).
     ///
-    /// Following error, whichever its sign, from which there is a warning at once; 0 switches the check off
+    /// Following error, whichever its sign, from which there is a warning at once; 0 switches the check off.
     ///
     /// 0 means: following warning off.
     ///
@@ -28475,7 +28475,7 @@ pub mod objects {
     /// 0x20FF:01, holding registers 255 to 256, low word first, UNSIGNED32, rw, range 0 to 9999999.
     /// Accessor: [`ri2twrn`](super::VectorStep::ri2twrn).
     ///
-    /// I2t from which there is a warning
+    /// I2t from which there is a warning.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28494,7 +28494,7 @@ pub mod objects {
     /// 0x2101:01, holding register 257, UNSIGNED16, rw.
     /// Accessor: [`rmaskwrn`](super::VectorStep::rmaskwrn). Values: [`Warning`](super::types::Warning).
     ///
-    /// Which warnings are masked: 1 masks the warning of the same bit in Rwarning
+    /// Which warnings are masked: 1 masks the warning of the same bit in Rwarning.
     ///
     /// Kept over power-off once 129 was given. a bit that is 1 keeps its warning from being raised; bits 0, 1 and 5 to 7 mask nothing.
     ///
@@ -28515,7 +28515,7 @@ pub mod objects {
     /// 0x2102:01, holding register 258, UNSIGNED16, rw, range 0 to 32000, in ms.
     /// Accessor: [`rposwrtime`](super::VectorStep::rposwrtime).
     ///
-    /// How long the standing motor may be out of position before the position warning (closed loop); 0 switches the check off
+    /// How long the standing motor may be out of position before the position warning (closed loop); 0 switches the check off.
     ///
     /// 0 means: position warning off.
     ///
@@ -28538,7 +28538,7 @@ pub mod objects {
     /// 0x2103:01, holding registers 259 to 260, low word first, INTEGER32, rw, mappable into TPDOs, in count.
     /// Accessor: [`rflwdisp`](super::VectorStep::rflwdisp).
     ///
-    /// Following error now
+    /// Following error now.
     ///
     /// Only 0 can be written. writing 0 resets the following alarm.
     ///
@@ -28561,7 +28561,7 @@ pub mod objects {
     /// 0x2105:01, holding registers 261 to 262, low word first, INTEGER32, rw, in count.
     /// Accessor: [`rflwmem`](super::VectorStep::rflwmem).
     ///
-    /// Greatest following error since it was cleared, without its sign
+    /// Greatest following error since it was cleared, without its sign.
     ///
     /// Only 0 can be written. writing 0 clears the memory.
     ///
@@ -28584,7 +28584,7 @@ pub mod objects {
     /// 0x2107:01, holding register 263, UNSIGNED16, rw, range 0 to 32000, in ms.
     /// Accessor: [`rflwtim`](super::VectorStep::rflwtim).
     ///
-    /// How long the following error has to be out of its range before the alarm; warnings aren't filtered
+    /// How long the following error has to be out of its range before the alarm; warnings aren't filtered.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28605,7 +28605,7 @@ pub mod objects {
     /// 0x210A:01, holding register 266, UNSIGNED16, rw, range 0 to 65535, in count.
     /// Accessor: [`rflwmemp`](super::VectorStep::rflwmemp).
     ///
-    /// Greatest positive following error since it was cleared
+    /// Greatest positive following error since it was cleared.
     ///
     /// Only 0 can be written. writing 0 clears the memory.
     ///
@@ -28628,7 +28628,7 @@ pub mod objects {
     /// 0x210B:01, holding register 267, UNSIGNED16, rw, range 0 to 65535, in count.
     /// Accessor: [`rflwmemn`](super::VectorStep::rflwmemn).
     ///
-    /// Greatest negative following error since it was cleared, shown as a positive number
+    /// Greatest negative following error since it was cleared, shown as a positive number.
     ///
     /// Only 0 can be written. writing 0 clears the memory.
     ///
@@ -28649,7 +28649,7 @@ pub mod objects {
     /// 0x2197:01, holding registers 407 to 408, low word first, UNSIGNED32, rw, range 0 to 2147483647, in count.
     /// Accessor: [`rflwencerr`](super::VectorStep::rflwencerr).
     ///
-    /// Difference of encoder and motor steps that is an alarm at once, to notice a missing encoder; where used, one or two revolutions
+    /// Difference of encoder and motor steps that is an alarm at once, to notice a missing encoder; where used, one or two revolutions.
     ///
     /// Chapter Alarms and warnings. Manual, line 2312: Errore massimo conteggio encoder e step motore.
     ///
@@ -28668,7 +28668,7 @@ pub mod objects {
     /// 0x2199:01, holding register 409, UNSIGNED16, rw, range 0 to 65535, in ms.
     /// Accessor: [`rpostimeoutwrn`](super::VectorStep::rpostimeoutwrn).
     ///
-    /// Time after which a positioning that isn't done is a warning
+    /// Time after which a positioning that isn't done is a warning.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28687,7 +28687,7 @@ pub mod objects {
     /// 0x222F:01, holding registers 559 to 560, low word first, UNSIGNED32, rw, mappable into TPDOs, range 0 to 65536.
     /// Accessor: [`ralarm32`](super::VectorStep::ralarm32). Values: [`Alarm32`](super::types::Alarm32).
     ///
-    /// All alarms of the drive; the lower half is Ralarm
+    /// All alarms of the drive; the lower half is Ralarm.
     ///
     /// Only 0 can be written. writing 0 resets the alarms.
     ///
@@ -28716,7 +28716,7 @@ pub mod objects {
     /// 0x2231:01, holding registers 561 to 562, low word first, UNSIGNED32, rw, mappable into TPDOs, range 0 to 65536.
     /// Accessor: [`rwarning32`](super::VectorStep::rwarning32). Values: [`Warning32`](super::types::Warning32).
     ///
-    /// All warnings of the drive; the lower half is Rwarning
+    /// All warnings of the drive; the lower half is Rwarning.
     ///
     /// Chapter Alarms and warnings. Manual, line 2317: Segnalazioni pre allarme azionamento.
     ///
@@ -28741,7 +28741,7 @@ pub mod objects {
     /// 0x471E:01, holding register 10014, INTEGER16, rw, default -4, range \-4 to 2.
     /// Accessor: [`ralarmreact`](super::VectorStep::ralarmreact). Values: [`AlarmReaction`](super::types::AlarmReaction).
     ///
-    /// What the drive does when there is an alarm
+    /// What the drive does when there is an alarm.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28766,7 +28766,7 @@ pub mod objects {
     /// 0x47A0:01, holding register 10144, UNSIGNED16, rw.
     /// Accessor: [`ralmbuffres`](super::VectorStep::ralmbuffres).
     ///
-    /// Clears the alarm history
+    /// Clears the alarm history.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28787,7 +28787,7 @@ pub mod objects {
     /// 0x47A1:01, holding register 10145, UNSIGNED16, rw, range 0 to 15.
     /// Accessor: [`ralmbuffptr`](super::VectorStep::ralmbuffptr).
     ///
-    /// Which entry of the alarm history Ralmbufftime and Ralmbuffcode show
+    /// Which entry of the alarm history Ralmbufftime and Ralmbuffcode show.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28810,7 +28810,7 @@ pub mod objects {
     /// 0x47A2:01, holding registers 10146 to 10147, low word first, UNSIGNED32, ro.
     /// Accessor: [`ralmbufftime`](super::VectorStep::ralmbufftime).
     ///
-    /// When the alarm pointed to happened
+    /// When the alarm pointed to happened.
     ///
     /// Chapter Alarms and warnings. Manual, line 2323: Timestamp allarme puntato da Ralmbuffptr.
     ///
@@ -28829,7 +28829,7 @@ pub mod objects {
     /// 0x47A4:01, holding registers 10148 to 10149, low word first, UNSIGNED32, ro.
     /// Accessor: [`ralmbuffcode`](super::VectorStep::ralmbuffcode).
     ///
-    /// Code of the alarm pointed to
+    /// Code of the alarm pointed to.
     ///
     /// Chapter Alarms and warnings. Manual, line 2324: Codice allarme puntato da Ralmbuffptr.
     ///
@@ -28848,7 +28848,7 @@ pub mod objects {
     /// 0x206B:01, holding register 107, UNSIGNED16, ro, mappable into TPDOs.
     /// Accessor: [`rhslsi`](super::VectorStep::rhslsi). Values: [`LimitSwitches`](super::types::LimitSwitches).
     ///
-    /// Limit switches and encoder lines, sampled every 50 µs
+    /// Limit switches and encoder lines, sampled every 50 µs.
     ///
     /// Chapter Digital inputs and outputs. Manual, line 2409: High speed limit switch input.
     ///
@@ -28865,7 +28865,7 @@ pub mod objects {
     /// 0x206C:01, holding register 108, UNSIGNED16, ro, mappable into TPDOs.
     /// Accessor: [`rhsinp`](super::VectorStep::rhsinp). Values: [`DigitalInputs`](super::types::DigitalInputs).
     ///
-    /// Digital inputs, sampled every 50 µs
+    /// Digital inputs, sampled every 50 µs.
     ///
     /// Chapter Digital inputs and outputs. Manual, line 2410: High speed digital input.
     ///
@@ -28882,7 +28882,7 @@ pub mod objects {
     /// 0x206D:01, holding register 109, UNSIGNED16, ro, mappable into TPDOs.
     /// Accessor: [`rlsi`](super::VectorStep::rlsi). Values: [`LimitSwitches`](super::types::LimitSwitches).
     ///
-    /// Limit switches and encoder lines
+    /// Limit switches and encoder lines.
     ///
     /// Chapter Digital inputs and outputs. Manual, line 2411: Limit switch input.
     pub const RLSI: ReadOnly<super::types::LimitSwitches> = ReadOnlyNamedLimitSwitches::register(
@@ -28897,7 +28897,7 @@ pub mod objects {
     /// 0x206E:01, holding register 110, UNSIGNED16, rw.
     /// Accessor: [`rdeflsi`](super::VectorStep::rdeflsi). Values: [`LimitSwitchPolarity`](super::types::LimitSwitchPolarity).
     ///
-    /// Which level counts as active, for each limit switch and encoder line
+    /// Which level counts as active, for each limit switch and encoder line.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28914,7 +28914,7 @@ pub mod objects {
     /// 0x206F:01, holding register 111, UNSIGNED16, rw, range 1 to 16, in ms.
     /// Accessor: [`rfillsi`](super::VectorStep::rfillsi).
     ///
-    /// Time of the digital filter of the limit switch inputs
+    /// Time of the digital filter of the limit switch inputs.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28933,7 +28933,7 @@ pub mod objects {
     /// 0x2070:01, holding register 112, UNSIGNED16, rw.
     /// Accessor: [`renflsi`](super::VectorStep::renflsi).
     ///
-    /// Turns the filter of the limit switch inputs on
+    /// Turns the filter of the limit switch inputs on.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -28952,7 +28952,7 @@ pub mod objects {
     /// 0x2071:01, holding register 113, UNSIGNED16, rw.
     /// Accessor: [`rmemlsi`](super::VectorStep::rmemlsi).
     ///
-    /// Memory of the limit switch inputs
+    /// Memory of the limit switch inputs.
     ///
     /// Chapter Digital inputs and outputs. Manual, line 2415: Memoria limit switch input.
     ///
@@ -28969,7 +28969,7 @@ pub mod objects {
     /// 0x2072:01, holding register 114, UNSIGNED16, ro, mappable into TPDOs.
     /// Accessor: [`rinp`](super::VectorStep::rinp). Values: [`DigitalInputs`](super::types::DigitalInputs).
     ///
-    /// State of the digital inputs
+    /// State of the digital inputs.
     ///
     /// Chapter Digital inputs and outputs. Manual, line 2418: Digital input.
     pub const RINP: ReadOnly<super::types::DigitalInputs> = ReadOnlyNamedDigitalInputs::register(
@@ -28984,7 +28984,7 @@ pub mod objects {
     /// 0x2073:01, holding register 115, UNSIGNED16, rw.
     /// Accessor: [`rdefinp`](super::VectorStep::rdefinp). Values: [`DigitalInputPolarity`](super::types::DigitalInputPolarity).
     ///
-    /// Which level counts as active, for each digital input
+    /// Which level counts as active, for each digital input.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29001,7 +29001,7 @@ pub mod objects {
     /// 0x2074:01, holding register 116, UNSIGNED16, rw, range 1 to 16, in ms.
     /// Accessor: [`rfillnp`](super::VectorStep::rfillnp).
     ///
-    /// Time of the digital filter of the digital inputs
+    /// Time of the digital filter of the digital inputs.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29022,7 +29022,7 @@ pub mod objects {
     /// 0x2075:01, holding register 117, UNSIGNED16, rw.
     /// Accessor: [`renfinp`](super::VectorStep::renfinp). Values: [`DigitalInputs`](super::types::DigitalInputs).
     ///
-    /// Turns the filter on for each digital input
+    /// Turns the filter on for each digital input.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29041,7 +29041,7 @@ pub mod objects {
     /// 0x2076:01, holding register 118, UNSIGNED16, rw.
     /// Accessor: [`rmeminp`](super::VectorStep::rmeminp). Values: [`DigitalInputs`](super::types::DigitalInputs).
     ///
-    /// Memory of the digital inputs
+    /// Memory of the digital inputs.
     ///
     /// Chapter Digital inputs and outputs. Manual, line 2422: Memoria digital input.
     ///
@@ -29058,7 +29058,7 @@ pub mod objects {
     /// 0x2077:01, holding register 119, UNSIGNED16, rw, mappable into RPDOs.
     /// Accessor: [`rout`](super::VectorStep::rout). Values: [`DigitalOutputs`](super::types::DigitalOutputs).
     ///
-    /// Switches the digital outputs, a bit each
+    /// Switches the digital outputs, a bit each.
     ///
     /// Chapter Digital inputs and outputs. Manual, line 2423: Digital output.
     pub const ROUT: ReadWrite<super::types::DigitalOutputs> = ReadWriteNamedDigitalOutputs::register(
@@ -29073,7 +29073,7 @@ pub mod objects {
     /// 0x2078:01, holding register 120, UNSIGNED16, rw.
     /// Accessor: [`rdefout`](super::VectorStep::rdefout). Values: [`DigitalOutputPolarity`](super::types::DigitalOutputPolarity).
     ///
-    /// Which level counts as active, for each digital output
+    /// Which level counts as active, for each digital output.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29090,7 +29090,7 @@ pub mod objects {
     /// 0x2079:01, holding register 121, UNSIGNED16, rw, range 0 to 14.
     /// Accessor: [`rfuno0`](super::VectorStep::rfuno0). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
-    /// What digital output 0 shows
+    /// What digital output 0 shows.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29111,7 +29111,7 @@ pub mod objects {
     /// 0x207A:01, holding register 122, UNSIGNED16, rw, range 0 to 14.
     /// Accessor: [`rfuno1`](super::VectorStep::rfuno1). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
-    /// What digital output 1 shows
+    /// What digital output 1 shows.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29132,7 +29132,7 @@ pub mod objects {
     /// 0x207B:01, holding register 123, UNSIGNED16, rw, range 0 to 14.
     /// Accessor: [`rfuno2`](super::VectorStep::rfuno2). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
-    /// What digital output 2 shows
+    /// What digital output 2 shows.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29153,7 +29153,7 @@ pub mod objects {
     /// 0x207C:01, holding register 124, UNSIGNED16, rw, range 0 to 14.
     /// Accessor: [`rfuno3`](super::VectorStep::rfuno3). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
-    /// What digital output 3 shows
+    /// What digital output 3 shows.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29174,7 +29174,7 @@ pub mod objects {
     /// 0x207D:01, holding register 125, UNSIGNED16, rw, range 0 to 14.
     /// Accessor: [`rfuno4`](super::VectorStep::rfuno4). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
-    /// What digital output 4 shows
+    /// What digital output 4 shows.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29195,7 +29195,7 @@ pub mod objects {
     /// 0x207E:01, holding register 126, UNSIGNED16, rw, range 0 to 14.
     /// Accessor: [`rfuno5`](super::VectorStep::rfuno5). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
-    /// What digital output 5 shows
+    /// What digital output 5 shows.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29216,7 +29216,7 @@ pub mod objects {
     /// 0x207F:01, holding register 127, UNSIGNED16, rw, range 0 to 14.
     /// Accessor: [`rfuno6`](super::VectorStep::rfuno6). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
-    /// What digital output 6 shows
+    /// What digital output 6 shows.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29237,7 +29237,7 @@ pub mod objects {
     /// 0x2080:01, holding register 128, UNSIGNED16, rw, range 0 to 14.
     /// Accessor: [`rfuno7`](super::VectorStep::rfuno7). Values: [`OutputFunction`](super::types::OutputFunction).
     ///
-    /// What digital output 7 shows
+    /// What digital output 7 shows.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29258,7 +29258,7 @@ pub mod objects {
     /// 0x2081:01, holding register 129, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni0`](super::VectorStep::rfuni0). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 0 does
+    /// What digital input 0 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29277,7 +29277,7 @@ pub mod objects {
     /// 0x2082:01, holding register 130, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni1`](super::VectorStep::rfuni1). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 1 does
+    /// What digital input 1 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29296,7 +29296,7 @@ pub mod objects {
     /// 0x2083:01, holding register 131, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni2`](super::VectorStep::rfuni2). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 2 does
+    /// What digital input 2 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29315,7 +29315,7 @@ pub mod objects {
     /// 0x2084:01, holding register 132, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni3`](super::VectorStep::rfuni3). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 3 does
+    /// What digital input 3 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29334,7 +29334,7 @@ pub mod objects {
     /// 0x2085:01, holding register 133, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni4`](super::VectorStep::rfuni4). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 4 does
+    /// What digital input 4 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29353,7 +29353,7 @@ pub mod objects {
     /// 0x2086:01, holding register 134, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni5`](super::VectorStep::rfuni5). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 5 does
+    /// What digital input 5 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29372,7 +29372,7 @@ pub mod objects {
     /// 0x2087:01, holding register 135, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni6`](super::VectorStep::rfuni6). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 6 does
+    /// What digital input 6 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29391,7 +29391,7 @@ pub mod objects {
     /// 0x2088:01, holding register 136, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni7`](super::VectorStep::rfuni7). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 7 does
+    /// What digital input 7 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29410,7 +29410,7 @@ pub mod objects {
     /// 0x2129:01, holding register 297, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rdiginplev`](super::VectorStep::rdiginplev). Values: [`DigitalInputLevel`](super::types::DigitalInputLevel).
     ///
-    /// Which threshold the digital inputs use; the voltages are in Rtrginp24v and Rtrginp5v
+    /// Which threshold the digital inputs use; the voltages are in Rtrginp24v and Rtrginp5v.
     ///
     /// Chapter Digital inputs and outputs. Manual, line 2445: Selezione livello trigger ingressi digitali.
     pub const RDIGINPLEV: ReadWrite<super::types::DigitalInputLevel> = ReadWriteNamedDigitalInputLevel::register_within(
@@ -29427,7 +29427,7 @@ pub mod objects {
     /// 0x212A:01, holding register 298, UNSIGNED16, rw, range 0 to 10000, in Hz.
     /// Accessor: [`rstpoutmaxfreq`](super::VectorStep::rstpoutmaxfreq).
     ///
-    /// Highest frequency of a digital output with the step function; steps above it come out later, once the motor slows down or stands
+    /// Highest frequency of a digital output with the step function; steps above it come out later, once the motor slows down or stands.
     ///
     /// Chapter Digital inputs and outputs. Manual, line 2446: Frequenza massima in uscita digitale funzione step.
     ///
@@ -29446,7 +29446,7 @@ pub mod objects {
     /// 0x2132:01, holding register 306, UNSIGNED16, rw, range 0 to 1755 (0 to 17.55 V), in 0.01 V.
     /// Accessor: [`rtrginp5v`](super::VectorStep::rtrginp5v).
     ///
-    /// Threshold of the inputs where they are set to 5 V
+    /// Threshold of the inputs where they are set to 5 V.
     ///
     /// Kept over power-off once 145 was given.
     ///
@@ -29469,7 +29469,7 @@ pub mod objects {
     /// 0x2133:01, holding register 307, UNSIGNED16, rw, range 0 to 1755 (0 to 17.55 V), in 0.01 V.
     /// Accessor: [`rtrginp24v`](super::VectorStep::rtrginp24v).
     ///
-    /// Threshold of the inputs where they are set to 24 V
+    /// Threshold of the inputs where they are set to 24 V.
     ///
     /// Kept over power-off once 145 was given.
     ///
@@ -29492,7 +29492,7 @@ pub mod objects {
     /// 0x21AC:01, holding register 428, UNSIGNED16, rw, default 65535.
     /// Accessor: [`routenable`](super::VectorStep::routenable). Values: [`DigitalOutputEnable`](super::types::DigitalOutputEnable).
     ///
-    /// Which digital outputs are enabled
+    /// Which digital outputs are enabled.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29514,7 +29514,7 @@ pub mod objects {
     /// 0x21BA:01, holding register 442, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni8`](super::VectorStep::rfuni8). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 8 does
+    /// What digital input 8 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29535,7 +29535,7 @@ pub mod objects {
     /// 0x21BB:01, holding register 443, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni9`](super::VectorStep::rfuni9). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 9 does
+    /// What digital input 9 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29556,7 +29556,7 @@ pub mod objects {
     /// 0x21BC:01, holding register 444, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni10`](super::VectorStep::rfuni10). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 10 does
+    /// What digital input 10 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29577,7 +29577,7 @@ pub mod objects {
     /// 0x21BD:01, holding register 445, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni11`](super::VectorStep::rfuni11). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 11 does
+    /// What digital input 11 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29598,7 +29598,7 @@ pub mod objects {
     /// 0x21BE:01, holding register 446, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni12`](super::VectorStep::rfuni12). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 12 does
+    /// What digital input 12 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29619,7 +29619,7 @@ pub mod objects {
     /// 0x21BF:01, holding register 447, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni13`](super::VectorStep::rfuni13). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 13 does
+    /// What digital input 13 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29640,7 +29640,7 @@ pub mod objects {
     /// 0x21C0:01, holding register 448, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni14`](super::VectorStep::rfuni14). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 14 does
+    /// What digital input 14 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29661,7 +29661,7 @@ pub mod objects {
     /// 0x21C1:01, holding register 449, UNSIGNED16, rw, range 0 to 22.
     /// Accessor: [`rfuni15`](super::VectorStep::rfuni15). Values: [`InputFunction`](super::types::InputFunction).
     ///
-    /// What digital input 15 does
+    /// What digital input 15 does.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29682,7 +29682,7 @@ pub mod objects {
     /// 0x47A7:01, holding register 10151, UNSIGNED16, rw, range 0 to 65535 (0 to 3276750 us), in 50 us.
     /// Accessor: [`rstepouttime`](super::VectorStep::rstepouttime).
     ///
-    /// How long the step output stays active
+    /// How long the step output stays active.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29705,7 +29705,7 @@ pub mod objects {
     /// 0x47A8:01, holding registers 10152 to 10153, low word first, UNSIGNED32, rw, range 1 to 4294967295.
     /// Accessor: [`rstepoutcount`](super::VectorStep::rstepoutcount).
     ///
-    /// Number of steps to count before the step output becomes active
+    /// Number of steps to count before the step output becomes active.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29728,7 +29728,7 @@ pub mod objects {
     /// 0x2089:01, holding register 137, INTEGER16, ro, mappable into TPDOs.
     /// Accessor: [`ranainp`](super::VectorStep::ranainp).
     ///
-    /// Value of the analogue input, 12 bits
+    /// Value of the analogue input, 12 bits.
     ///
     /// Chapter Analogue inputs and outputs. Manual, line 2464: Registro ingresso analogico a 12 bit.
     pub const RANAINP: ReadOnly<i16> = ReadOnlyI16::register(
@@ -29743,7 +29743,7 @@ pub mod objects {
     /// 0x208A:01, holding register 138, UNSIGNED16, rw, range 0 to 558.
     /// Accessor: [`rdefanainp`](super::VectorStep::rdefanainp).
     ///
-    /// What the analogue input is used for, probably the number of the register that it sets
+    /// What the analogue input is used for, probably the number of the register that it sets.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29764,7 +29764,7 @@ pub mod objects {
     /// 0x208B:01, holding register 139, UNSIGNED16, rw, range 1 to 32767.
     /// Accessor: [`rmulanainp`](super::VectorStep::rmulanainp).
     ///
-    /// Multiplier of the analogue input
+    /// Multiplier of the analogue input.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29783,7 +29783,7 @@ pub mod objects {
     /// 0x208C:01, holding register 140, UNSIGNED16, rw, range 1 to 32767.
     /// Accessor: [`rdivanainp`](super::VectorStep::rdivanainp).
     ///
-    /// Divisor of the analogue input
+    /// Divisor of the analogue input.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29802,7 +29802,7 @@ pub mod objects {
     /// 0x208D:01, holding register 141, INTEGER16, rw, range \-32768 to 32767.
     /// Accessor: [`roffsanainp`](super::VectorStep::roffsanainp).
     ///
-    /// Offset of the analogue input
+    /// Offset of the analogue input.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29819,7 +29819,7 @@ pub mod objects {
     /// 0x208E:01, holding register 142, UNSIGNED16, rw, range 0 to 4095, in bit.
     /// Accessor: [`rdeadainp`](super::VectorStep::rdeadainp).
     ///
-    /// Dead band of the analogue input, in counts of the converter
+    /// Dead band of the analogue input, in counts of the converter.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29838,7 +29838,7 @@ pub mod objects {
     /// 0x208F:01, holding register 143, UNSIGNED16, rw, mappable into RPDOs, range 0 to 1023, in bit.
     /// Accessor: [`ranaout`](super::VectorStep::ranaout).
     ///
-    /// Value of the analogue output, 10 bits, in counts of the converter
+    /// Value of the analogue output, 10 bits, in counts of the converter.
     ///
     /// Chapter Analogue inputs and outputs. Manual, line 2470: Registro output analogico a 10 bit.
     pub const RANAOUT: ReadWrite<u16> = ReadWriteU16::register_within(
@@ -29855,7 +29855,7 @@ pub mod objects {
     /// 0x2090:01, holding register 144, UNSIGNED16, rw, range 0 to 558.
     /// Accessor: [`rdefanaout`](super::VectorStep::rdefanaout).
     ///
-    /// Which parameter goes to Ranaout, probably the number of its register
+    /// Which parameter goes to Ranaout, probably the number of its register.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29876,7 +29876,7 @@ pub mod objects {
     /// 0x2091:01, holding register 145, UNSIGNED16, rw, range 1 to 32767.
     /// Accessor: [`rmulanaout`](super::VectorStep::rmulanaout).
     ///
-    /// Multiplier of the value for the analogue output
+    /// Multiplier of the value for the analogue output.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29895,7 +29895,7 @@ pub mod objects {
     /// 0x2092:01, holding register 146, UNSIGNED16, rw, range 1 to 32767.
     /// Accessor: [`rdivanaout`](super::VectorStep::rdivanaout).
     ///
-    /// Divisor of the value for the analogue output
+    /// Divisor of the value for the analogue output.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29914,7 +29914,7 @@ pub mod objects {
     /// 0x2093:01, holding register 147, INTEGER16, rw, range \-32768 to 32767.
     /// Accessor: [`roffsananaout`](super::VectorStep::roffsananaout).
     ///
-    /// Offset added to the value for the analogue output
+    /// Offset added to the value for the analogue output.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29933,7 +29933,7 @@ pub mod objects {
     /// 0x2139:01, holding register 313, INTEGER16, rw, range \-100 to 100, in %.
     /// Accessor: [`rfloatingrollerperc`](super::VectorStep::rfloatingrollerperc).
     ///
-    /// Percentage of the dancer roller
+    /// Percentage of the dancer roller.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -29954,7 +29954,7 @@ pub mod objects {
     /// 0x21AD:01, holding register 429, UNSIGNED16, rw.
     /// Accessor: [`ranainpdisable`](super::VectorStep::ranainpdisable). Values: [`AnalogueInputDisable`](super::types::AnalogueInputDisable).
     ///
-    /// Turns analogue inputs off, each with its bit
+    /// Turns analogue inputs off, each with its bit.
     ///
     /// Chapter Analogue inputs and outputs. Manual, line 2476: Disabilita gli ingressi analogici 0-1-2.
     ///
@@ -29971,7 +29971,7 @@ pub mod objects {
     /// 0x21AE:01, holding register 430, INTEGER16, ro, mappable into TPDOs.
     /// Accessor: [`ranainp1`](super::VectorStep::ranainp1).
     ///
-    /// Value of analogue input 1, 12 bits
+    /// Value of analogue input 1, 12 bits.
     ///
     /// Needs analogue input 1.
     ///
@@ -29988,7 +29988,7 @@ pub mod objects {
     /// 0x21AF:01, holding register 431, UNSIGNED16, rw, range 0 to 558.
     /// Accessor: [`rdefanainp1`](super::VectorStep::rdefanainp1).
     ///
-    /// What analogue input 1 is used for, as Rdefanainp
+    /// What analogue input 1 is used for, as Rdefanainp.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30011,7 +30011,7 @@ pub mod objects {
     /// 0x21B0:01, holding register 432, UNSIGNED16, rw, range 1 to 32767.
     /// Accessor: [`rmulanainp1`](super::VectorStep::rmulanainp1).
     ///
-    /// Multiplier of analogue input 1
+    /// Multiplier of analogue input 1.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30032,7 +30032,7 @@ pub mod objects {
     /// 0x21B1:01, holding register 433, UNSIGNED16, rw, range 1 to 32767.
     /// Accessor: [`rdivanainp1`](super::VectorStep::rdivanainp1).
     ///
-    /// Divisor of analogue input 1
+    /// Divisor of analogue input 1.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30053,7 +30053,7 @@ pub mod objects {
     /// 0x21B2:01, holding register 434, INTEGER16, rw, range \-32768 to 32767.
     /// Accessor: [`roffsanainp1`](super::VectorStep::roffsanainp1).
     ///
-    /// Offset of analogue input 1
+    /// Offset of analogue input 1.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30072,7 +30072,7 @@ pub mod objects {
     /// 0x21B3:01, holding register 435, UNSIGNED16, rw, range 0 to 4095, in bit.
     /// Accessor: [`rdeadainp1`](super::VectorStep::rdeadainp1).
     ///
-    /// Dead band of analogue input 1, in counts of the converter
+    /// Dead band of analogue input 1, in counts of the converter.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30093,7 +30093,7 @@ pub mod objects {
     /// 0x21B4:01, holding register 436, INTEGER16, ro, mappable into TPDOs.
     /// Accessor: [`ranainp2`](super::VectorStep::ranainp2).
     ///
-    /// Value of analogue input 2, 12 bits
+    /// Value of analogue input 2, 12 bits.
     ///
     /// Needs analogue input 2.
     ///
@@ -30110,7 +30110,7 @@ pub mod objects {
     /// 0x21B5:01, holding register 437, UNSIGNED16, rw, range 0 to 558.
     /// Accessor: [`rdefanainp2`](super::VectorStep::rdefanainp2).
     ///
-    /// What analogue input 2 is used for, as Rdefanainp
+    /// What analogue input 2 is used for, as Rdefanainp.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30133,7 +30133,7 @@ pub mod objects {
     /// 0x21B6:01, holding register 438, UNSIGNED16, rw, range 1 to 32767.
     /// Accessor: [`rmulanainp2`](super::VectorStep::rmulanainp2).
     ///
-    /// Multiplier of analogue input 2
+    /// Multiplier of analogue input 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30154,7 +30154,7 @@ pub mod objects {
     /// 0x21B7:01, holding register 439, UNSIGNED16, rw, range 1 to 32767.
     /// Accessor: [`rdivanainp2`](super::VectorStep::rdivanainp2).
     ///
-    /// Divisor of analogue input 2
+    /// Divisor of analogue input 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30175,7 +30175,7 @@ pub mod objects {
     /// 0x21B8:01, holding register 440, INTEGER16, rw, range \-32768 to 32767.
     /// Accessor: [`roffsnainp2`](super::VectorStep::roffsnainp2).
     ///
-    /// Offset of analogue input 2
+    /// Offset of analogue input 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30196,7 +30196,7 @@ pub mod objects {
     /// 0x21B9:01, holding register 441, UNSIGNED16, rw, range 0 to 4095, in bit.
     /// Accessor: [`rdeadainp2`](super::VectorStep::rdeadainp2).
     ///
-    /// Dead band of analogue input 2, in counts of the converter
+    /// Dead band of analogue input 2, in counts of the converter.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30219,7 +30219,7 @@ pub mod objects {
     /// 0x2241:01, holding register 577, UNSIGNED16, rw, default 4, in step.
     /// Accessor: [`rencalignsteps`](super::VectorStep::rencalignsteps).
     ///
-    /// Number of steps made while the encoder is aligned
+    /// Number of steps made while the encoder is aligned.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30239,7 +30239,7 @@ pub mod objects {
     /// 0x471A:01, holding register 10010, UNSIGNED16, rw, default 0.
     /// Accessor: [`rencmotfbk`](super::VectorStep::rencmotfbk). Values: [`FeedbackEncoder`](super::types::FeedbackEncoder).
     ///
-    /// Which encoder closes the loop of the motor
+    /// Which encoder closes the loop of the motor.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30259,7 +30259,7 @@ pub mod objects {
     /// 0x473B:01, holding register 10043, UNSIGNED16, rw.
     /// Accessor: [`rencnewperiod`](super::VectorStep::rencnewperiod). Values: [`EncoderPeriods`](super::types::EncoderPeriods).
     ///
-    /// Tells for each encoder that a new period of its pulses was read; was register 165 before
+    /// Tells for each encoder that a new period of its pulses was read; was register 165 before.
     ///
     /// Chapter Encoder management. Manual, line 2497: Segnalazione lettura nuovo periodo impulsi encoder.
     pub const RENCNEWPERIOD: ReadWrite<super::types::EncoderPeriods> = ReadWriteNamedEncoderPeriods::register(
@@ -30274,7 +30274,7 @@ pub mod objects {
     /// 0x479A:01, holding registers 10138 to 10139, low word first, UNSIGNED32, rw.
     /// Accessor: [`rmotcode`](super::VectorStep::rmotcode).
     ///
-    /// Code of the motor that the drive is set to
+    /// Code of the motor that the drive is set to.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30293,7 +30293,7 @@ pub mod objects {
     /// 0x2097:01, holding registers 151 to 152, low word first, INTEGER32, rw, mappable into TPDOs, in count.
     /// Accessor: [`rmotenc`](super::VectorStep::rmotenc).
     ///
-    /// Position of the motor's encoder
+    /// Position of the motor's encoder.
     ///
     /// Before firmware 6. Replaced by [Renc1pos](RENC1POS).
     ///
@@ -30314,7 +30314,7 @@ pub mod objects {
     /// 0x20A3:01, holding register 163, UNSIGNED16, rw.
     /// Accessor: [`rmotencper`](super::VectorStep::rmotencper).
     ///
-    /// Period measured between pulses of the motor's encoder
+    /// Period measured between pulses of the motor's encoder.
     ///
     /// Before firmware 6. Replaced by [Renc1period](RENC1PERIOD).
     ///
@@ -30331,7 +30331,7 @@ pub mod objects {
     /// 0x210D:01, holding register 269, UNSIGNED16, rw, range 1 to 32767, in count.
     /// Accessor: [`rmotencpuls`](super::VectorStep::rmotencpuls).
     ///
-    /// Pulses per revolution of the motor's encoder
+    /// Pulses per revolution of the motor's encoder.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30352,7 +30352,7 @@ pub mod objects {
     /// 0x471F:01, holding registers 10015 to 10016, low word first, INTEGER32, rw, mappable into any PDO, in count.
     /// Accessor: [`renc1pos`](super::VectorStep::renc1pos).
     ///
-    /// Position of encoder 1
+    /// Position of encoder 1.
     ///
     /// Chapter Encoder 1. Manual, line 2506: Quota encoder 1.
     pub const RENC1POS: ReadWrite<i32> = ReadWriteI32::register_within(
@@ -30369,7 +30369,7 @@ pub mod objects {
     /// 0x4729:01, holding register 10025, UNSIGNED16, rw, in count.
     /// Accessor: [`renc1pulse`](super::VectorStep::renc1pulse).
     ///
-    /// Pulses per revolution of encoder 1
+    /// Pulses per revolution of encoder 1.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30388,7 +30388,7 @@ pub mod objects {
     /// 0x4738:01, holding register 10040, UNSIGNED16, ro.
     /// Accessor: [`renc1period`](super::VectorStep::renc1period).
     ///
-    /// Period measured between pulses of encoder 1
+    /// Period measured between pulses of encoder 1.
     ///
     /// Chapter Encoder 1. Manual, line 2508: Periodo letto dagli impulsi encoder 1.
     pub const RENC1PERIOD: ReadOnly<u16> = ReadOnlyU16::register(
@@ -30403,7 +30403,7 @@ pub mod objects {
     /// 0x473C:01, holding register 10044, INTEGER16, ro.
     /// Accessor: [`renc1vel`](super::VectorStep::renc1vel).
     ///
-    /// Present speed of encoder 1
+    /// Present speed of encoder 1.
     ///
     /// Chapter Encoder 1. Manual, line 2509: Velocità attuale encoder 1.
     pub const RENC1VEL: ReadOnly<i16> = ReadOnlyI16::register(
@@ -30418,7 +30418,7 @@ pub mod objects {
     /// 0x473D:01, holding register 10045, UNSIGNED16, rw, in ms.
     /// Accessor: [`renc1sample`](super::VectorStep::renc1sample).
     ///
-    /// Sampling time of encoder 1
+    /// Sampling time of encoder 1.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30437,7 +30437,7 @@ pub mod objects {
     /// 0x473E:01, holding register 10046, UNSIGNED16, rw.
     /// Accessor: [`renc1velmul`](super::VectorStep::renc1velmul).
     ///
-    /// Multiplier of the speed of encoder 1
+    /// Multiplier of the speed of encoder 1.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30454,7 +30454,7 @@ pub mod objects {
     /// 0x473F:01, holding register 10047, UNSIGNED16, rw.
     /// Accessor: [`renc1veldiv`](super::VectorStep::renc1veldiv).
     ///
-    /// Divisor of the speed of encoder 1
+    /// Divisor of the speed of encoder 1.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30471,7 +30471,7 @@ pub mod objects {
     /// 0x4740:01, holding registers 10048 to 10049, low word first, UNSIGNED32, rw.
     /// Accessor: [`renc1topcnt`](super::VectorStep::renc1topcnt).
     ///
-    /// Number of pulses that came on the index input of encoder 1
+    /// Number of pulses that came on the index input of encoder 1.
     ///
     /// Chapter Encoder 1. Manual, line 2513: Contatore impulsi su ingresso TOP encoder 1.
     pub const RENC1TOPCNT: ReadWrite<u32> = ReadWriteU32::register(
@@ -30486,7 +30486,7 @@ pub mod objects {
     /// 0x4742:01, holding register 10050, UNSIGNED16, ro.
     /// Accessor: [`renc1topvel`](super::VectorStep::renc1topvel).
     ///
-    /// Speed measured on the index input of encoder 1
+    /// Speed measured on the index input of encoder 1.
     ///
     /// Chapter Encoder 1. Manual, line 2514: Velocità rilevata su ingresso TOP encoder 1.
     pub const RENC1TOPVEL: ReadOnly<u16> = ReadOnlyU16::register(
@@ -30501,7 +30501,7 @@ pub mod objects {
     /// 0x4743:01, holding register 10051, UNSIGNED16, rw, in ms.
     /// Accessor: [`renc1topsample`](super::VectorStep::renc1topsample).
     ///
-    /// Sampling time of the index input of encoder 1
+    /// Sampling time of the index input of encoder 1.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30520,7 +30520,7 @@ pub mod objects {
     /// 0x4744:01, holding register 10052, UNSIGNED16, rw.
     /// Accessor: [`renc1topvelmul`](super::VectorStep::renc1topvelmul).
     ///
-    /// Multiplier of the speed on the index input of encoder 1
+    /// Multiplier of the speed on the index input of encoder 1.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30537,7 +30537,7 @@ pub mod objects {
     /// 0x4745:01, holding register 10053, UNSIGNED16, rw.
     /// Accessor: [`renc1topveldiv`](super::VectorStep::renc1topveldiv).
     ///
-    /// Divisor of the speed on the index input of encoder 1
+    /// Divisor of the speed on the index input of encoder 1.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30554,7 +30554,7 @@ pub mod objects {
     /// 0x475A:01, holding register 10074, UNSIGNED16, rw.
     /// Accessor: [`renc1code`](super::VectorStep::renc1code). Values: [`EncoderModel`](super::types::EncoderModel).
     ///
-    /// Model of encoder 1
+    /// Model of encoder 1.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30571,7 +30571,7 @@ pub mod objects {
     /// 0x2033:01, holding register 51, UNSIGNED16, ro, mappable into TPDOs.
     /// Accessor: [`rextencvel`](super::VectorStep::rextencvel).
     ///
-    /// Present speed of the external encoder; bit 13 of Rstsflg1 tells that it was updated
+    /// Present speed of the external encoder; bit 13 of Rstsflg1 tells that it was updated.
     ///
     /// Before firmware 6. Replaced by [Renc2vel](RENC2VEL).
     ///
@@ -30590,7 +30590,7 @@ pub mod objects {
     /// 0x2034:01, holding register 52, UNSIGNED16, rw, mappable into RPDOs, range 0 to 10000, in ms.
     /// Accessor: [`rextencsmp`](super::VectorStep::rextencsmp).
     ///
-    /// Sampling time of the external encoder, and of its index input
+    /// Sampling time of the external encoder, and of its index input.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30613,7 +30613,7 @@ pub mod objects {
     /// 0x2035:01, holding register 53, UNSIGNED16, rw, mappable into RPDOs, range 0 to 32767.
     /// Accessor: [`rextencvelmul`](super::VectorStep::rextencvelmul).
     ///
-    /// Multiplier of the speed of the external encoder
+    /// Multiplier of the speed of the external encoder.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30634,7 +30634,7 @@ pub mod objects {
     /// 0x2036:01, holding register 54, UNSIGNED16, rw, mappable into RPDOs, range 1 to 32767.
     /// Accessor: [`rextencveldiv`](super::VectorStep::rextencveldiv).
     ///
-    /// Divisor of the speed of the external encoder
+    /// Divisor of the speed of the external encoder.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30655,7 +30655,7 @@ pub mod objects {
     /// 0x2059:01, holding register 89, UNSIGNED16, rw.
     /// Accessor: [`rextencotovel`](super::VectorStep::rextencotovel).
     ///
-    /// Speed measured on the external encoder's index input, with the sampling time of Rextencsmp
+    /// Speed measured on the external encoder's index input, with the sampling time of Rextencsmp.
     ///
     /// Before firmware 6. Replaced by [Renc2topvel](RENC2TOPVEL).
     ///
@@ -30674,7 +30674,7 @@ pub mod objects {
     /// 0x205A:01, holding register 90, UNSIGNED16, rw.
     /// Accessor: [`rextencotovelmul`](super::VectorStep::rextencotovelmul).
     ///
-    /// Multiplier of the speed on the external encoder's index input
+    /// Multiplier of the speed on the external encoder's index input.
     ///
     /// Before firmware 6. Replaced by [Renc2topvelmul](RENC2TOPVELMUL).
     ///
@@ -30691,7 +30691,7 @@ pub mod objects {
     /// 0x205B:01, holding register 91, UNSIGNED16, rw.
     /// Accessor: [`rextencotoveldiv`](super::VectorStep::rextencotoveldiv).
     ///
-    /// Divisor of the speed on the external encoder's index input
+    /// Divisor of the speed on the external encoder's index input.
     ///
     /// Before firmware 6. Replaced by [Renc2topveldiv](RENC2TOPVELDIV).
     ///
@@ -30708,7 +30708,7 @@ pub mod objects {
     /// 0x205C:01, holding registers 92 to 93, low word first, UNSIGNED32, rw.
     /// Accessor: [`rextencotopcncnt`](super::VectorStep::rextencotopcncnt).
     ///
-    /// Number of pulses that came on the external encoder's index input
+    /// Number of pulses that came on the external encoder's index input.
     ///
     /// Before firmware 6. Replaced by [Renc2topcnt](RENC2TOPCNT).
     ///
@@ -30729,7 +30729,7 @@ pub mod objects {
     /// 0x2065:01, holding register 101, UNSIGNED16, rw, range 0 to 3.
     /// Accessor: [`rextencmode`](super::VectorStep::rextencmode). Values: [`EncoderMode`](super::types::EncoderMode).
     ///
-    /// How the external encoder counts
+    /// How the external encoder counts.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30750,7 +30750,7 @@ pub mod objects {
     /// 0x2099:01, holding registers 153 to 154, low word first, INTEGER32, rw, mappable into TPDOs, in count.
     /// Accessor: [`rextenc`](super::VectorStep::rextenc).
     ///
-    /// Position of the external encoder
+    /// Position of the external encoder.
     ///
     /// Before firmware 6. Replaced by [Renc2pos](RENC2POS).
     ///
@@ -30769,7 +30769,7 @@ pub mod objects {
     /// 0x20A4:01, holding register 164, UNSIGNED16, rw.
     /// Accessor: [`rextencper`](super::VectorStep::rextencper).
     ///
-    /// Period measured between pulses of the external encoder
+    /// Period measured between pulses of the external encoder.
     ///
     /// Before firmware 6. Replaced by [Renc2period](RENC2PERIOD).
     ///
@@ -30788,7 +30788,7 @@ pub mod objects {
     /// 0x20A5:01, holding register 165, UNSIGNED16, rw.
     /// Accessor: [`rnewencper`](super::VectorStep::rnewencper). Values: [`OldEncoderPeriods`](super::types::OldEncoderPeriods).
     ///
-    /// Tells for each encoder that a new period of its pulses was read
+    /// Tells for each encoder that a new period of its pulses was read.
     ///
     /// Before firmware 6. Replaced by [Rencnewperiod](RENCNEWPERIOD).
     ///
@@ -30805,7 +30805,7 @@ pub mod objects {
     /// 0x210C:01, holding register 268, UNSIGNED16, rw, range 0 to 32767, in count.
     /// Accessor: [`rextencpuls`](super::VectorStep::rextencpuls).
     ///
-    /// Pulses per revolution of the external encoder
+    /// Pulses per revolution of the external encoder.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30826,7 +30826,7 @@ pub mod objects {
     /// 0x4721:01, holding registers 10017 to 10018, low word first, INTEGER32, rw, mappable into any PDO, in count.
     /// Accessor: [`renc2pos`](super::VectorStep::renc2pos).
     ///
-    /// Position of encoder 2
+    /// Position of encoder 2.
     ///
     /// Chapter Encoder 2. Manual, line 2538: Quota encoder 2.
     pub const RENC2POS: ReadWrite<i32> = ReadWriteI32::register_within(
@@ -30843,7 +30843,7 @@ pub mod objects {
     /// 0x472A:01, holding register 10026, UNSIGNED16, rw, default 512, in count.
     /// Accessor: [`renc2pulse`](super::VectorStep::renc2pulse).
     ///
-    /// Pulses per revolution of encoder 2
+    /// Pulses per revolution of encoder 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30863,7 +30863,7 @@ pub mod objects {
     /// 0x4739:01, holding register 10041, UNSIGNED16, ro.
     /// Accessor: [`renc2period`](super::VectorStep::renc2period).
     ///
-    /// Period measured between pulses of encoder 2
+    /// Period measured between pulses of encoder 2.
     ///
     /// Chapter Encoder 2. Manual, line 2540: Periodo letto dagli impulsi encoder 2.
     pub const RENC2PERIOD: ReadOnly<u16> = ReadOnlyU16::register(
@@ -30878,7 +30878,7 @@ pub mod objects {
     /// 0x4746:01, holding register 10054, INTEGER16, ro.
     /// Accessor: [`renc2vel`](super::VectorStep::renc2vel).
     ///
-    /// Present speed of encoder 2
+    /// Present speed of encoder 2.
     ///
     /// Chapter Encoder 2. Manual, line 2541: Velocità attuale encoder 2.
     pub const RENC2VEL: ReadOnly<i16> = ReadOnlyI16::register(
@@ -30893,7 +30893,7 @@ pub mod objects {
     /// 0x4747:01, holding register 10055, UNSIGNED16, rw, in ms.
     /// Accessor: [`renc2sample`](super::VectorStep::renc2sample).
     ///
-    /// Sampling time of encoder 2
+    /// Sampling time of encoder 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30912,7 +30912,7 @@ pub mod objects {
     /// 0x4748:01, holding register 10056, UNSIGNED16, rw.
     /// Accessor: [`renc2velmul`](super::VectorStep::renc2velmul).
     ///
-    /// Multiplier of the speed of encoder 2
+    /// Multiplier of the speed of encoder 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30929,7 +30929,7 @@ pub mod objects {
     /// 0x4749:01, holding register 10057, UNSIGNED16, rw.
     /// Accessor: [`renc2veldiv`](super::VectorStep::renc2veldiv).
     ///
-    /// Divisor of the speed of encoder 2
+    /// Divisor of the speed of encoder 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30946,7 +30946,7 @@ pub mod objects {
     /// 0x474A:01, holding registers 10058 to 10059, low word first, UNSIGNED32, rw.
     /// Accessor: [`renc2topcnt`](super::VectorStep::renc2topcnt).
     ///
-    /// Number of pulses that came on the index input of encoder 2
+    /// Number of pulses that came on the index input of encoder 2.
     ///
     /// Chapter Encoder 2. Manual, line 2547: Contatore impulsi su ingresso TOP encoder 2.
     pub const RENC2TOPCNT: ReadWrite<u32> = ReadWriteU32::register(
@@ -30961,7 +30961,7 @@ pub mod objects {
     /// 0x474C:01, holding register 10060, UNSIGNED16, ro.
     /// Accessor: [`renc2topvel`](super::VectorStep::renc2topvel).
     ///
-    /// Speed measured on the index input of encoder 2
+    /// Speed measured on the index input of encoder 2.
     ///
     /// Chapter Encoder 2. Manual, line 2548: Velocità rilevata su ingresso TOP encoder 2.
     pub const RENC2TOPVEL: ReadOnly<u16> = ReadOnlyU16::register(
@@ -30976,7 +30976,7 @@ pub mod objects {
     /// 0x474D:01, holding register 10061, UNSIGNED16, rw, in ms.
     /// Accessor: [`renc2topsample`](super::VectorStep::renc2topsample).
     ///
-    /// Sampling time of the index input of encoder 2
+    /// Sampling time of the index input of encoder 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -30997,7 +30997,7 @@ pub mod objects {
     /// 0x474E:01, holding register 10062, UNSIGNED16, rw.
     /// Accessor: [`renc2topvelmul`](super::VectorStep::renc2topvelmul).
     ///
-    /// Multiplier of the speed on the index input of encoder 2
+    /// Multiplier of the speed on the index input of encoder 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31014,7 +31014,7 @@ pub mod objects {
     /// 0x474F:01, holding register 10063, UNSIGNED16, rw.
     /// Accessor: [`renc2topveldiv`](super::VectorStep::renc2topveldiv).
     ///
-    /// Divisor of the speed on the index input of encoder 2
+    /// Divisor of the speed on the index input of encoder 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31031,7 +31031,7 @@ pub mod objects {
     /// 0x475B:01, holding register 10075, UNSIGNED16, rw.
     /// Accessor: [`renc2code`](super::VectorStep::renc2code). Values: [`EncoderModel`](super::types::EncoderModel).
     ///
-    /// Model of encoder 2
+    /// Model of encoder 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31048,7 +31048,7 @@ pub mod objects {
     /// 0x475C:01, holding register 10076, UNSIGNED16, rw.
     /// Accessor: [`renc3code`](super::VectorStep::renc3code). Values: [`EncoderModel`](super::types::EncoderModel).
     ///
-    /// Model of encoder 3
+    /// Model of encoder 3.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31067,7 +31067,7 @@ pub mod objects {
     /// 0x202C:01, holding register 44, UNSIGNED16, rw, default 25, range 1 to 32, in bit.
     /// Accessor: [`rssiencframelen`](super::VectorStep::rssiencframelen).
     ///
-    /// Length of the frame of the SSI encoder
+    /// Length of the frame of the SSI encoder.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31087,7 +31087,7 @@ pub mod objects {
     /// 0x205E:01, holding register 94, UNSIGNED16, rw, range 0 to 16, in bit.
     /// Accessor: [`rssiencturnbit`](super::VectorStep::rssiencturnbit).
     ///
-    /// How many bits of the frame count turns
+    /// How many bits of the frame count turns.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31108,7 +31108,7 @@ pub mod objects {
     /// 0x205F:01, holding register 95, UNSIGNED16, rw, range 0 to 16, in bit.
     /// Accessor: [`rssienccountsbit`](super::VectorStep::rssienccountsbit).
     ///
-    /// How many bits of the frame are the position within the turn
+    /// How many bits of the frame are the position within the turn.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31129,7 +31129,7 @@ pub mod objects {
     /// 0x2060:01, holding register 96, UNSIGNED16, ro, mappable into TPDOs, range 0 to 32767.
     /// Accessor: [`rssienccounts`](super::VectorStep::rssienccounts).
     ///
-    /// Position of the SSI encoder within the turn; bits 6 and 7 of Rhwconfig preset and complement it
+    /// Position of the SSI encoder within the turn; bits 6 and 7 of Rhwconfig preset and complement it.
     ///
     /// Before firmware 6. Replaced by [Rencabspos](RENCABSPOS).
     ///
@@ -31148,7 +31148,7 @@ pub mod objects {
     /// 0x2061:01, holding register 97, INTEGER16, ro, mappable into TPDOs, range \-32768 to 32767.
     /// Accessor: [`rssiencturns`](super::VectorStep::rssiencturns).
     ///
-    /// Turns of the SSI encoder; bits 6 and 7 of Rhwconfig preset and complement them
+    /// Turns of the SSI encoder; bits 6 and 7 of Rhwconfig preset and complement them.
     ///
     /// Before firmware 6. Replaced by [Rencabsturns](RENCABSTURNS).
     ///
@@ -31167,7 +31167,7 @@ pub mod objects {
     /// 0x4725:01, holding registers 10021 to 10022, low word first, INTEGER32, rw, mappable into any PDO, in count.
     /// Accessor: [`rencabsquote`](super::VectorStep::rencabsquote).
     ///
-    /// Position of the absolute encoder
+    /// Position of the absolute encoder.
     ///
     /// Chapter Absolute encoder. Manual, line 2567: Quota encoder assoluto.
     pub const RENCABSQUOTE: ReadWrite<i32> = ReadWriteI32::register_within(
@@ -31184,7 +31184,7 @@ pub mod objects {
     /// 0x4727:01, holding register 10023, UNSIGNED16, rw, mappable into any PDO, in count.
     /// Accessor: [`rencabspos`](super::VectorStep::rencabspos).
     ///
-    /// Position of the absolute encoder within the turn
+    /// Position of the absolute encoder within the turn.
     ///
     /// Chapter Absolute encoder. Manual, line 2568: Quota sul giro encoder assoluto.
     pub const RENCABSPOS: ReadWrite<u16> = ReadWriteU16::register_within(
@@ -31201,7 +31201,7 @@ pub mod objects {
     /// 0x4728:01, holding register 10024, INTEGER16, rw, mappable into any PDO, in rev.
     /// Accessor: [`rencabsturns`](super::VectorStep::rencabsturns).
     ///
-    /// Turns of the absolute encoder
+    /// Turns of the absolute encoder.
     ///
     /// Chapter Absolute encoder. Manual, line 2569: Numero di giri encoder assoluto.
     pub const RENCABSTURNS: ReadWrite<i16> = ReadWriteI16::register_within(
@@ -31218,7 +31218,7 @@ pub mod objects {
     /// 0x472C:01, holding register 10028, UNSIGNED16, rw, default 25, in bit.
     /// Accessor: [`rencabsframembit`](super::VectorStep::rencabsframembit).
     ///
-    /// Length of the absolute encoder's frame
+    /// Length of the absolute encoder's frame.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31240,7 +31240,7 @@ pub mod objects {
     /// 0x472D:01, holding register 10029, UNSIGNED16, rw, default 12, in bit.
     /// Accessor: [`rencabsposbit`](super::VectorStep::rencabsposbit).
     ///
-    /// How many bits of the frame are the position within the turn
+    /// How many bits of the frame are the position within the turn.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31260,7 +31260,7 @@ pub mod objects {
     /// 0x472E:01, holding register 10030, UNSIGNED16, rw, default 13, in bit.
     /// Accessor: [`rencabsturnsbit`](super::VectorStep::rencabsturnsbit).
     ///
-    /// How many bits of the frame count turns
+    /// How many bits of the frame count turns.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31280,7 +31280,7 @@ pub mod objects {
     /// 0x472F:01, holding register 10031, UNSIGNED16, rw.
     /// Accessor: [`renc1mode`](super::VectorStep::renc1mode). Values: [`EncoderMode`](super::types::EncoderMode).
     ///
-    /// How encoder 1 counts; bits 1 and 5 of Rhwconfig moved here
+    /// How encoder 1 counts; bits 1 and 5 of Rhwconfig moved here.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31301,7 +31301,7 @@ pub mod objects {
     /// 0x4730:01, holding register 10032, UNSIGNED16, rw.
     /// Accessor: [`renc2mode`](super::VectorStep::renc2mode). Values: [`EncoderMode`](super::types::EncoderMode).
     ///
-    /// How encoder 2 counts
+    /// How encoder 2 counts.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31320,7 +31320,7 @@ pub mod objects {
     /// 0x4732:01, holding register 10034, UNSIGNED16, rw.
     /// Accessor: [`rencabsmode`](super::VectorStep::rencabsmode). Values: [`AbsoluteEncoderMode`](super::types::AbsoluteEncoderMode).
     ///
-    /// How the absolute encoder is read; bits 7 to 10 of Rhwconfig moved here
+    /// How the absolute encoder is read; bits 7 to 10 of Rhwconfig moved here.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31343,7 +31343,7 @@ pub mod objects {
     /// 0x4733:01, holding register 10035, UNSIGNED16, rw.
     /// Accessor: [`rencabsctrl`](super::VectorStep::rencabsctrl). Values: [`AbsoluteEncoderControl`](super::types::AbsoluteEncoderControl).
     ///
-    /// Commands to the absolute encoder
+    /// Commands to the absolute encoder.
     ///
     /// Chapter Absolute encoder. Manual, line 2578: Controlword encoder assoluto.
     ///
@@ -31360,7 +31360,7 @@ pub mod objects {
     /// 0x4735:01, holding register 10037, UNSIGNED16, rw, range 4 to 128, stands for 25000000 / raw Hz.
     /// Accessor: [`rencabsbrate`](super::VectorStep::rencabsbrate).
     ///
-    /// Clock with which the absolute encoder is read: 25 MHz divided by the value
+    /// Clock with which the absolute encoder is read: 25 MHz divided by the value.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31379,7 +31379,7 @@ pub mod objects {
     /// 0x4736:01, holding register 10038, UNSIGNED16, rw, range 0 to 20000, in us.
     /// Accessor: [`rencabsframepause`](super::VectorStep::rencabsframepause).
     ///
-    /// Pause between two frames of the absolute encoder
+    /// Pause between two frames of the absolute encoder.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31398,7 +31398,7 @@ pub mod objects {
     /// 0x4737:01, holding register 10039, UNSIGNED16, rw.
     /// Accessor: [`rencabsprebit`](super::VectorStep::rencabsprebit).
     ///
-    /// Number of bits at the head of the absolute encoder's frame, which are ignored
+    /// Number of bits at the head of the absolute encoder's frame, which are ignored.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31417,7 +31417,7 @@ pub mod objects {
     /// 0x475D:01, holding register 10077, UNSIGNED16, rw.
     /// Accessor: [`rencabscode`](super::VectorStep::rencabscode). Values: [`AbsoluteEncoderModel`](super::types::AbsoluteEncoderModel).
     ///
-    /// Model of the absolute encoder
+    /// Model of the absolute encoder.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31434,7 +31434,7 @@ pub mod objects {
     /// 0x475E:01, holding register 10078, UNSIGNED16, rw.
     /// Accessor: [`rencabspulse`](super::VectorStep::rencabspulse).
     ///
-    /// Pulses per revolution of the absolute encoder
+    /// Pulses per revolution of the absolute encoder.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31451,7 +31451,7 @@ pub mod objects {
     /// 0x4792:01, holding registers 10130 to 10131, low word first, INTEGER32, rw.
     /// Accessor: [`rthetainit`](super::VectorStep::rthetainit).
     ///
-    /// Angle that was taken from the resolver while aligning
+    /// Angle that was taken from the resolver while aligning.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31470,7 +31470,7 @@ pub mod objects {
     /// 0x4794:01, holding register 10132, UNSIGNED16, rw.
     /// Accessor: [`rthetaack`](super::VectorStep::rthetaack).
     ///
-    /// Tells that the angle was taken from the resolver
+    /// Tells that the angle was taken from the resolver.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31491,7 +31491,7 @@ pub mod objects {
     /// 0x4795:01, holding register 10133, UNSIGNED16, ro.
     /// Accessor: [`rrslvact`](super::VectorStep::rrslvact).
     ///
-    /// Present value of the resolver
+    /// Present value of the resolver.
     ///
     /// Only of BMD\*. Needs resolver.
     ///
@@ -31508,7 +31508,7 @@ pub mod objects {
     /// 0x4796:01, holding registers 10134 to 10135, low word first, INTEGER32, rw.
     /// Accessor: [`rrslvoffsetsin`](super::VectorStep::rrslvoffsetsin).
     ///
-    /// Correction of the offset of the resolver's sine
+    /// Correction of the offset of the resolver's sine.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31527,7 +31527,7 @@ pub mod objects {
     /// 0x4798:01, holding registers 10136 to 10137, low word first, INTEGER32, rw.
     /// Accessor: [`rrslvoffsetcos`](super::VectorStep::rrslvoffsetcos).
     ///
-    /// Correction of the offset of the resolver's cosine
+    /// Correction of the offset of the resolver's cosine.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31546,7 +31546,7 @@ pub mod objects {
     /// 0x47D1:01, holding register 10193, INTEGER16, rw.
     /// Accessor: [`rrslvcorr`](super::VectorStep::rrslvcorr).
     ///
-    /// Correction of the resolver
+    /// Correction of the resolver.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31565,7 +31565,7 @@ pub mod objects {
     /// 0x47D2:01, holding registers 10194 to 10195, low word first, INTEGER32, ro.
     /// Accessor: [`rrslvrawangleout`](super::VectorStep::rrslvrawangleout).
     ///
-    /// Angle of the resolver before correction
+    /// Angle of the resolver before correction.
     ///
     /// Needs resolver.
     ///
@@ -31584,7 +31584,7 @@ pub mod objects {
     /// 0x47D4:01, holding registers 10196 to 10197, low word first, INTEGER32, ro.
     /// Accessor: [`rrslvsinfirot`](super::VectorStep::rrslvsinfirot).
     ///
-    /// Sine of the resolver after the FIR filter
+    /// Sine of the resolver after the FIR filter.
     ///
     /// Needs resolver.
     ///
@@ -31603,7 +31603,7 @@ pub mod objects {
     /// 0x47D6:01, holding registers 10198 to 10199, low word first, INTEGER32, ro.
     /// Accessor: [`rrslvcosfirot`](super::VectorStep::rrslvcosfirot).
     ///
-    /// Cosine of the resolver after the FIR filter
+    /// Cosine of the resolver after the FIR filter.
     ///
     /// Needs resolver.
     ///
@@ -31622,7 +31622,7 @@ pub mod objects {
     /// 0x20C2:01, holding register 194, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rloadsav`](super::VectorStep::rloadsav). Values: [`EepromCommand`](super::types::EepromCommand).
     ///
-    /// Command to the EEPROM, and to the communication chip; goes back to 0 once it was carried out
+    /// Command to the EEPROM, and to the communication chip; goes back to 0 once it was carried out.
     ///
     /// The device clears it by itself. Reepsts tells while the EEPROM is busy, and what failed.
     ///
@@ -31647,7 +31647,7 @@ pub mod objects {
     /// 0x20C3:01, holding register 195, UNSIGNED16, rw.
     /// Accessor: [`rmemvar`](super::VectorStep::rmemvar). Values: [`VariableCommand`](super::types::VariableCommand).
     ///
-    /// Loads one variable from the EEPROM, or saves it there
+    /// Loads one variable from the EEPROM, or saves it there.
     ///
     /// Loads or saves the variable.
     ///
@@ -31668,7 +31668,7 @@ pub mod objects {
     /// 0x20C4:01, holding register 196, UNSIGNED16, ro.
     /// Accessor: [`reepsts`](super::VectorStep::reepsts). Values: [`EepromStatus`](super::types::EepromStatus).
     ///
-    /// State of the EEPROM; 0 means that all is well
+    /// State of the EEPROM; 0 means that all is well.
     ///
     /// Chapter Non-volatile memory. Manual, line 2601: Status Eeprom.
     pub const REEPSTS: ReadOnly<super::types::EepromStatus> = ReadOnlyNamedEepromStatus::register(
@@ -31683,7 +31683,7 @@ pub mod objects {
     /// 0x20C9:01, holding register 201, UNSIGNED16, rw, range 1 to 128.
     /// Accessor: [`rindex`](super::VectorStep::rindex).
     ///
-    /// Index with which a MIL program reaches the variables
+    /// Index with which a MIL program reaches the variables.
     ///
     /// Chapter Non-volatile memory. Manual, line 2602: Registro indicizzazione variabili da programma MIL.
     ///
@@ -31702,7 +31702,7 @@ pub mod objects {
     /// 0x2149:01, holding registers 329 to 330, low word first, UNSIGNED32, rw, mappable into TPDOs.
     /// Accessor: [`reepsts32`](super::VectorStep::reepsts32). Values: [`EepromStatus32`](super::types::EepromStatus32).
     ///
-    /// State of the EEPROM in 32 bits, on drives from the SMD5106 on; its lower word is Reepsts
+    /// State of the EEPROM in 32 bits, on drives from the SMD5106 on; its lower word is Reepsts.
     ///
     /// Chapter Non-volatile memory. Manual, line 2603: Status della EEPROM 32 bit.
     ///
@@ -31721,7 +31721,7 @@ pub mod objects {
     /// 0x20D8:01, holding register 216, UNSIGNED16, rw, range 1 to 3.
     /// Accessor: [`rstrtmode`](super::VectorStep::rstrtmode). Values: [`StartMode`](super::types::StartMode).
     ///
-    /// What the drive does at power-on
+    /// What the drive does at power-on.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31743,7 +31743,7 @@ pub mod objects {
     /// 0x20D9:01, holding register 217, UNSIGNED16, rw, range 0 to 13.
     /// Accessor: [`rstrtconf`](super::VectorStep::rstrtconf). Values: [`Configuration`](super::types::Configuration).
     ///
-    /// Rconfig at power-on; saving the registers copies Rconfig here where its bit 15 is 0
+    /// Rconfig at power-on; saving the registers copies Rconfig here where its bit 15 is 0.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31766,7 +31766,7 @@ pub mod objects {
     /// 0x2185:01, holding registers 389 to 390, low word first, INTEGER32, rw, range \-10000 to 10000 (-100 to 100 rev/s), in 0.01 rev/s.
     /// Accessor: [`rstrtvel`](super::VectorStep::rstrtvel).
     ///
-    /// Rvel at power-on
+    /// Rvel at power-on.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31785,7 +31785,7 @@ pub mod objects {
     /// 0x2187:01, holding registers 391 to 392, low word first, UNSIGNED32, rw, range 0 to 10000 (0 to 100 rev/s), in 0.01 rev/s.
     /// Accessor: [`rstrtvss`](super::VectorStep::rstrtvss).
     ///
-    /// Rvss at power-on
+    /// Rvss at power-on.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31806,7 +31806,7 @@ pub mod objects {
     /// 0x2189:01, holding registers 393 to 394, low word first, UNSIGNED32, rw, range 1 to 200000 (0.1 to 20000 rev/s²), in 0.1 rev/s².
     /// Accessor: [`rstrtacc`](super::VectorStep::rstrtacc).
     ///
-    /// Racc at power-on
+    /// Racc at power-on.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31827,7 +31827,7 @@ pub mod objects {
     /// 0x218B:01, holding registers 395 to 396, low word first, UNSIGNED32, rw, range 1 to 200000 (0.1 to 20000 rev/s²), in 0.1 rev/s².
     /// Accessor: [`rstrtdec`](super::VectorStep::rstrtdec).
     ///
-    /// Rdec at power-on
+    /// Rdec at power-on.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31848,7 +31848,7 @@ pub mod objects {
     /// 0x218D:01, holding registers 397 to 398, low word first, INTEGER32, rw, range \-2147483648 to 2147483647, in step.
     /// Accessor: [`rstrtpostarg`](super::VectorStep::rstrtpostarg).
     ///
-    /// Rpostarg at power-on
+    /// Rpostarg at power-on.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31867,7 +31867,7 @@ pub mod objects {
     /// 0x218F:01, holding registers 399 to 400, low word first, INTEGER32, rw, range 1 to 10000 (0.01 to 100 rev/s), in 0.01 rev/s.
     /// Accessor: [`rstrthvh`](super::VectorStep::rstrthvh).
     ///
-    /// Rhvh at power-on
+    /// Rhvh at power-on.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31888,7 +31888,7 @@ pub mod objects {
     /// 0x2191:01, holding registers 401 to 402, low word first, INTEGER32, rw, range 1 to 10000 (0.01 to 100 rev/s), in 0.01 rev/s.
     /// Accessor: [`rstrthvl`](super::VectorStep::rstrthvl).
     ///
-    /// Rhvl at power-on
+    /// Rhvl at power-on.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31909,7 +31909,7 @@ pub mod objects {
     /// 0x2193:01, holding registers 403 to 404, low word first, UNSIGNED32, rw, range 1 to 200000 (0.1 to 20000 rev/s²), in 0.1 rev/s².
     /// Accessor: [`rstrthacc`](super::VectorStep::rstrthacc).
     ///
-    /// Rhacc at power-on
+    /// Rhacc at power-on.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31930,7 +31930,7 @@ pub mod objects {
     /// 0x2195:01, holding register 405, INTEGER16, rw, range \-16 to 0.
     /// Accessor: [`rstrthmode`](super::VectorStep::rstrthmode). Values: [`HomingMethodI16`](super::types::HomingMethodI16).
     ///
-    /// Rhmode at power-on
+    /// Rhmode at power-on.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31956,7 +31956,7 @@ pub mod objects {
     /// 0x2063:01, holding register 99, UNSIGNED16, rw, range 0 to 65535, in ms.
     /// Accessor: [`rcuronramptime`](super::VectorStep::rcuronramptime).
     ///
-    /// Duration of the ramp by which the current rises when it is switched on
+    /// Duration of the ramp by which the current rises when it is switched on.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -31975,7 +31975,7 @@ pub mod objects {
     /// 0x20D1:01, holding register 209, INTEGER16, ro, mappable into TPDOs, in mA.
     /// Accessor: [`rcuract`](super::VectorStep::rcuract).
     ///
-    /// Motor current at present
+    /// Motor current at present.
     ///
     /// Chapter Power stage. Manual, line 2648: Corrente attuale.
     pub const RCURACT: ReadOnly<i16> = ReadOnlyI16::register_within(
@@ -31992,7 +31992,7 @@ pub mod objects {
     /// 0x20D2:01, holding register 210, UNSIGNED16, rw, mappable into RPDOs, range 0 to 8500, in mA.
     /// Accessor: [`rcurnom`](super::VectorStep::rcurnom).
     ///
-    /// Nominal current that the motor gets
+    /// Nominal current that the motor gets.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32011,7 +32011,7 @@ pub mod objects {
     /// 0x20D3:01, holding register 211, UNSIGNED16, rw, mappable into RPDOs, range 0 to 8500, in mA.
     /// Accessor: [`rcurred`](super::VectorStep::rcurred).
     ///
-    /// Reduced current that the motor gets
+    /// Reduced current that the motor gets.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32030,7 +32030,7 @@ pub mod objects {
     /// 0x20D4:01, holding register 212, UNSIGNED16, rw, mappable into RPDOs, range 0 to 10000, in mA.
     /// Accessor: [`rcurboost`](super::VectorStep::rcurboost).
     ///
-    /// Boost current applied during the ramps
+    /// Boost current applied during the ramps.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32049,7 +32049,7 @@ pub mod objects {
     /// 0x20D5:01, holding register 213, INTEGER16, rw, mappable into RPDOs, range \-10000 to 10000, in mA.
     /// Accessor: [`rcurtorque`](super::VectorStep::rcurtorque).
     ///
-    /// Current wanted in torque mode; the note ANA offers it as a target of an analogue input
+    /// Current wanted in torque mode; the note ANA offers it as a target of an analogue input.
     ///
     /// Chapter Power stage. Manual, line 2652: Corrente richiesta in modalita' torque.
     pub const RCURTORQUE: ReadWrite<i16> = ReadWriteI16::register_within(
@@ -32066,7 +32066,7 @@ pub mod objects {
     /// 0x20D6:01, holding register 214, UNSIGNED16, rw, range 0 to 5000, in ms.
     /// Accessor: [`rtboost`](super::VectorStep::rtboost).
     ///
-    /// Longest time that the boost current may last
+    /// Longest time that the boost current may last.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32085,7 +32085,7 @@ pub mod objects {
     /// 0x20D7:01, holding register 215, UNSIGNED16, rw, range 0 to 10000, in ms.
     /// Accessor: [`rtcred`](super::VectorStep::rtcred).
     ///
-    /// Delay before the drive goes to the reduced current
+    /// Delay before the drive goes to the reduced current.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32104,7 +32104,7 @@ pub mod objects {
     /// 0x20DB:01, holding register 219, UNSIGNED16, ro, range 0 to 3.
     /// Accessor: [`rfocmode`](super::VectorStep::rfocmode). Values: [`ControlState`](super::types::ControlState).
     ///
-    /// How the motor is being controlled at present
+    /// How the motor is being controlled at present.
     ///
     /// Chapter Power stage. Manual, line 2655: Stato attuale del controllo.
     pub const RFOCMODE: ReadOnly<super::types::ControlState> = ReadOnlyNamedControlState::register_within(
@@ -32121,7 +32121,7 @@ pub mod objects {
     /// 0x20DC:01, holding register 220, UNSIGNED16, ro, mappable into TPDOs, range 0 to 4.
     /// Accessor: [`rcurmodeact`](super::VectorStep::rcurmodeact). Values: [`CurrentLevelState`](super::types::CurrentLevelState).
     ///
-    /// Which current level is in use at present
+    /// Which current level is in use at present.
     ///
     /// Chapter Power stage. Manual, line 2656: Stato attuale del livello di corrente.
     pub const RCURMODEACT: ReadOnly<super::types::CurrentLevelState> = ReadOnlyNamedCurrentLevelState::register_within(
@@ -32138,7 +32138,7 @@ pub mod objects {
     /// 0x20DD:01, holding register 221, UNSIGNED16, rw, range 0 to 3.
     /// Accessor: [`rcurmode`](super::VectorStep::rcurmode). Values: [`CurrentLevel`](super::types::CurrentLevel).
     ///
-    /// Which current level the drive is to use
+    /// Which current level the drive is to use.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32157,7 +32157,7 @@ pub mod objects {
     /// 0x20DE:01, holding register 222, UNSIGNED16, rw, range 0 to 15.
     /// Accessor: [`rconfig`](super::VectorStep::rconfig). Values: [`Configuration`](super::types::Configuration).
     ///
-    /// Kind of control loop (open, closed, smart) and what it follows; saving the registers copies it to Rstrtconf while its bit 15 is 0
+    /// Kind of control loop (open, closed, smart) and what it follows; saving the registers copies it to Rstrtconf while its bit 15 is 0.
     ///
     /// Chapter Power stage. Manual, line 2658, 2609: Configurazione funzionamento drive.
     ///
@@ -32178,7 +32178,7 @@ pub mod objects {
     /// 0x20DF:01, holding register 223, UNSIGNED16, ro.
     /// Accessor: [`renmask`](super::VectorStep::renmask). Values: [`EnableMask`](super::types::EnableMask).
     ///
-    /// Mask of the checks for enabling the drive
+    /// Mask of the checks for enabling the drive.
     ///
     /// Chapter Power stage. Manual, line 2659: Maschera di controllo abilitazione drive.
     pub const RENMASK: ReadOnly<super::types::EnableMask> = ReadOnlyNamedEnableMask::register(
@@ -32193,7 +32193,7 @@ pub mod objects {
     /// 0x2108:01, holding registers 264 to 265, low word first, UNSIGNED32, ro, mappable into TPDOs.
     /// Accessor: [`rtrqdisp`](super::VectorStep::rtrqdisp).
     ///
-    /// Torque, for display; the manual gives no unit
+    /// Torque, for display; the manual gives no unit.
     ///
     /// Chapter Power stage. Manual, line 2662: Visualizzazione coppia.
     pub const RTRQDISP: ReadOnly<u32> = ReadOnlyU32::register(
@@ -32208,7 +32208,7 @@ pub mod objects {
     /// 0x210E:01, holding register 270, UNSIGNED16, rw, range 1 to 1024.
     /// Accessor: [`rstpres`](super::VectorStep::rstpres).
     ///
-    /// Microstep resolution of the motor; from firmware 3.44 in step/direction mode as well
+    /// Microstep resolution of the motor; from firmware 3.44 in step/direction mode as well.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32227,7 +32227,7 @@ pub mod objects {
     /// 0x2117:01, holding register 279, UNSIGNED16, rw, range 0 to 32767.
     /// Accessor: [`rkpiq`](super::VectorStep::rkpiq).
     ///
-    /// Proportional gain of the PI controller of the quadrature current
+    /// Proportional gain of the PI controller of the quadrature current.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32246,7 +32246,7 @@ pub mod objects {
     /// 0x2118:01, holding register 280, UNSIGNED16, rw, range 0 to 32767.
     /// Accessor: [`rkiiq`](super::VectorStep::rkiiq).
     ///
-    /// Integral gain of the PI controller of the quadrature current
+    /// Integral gain of the PI controller of the quadrature current.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32265,7 +32265,7 @@ pub mod objects {
     /// 0x2119:01, holding register 281, UNSIGNED16, rw, range 0 to 32767.
     /// Accessor: [`rkpid`](super::VectorStep::rkpid).
     ///
-    /// Proportional gain of the PI controller of the direct current
+    /// Proportional gain of the PI controller of the direct current.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32284,7 +32284,7 @@ pub mod objects {
     /// 0x211A:01, holding register 282, UNSIGNED16, rw, range 0 to 32767.
     /// Accessor: [`rkiid`](super::VectorStep::rkiid).
     ///
-    /// Integral gain of the PI controller of the direct current
+    /// Integral gain of the PI controller of the direct current.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32303,7 +32303,7 @@ pub mod objects {
     /// 0x211B:01, holding register 283, UNSIGNED16, rw, range 0 to 32767.
     /// Accessor: [`rkpvel`](super::VectorStep::rkpvel).
     ///
-    /// Proportional gain of the speed controller in closed loop
+    /// Proportional gain of the speed controller in closed loop.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32322,7 +32322,7 @@ pub mod objects {
     /// 0x211C:01, holding register 284, UNSIGNED16, rw, range 0 to 32767.
     /// Accessor: [`rkivel`](super::VectorStep::rkivel).
     ///
-    /// Integral gain of the speed controller in closed loop
+    /// Integral gain of the speed controller in closed loop.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32341,7 +32341,7 @@ pub mod objects {
     /// 0x211D:01, holding register 285, UNSIGNED16, rw, range 0 to 32767.
     /// Accessor: [`rkcvel`](super::VectorStep::rkcvel).
     ///
-    /// Gain Kc of the speed controller in closed loop
+    /// Gain Kc of the speed controller in closed loop.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32360,7 +32360,7 @@ pub mod objects {
     /// 0x211E:01, holding register 286, UNSIGNED16, rw, range 0 to 32767.
     /// Accessor: [`rkppos`](super::VectorStep::rkppos).
     ///
-    /// Proportional gain of the position controller in closed loop
+    /// Proportional gain of the position controller in closed loop.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32379,7 +32379,7 @@ pub mod objects {
     /// 0x211F:01, holding register 287, UNSIGNED16, rw, range 0 to 32767.
     /// Accessor: [`rkipos`](super::VectorStep::rkipos).
     ///
-    /// Integral gain of the position controller in closed loop
+    /// Integral gain of the position controller in closed loop.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32398,7 +32398,7 @@ pub mod objects {
     /// 0x2120:01, holding register 288, UNSIGNED16, rw, range 0 to 32767.
     /// Accessor: [`rkcipos`](super::VectorStep::rkcipos).
     ///
-    /// Gain Kci of the position controller in closed loop
+    /// Gain Kci of the position controller in closed loop.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32417,7 +32417,7 @@ pub mod objects {
     /// 0x2121:01, holding register 289, UNSIGNED16, rw, range 0 to 32767.
     /// Accessor: [`rkffpos`](super::VectorStep::rkffpos).
     ///
-    /// Gain Kff of the position controller in closed loop
+    /// Gain Kff of the position controller in closed loop.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32436,7 +32436,7 @@ pub mod objects {
     /// 0x2122:01, holding register 290, UNSIGNED16, rw, range 0 to 32767.
     /// Accessor: [`rkafpos`](super::VectorStep::rkafpos).
     ///
-    /// Gain Kaf of the position controller in closed loop
+    /// Gain Kaf of the position controller in closed loop.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32455,7 +32455,7 @@ pub mod objects {
     /// 0x2123:01, holding register 291, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rswacfw`](super::VectorStep::rswacfw). Values: [`AccelerationForward`](super::types::AccelerationForward).
     ///
-    /// Chooses current or speed for the acceleration feed-forward
+    /// Chooses current or speed for the acceleration feed-forward.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32474,7 +32474,7 @@ pub mod objects {
     /// 0x2124:01, holding register 292, INTEGER16, rw, range \-100 to 100, in %.
     /// Accessor: [`radpicur`](super::VectorStep::radpicur).
     ///
-    /// Correction of the current controller's gains from greatest to least current, to stay responsive without oscillation
+    /// Correction of the current controller's gains from greatest to least current, to stay responsive without oscillation.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32493,7 +32493,7 @@ pub mod objects {
     /// 0x212B:01, holding register 299, UNSIGNED16, rw, range 1 to 1024.
     /// Accessor: [`rstpressd`](super::VectorStep::rstpressd).
     ///
-    /// Microstep resolution in step/direction mode; without function where Rstpres has taken its place
+    /// Microstep resolution in step/direction mode; without function where Rstpres has taken its place.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32516,7 +32516,7 @@ pub mod objects {
     /// 0x212C:01, holding register 300, UNSIGNED16, rw, range 0 to 1024.
     /// Accessor: [`rkpstpdir`](super::VectorStep::rkpstpdir).
     ///
-    /// Proportional gain that ramps between incoming steps, in step/direction or gear mode
+    /// Proportional gain that ramps between incoming steps, in step/direction or gear mode.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32537,7 +32537,7 @@ pub mod objects {
     /// 0x212D:01, holding register 301, UNSIGNED16, rw, range 0 to 10.
     /// Accessor: [`rampfrq`](super::VectorStep::rampfrq).
     ///
-    /// Factor by which incoming steps are multiplied in closed loop, from 1 (1:1) to 10
+    /// Factor by which incoming steps are multiplied in closed loop, from 1 (1:1) to 10.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32558,7 +32558,7 @@ pub mod objects {
     /// 0x2135:01, holding register 309, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rdefluxen`](super::VectorStep::rdefluxen).
     ///
-    /// Enables flux weakening in open loop
+    /// Enables flux weakening in open loop.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32579,7 +32579,7 @@ pub mod objects {
     /// 0x2136:01, holding register 310, UNSIGNED16, rw, range 0 to 5000.
     /// Accessor: [`rdefluxmin`](super::VectorStep::rdefluxmin).
     ///
-    /// Least current of flux weakening in open loop
+    /// Least current of flux weakening in open loop.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32600,7 +32600,7 @@ pub mod objects {
     /// 0x2137:01, holding register 311, UNSIGNED16, rw, range 0 to 9.
     /// Accessor: [`rphamode`](super::VectorStep::rphamode).
     ///
-    /// Mode of the phase advance in open loop; the manual names no values
+    /// Mode of the phase advance in open loop; the manual names no values.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32619,7 +32619,7 @@ pub mod objects {
     /// 0x2138:01, holding register 312, UNSIGNED16, rw, range 0 to 8192.
     /// Accessor: [`rphagain`](super::VectorStep::rphagain).
     ///
-    /// Gain of the phase advance in open loop
+    /// Gain of the phase advance in open loop.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32638,7 +32638,7 @@ pub mod objects {
     /// 0x213A:01, holding register 314, INTEGER16, rw, range \-4096 to 4096.
     /// Accessor: [`rveladjopenmode`](super::VectorStep::rveladjopenmode).
     ///
-    /// Correction of the speed in open loop, that is with feedback from the armature
+    /// Correction of the speed in open loop, that is with feedback from the armature.
     ///
     /// Only of DMD\*.
     ///
@@ -32657,7 +32657,7 @@ pub mod objects {
     /// 0x215F:01, holding register 351, INTEGER16, rw, range \-128 to 127.
     /// Accessor: [`radjcura`](super::VectorStep::radjcura).
     ///
-    /// Adjusts the amplification of the current sensor's signal of phase A
+    /// Adjusts the amplification of the current sensor's signal of phase A.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32678,7 +32678,7 @@ pub mod objects {
     /// 0x2160:01, holding register 352, INTEGER16, rw, range \-128 to 127.
     /// Accessor: [`radjcurb`](super::VectorStep::radjcurb).
     ///
-    /// Adjusts the amplification of the current sensor's signal of phase B
+    /// Adjusts the amplification of the current sensor's signal of phase B.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32699,7 +32699,7 @@ pub mod objects {
     /// 0x2170:01, holding register 368, INTEGER16, rw, range \-32768 to 32767.
     /// Accessor: [`rvbusoffs`](super::VectorStep::rvbusoffs).
     ///
-    /// Offset of the bus voltage's measurement
+    /// Offset of the bus voltage's measurement.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32716,7 +32716,7 @@ pub mod objects {
     /// 0x2172:01, holding register 370, INTEGER16, ro, mappable into TPDOs, in bit.
     /// Accessor: [`rla`](super::VectorStep::rla).
     ///
-    /// Current of phase A in counts of the converter
+    /// Current of phase A in counts of the converter.
     ///
     /// Chapter Power stage. Manual, line 2691: Corrente letta fase A in bit.
     ///
@@ -32735,7 +32735,7 @@ pub mod objects {
     /// 0x2173:01, holding register 371, INTEGER16, ro, mappable into TPDOs, in bit.
     /// Accessor: [`rlb`](super::VectorStep::rlb).
     ///
-    /// Current of phase B in counts of the converter
+    /// Current of phase B in counts of the converter.
     ///
     /// Chapter Power stage. Manual, line 2692: Corrente letta fase B in bit.
     ///
@@ -32754,7 +32754,7 @@ pub mod objects {
     /// 0x2174:01, holding register 372, INTEGER16, ro, mappable into TPDOs, in mA.
     /// Accessor: [`rlan`](super::VectorStep::rlan).
     ///
-    /// Current of phase A, filtered
+    /// Current of phase A, filtered.
     ///
     /// Chapter Power stage. Manual, line 2693: Corrente letta da fase A filtrata.
     pub const RLAN: ReadOnly<i16> = ReadOnlyI16::register_within(
@@ -32771,7 +32771,7 @@ pub mod objects {
     /// 0x2175:01, holding register 373, INTEGER16, ro, mappable into TPDOs, in mA.
     /// Accessor: [`rlbn`](super::VectorStep::rlbn).
     ///
-    /// Current of phase B, filtered
+    /// Current of phase B, filtered.
     ///
     /// Chapter Power stage. Manual, line 2694: Corrente letta da fase B filtrata.
     pub const RLBN: ReadOnly<i16> = ReadOnlyI16::register_within(
@@ -32788,7 +32788,7 @@ pub mod objects {
     /// 0x2176:01, holding register 374, INTEGER16, ro, in bit.
     /// Accessor: [`rla_offs`](super::VectorStep::rla_offs).
     ///
-    /// Computed offset of the current sensor of phase A
+    /// Computed offset of the current sensor of phase A.
     ///
     /// Chapter Power stage. Manual, line 2695: Offset calcolato fase A.
     pub const RLA_OFFS: ReadOnly<i16> = ReadOnlyI16::register_within(
@@ -32805,7 +32805,7 @@ pub mod objects {
     /// 0x2177:01, holding register 375, INTEGER16, ro, in bit.
     /// Accessor: [`rlb_offs`](super::VectorStep::rlb_offs).
     ///
-    /// Computed offset of the current sensor of phase B
+    /// Computed offset of the current sensor of phase B.
     ///
     /// Chapter Power stage. Manual, line 2696: Offset calcolato fase B.
     pub const RLB_OFFS: ReadOnly<i16> = ReadOnlyI16::register_within(
@@ -32822,7 +32822,7 @@ pub mod objects {
     /// 0x2178:01, holding register 376, INTEGER16, rw, range \-32768 to 32767, in bit.
     /// Accessor: [`rla_offs_ei`](super::VectorStep::rla_offs_ei).
     ///
-    /// Manual correction of phase A's offset; Rloadsav command 137 saves it, 138 measures and saves it
+    /// Manual correction of phase A's offset; Rloadsav command 137 saves it, 138 measures and saves it.
     ///
     /// Kept over power-off once 137 was given.
     ///
@@ -32841,7 +32841,7 @@ pub mod objects {
     /// 0x2179:01, holding register 377, INTEGER16, rw, range \-32768 to 32767, in bit.
     /// Accessor: [`rlb_offs_ei`](super::VectorStep::rlb_offs_ei).
     ///
-    /// Manual correction of phase B's offset; Rloadsav command 137 saves it, 138 measures and saves it
+    /// Manual correction of phase B's offset; Rloadsav command 137 saves it, 138 measures and saves it.
     ///
     /// Kept over power-off once 137 was given.
     ///
@@ -32860,7 +32860,7 @@ pub mod objects {
     /// 0x217A:01, holding register 378, INTEGER16, ro, in mA.
     /// Accessor: [`rid`](super::VectorStep::rid).
     ///
-    /// Direct current, component d of the motor current
+    /// Direct current, component d of the motor current.
     ///
     /// Chapter Power stage. Manual, line 2699: Corrente diretta.
     pub const RID: ReadOnly<i16> = ReadOnlyI16::register_within(
@@ -32877,7 +32877,7 @@ pub mod objects {
     /// 0x217B:01, holding register 379, INTEGER16, ro, mappable into TPDOs, in mA.
     /// Accessor: [`riq`](super::VectorStep::riq).
     ///
-    /// Quadrature current, component q of the motor current
+    /// Quadrature current, component q of the motor current.
     ///
     /// Chapter Power stage. Manual, line 2700: Corrente in quadratura.
     pub const RIQ: ReadOnly<i16> = ReadOnlyI16::register_within(
@@ -32894,7 +32894,7 @@ pub mod objects {
     /// 0x2184:01, holding register 388, INTEGER16, rw, range \-5000 to 5000, in mA.
     /// Accessor: [`ridcorr`](super::VectorStep::ridcorr).
     ///
-    /// Correction of the direct current in smart mode
+    /// Correction of the direct current in smart mode.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32913,7 +32913,7 @@ pub mod objects {
     /// 0x21EF:01, holding register 495, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rpwmmode`](super::VectorStep::rpwmmode). Values: [`PwmAlignment`](super::types::PwmAlignment).
     ///
-    /// How the pulses that make the motor current are aligned; save with Rloadsav command 146 and cycle the power
+    /// How the pulses that make the motor current are aligned; save with Rloadsav command 146 and cycle the power.
     ///
     /// Kept over power-off once 146 was given. Takes effect at: power cycle.
     ///
@@ -32932,7 +32932,7 @@ pub mod objects {
     /// 0x477E:01, holding register 10110, UNSIGNED16, rw, in 0.001 1.
     /// Accessor: [`rpidpos_kp`](super::VectorStep::rpidpos_kp).
     ///
-    /// Proportional gain of the position PID
+    /// Proportional gain of the position PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32953,7 +32953,7 @@ pub mod objects {
     /// 0x477F:01, holding register 10111, UNSIGNED16, rw, in 0.001 1.
     /// Accessor: [`rpidpos_ki`](super::VectorStep::rpidpos_ki).
     ///
-    /// Integral gain of the position PID
+    /// Integral gain of the position PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32974,7 +32974,7 @@ pub mod objects {
     /// 0x4780:01, holding register 10112, UNSIGNED16, rw, in 0.001 1.
     /// Accessor: [`rpidpos_kd`](super::VectorStep::rpidpos_kd).
     ///
-    /// Derivative gain of the position PID
+    /// Derivative gain of the position PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -32995,7 +32995,7 @@ pub mod objects {
     /// 0x4781:01, holding register 10113, UNSIGNED16, rw, in 0.001 1.
     /// Accessor: [`rpidpos_tau_kd`](super::VectorStep::rpidpos_tau_kd).
     ///
-    /// Time constant of the filter on the position PID's derivative part
+    /// Time constant of the filter on the position PID's derivative part.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33018,7 +33018,7 @@ pub mod objects {
     /// 0x4782:01, holding register 10114, UNSIGNED16, rw, in 0.001 1.
     /// Accessor: [`rpidpos_kff`](super::VectorStep::rpidpos_kff).
     ///
-    /// Feed-forward gain of the position PID
+    /// Feed-forward gain of the position PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33039,7 +33039,7 @@ pub mod objects {
     /// 0x4783:01, holding register 10115, UNSIGNED16, rw, in 0.001 1.
     /// Accessor: [`rpidpos_kaf`](super::VectorStep::rpidpos_kaf).
     ///
-    /// Acceleration feed-forward gain of the position PID
+    /// Acceleration feed-forward gain of the position PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33060,7 +33060,7 @@ pub mod objects {
     /// 0x4784:01, holding register 10116, UNSIGNED16, rw, in Hz.
     /// Accessor: [`rpidpos_kff_fc`](super::VectorStep::rpidpos_kff_fc).
     ///
-    /// Cut-off frequency of the low-pass filter on the position PID's feed-forward
+    /// Cut-off frequency of the low-pass filter on the position PID's feed-forward.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33081,7 +33081,7 @@ pub mod objects {
     /// 0x4785:01, holding register 10117, UNSIGNED16, rw, in 0.001 1.
     /// Accessor: [`rpidpos_kaw`](super::VectorStep::rpidpos_kaw).
     ///
-    /// Anti-windup gain of the position PID
+    /// Anti-windup gain of the position PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33102,7 +33102,7 @@ pub mod objects {
     /// 0x4786:01, holding register 10118, UNSIGNED16, rw, in 0.001 1.
     /// Accessor: [`rpidvel_kp`](super::VectorStep::rpidvel_kp).
     ///
-    /// Proportional gain of the speed PID
+    /// Proportional gain of the speed PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33123,7 +33123,7 @@ pub mod objects {
     /// 0x4787:01, holding register 10119, UNSIGNED16, rw, in 0.001 1.
     /// Accessor: [`rpidvel_ki`](super::VectorStep::rpidvel_ki).
     ///
-    /// Integral gain of the speed PID
+    /// Integral gain of the speed PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33144,7 +33144,7 @@ pub mod objects {
     /// 0x4788:01, holding register 10120, UNSIGNED16, rw, in 0.001 1.
     /// Accessor: [`rpidvel_kd`](super::VectorStep::rpidvel_kd).
     ///
-    /// Derivative gain of the speed PID
+    /// Derivative gain of the speed PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33165,7 +33165,7 @@ pub mod objects {
     /// 0x4789:01, holding register 10121, UNSIGNED16, rw, in 0.001 1.
     /// Accessor: [`rpidveltau_kd`](super::VectorStep::rpidveltau_kd).
     ///
-    /// Time constant of the filter on the speed PID's derivative part
+    /// Time constant of the filter on the speed PID's derivative part.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33188,7 +33188,7 @@ pub mod objects {
     /// 0x478A:01, holding register 10122, UNSIGNED16, rw, in 0.001 1.
     /// Accessor: [`rpidvel_kff`](super::VectorStep::rpidvel_kff).
     ///
-    /// Feed-forward gain of the speed PID
+    /// Feed-forward gain of the speed PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33209,7 +33209,7 @@ pub mod objects {
     /// 0x478B:01, holding register 10123, UNSIGNED16, rw, in 0.001 1.
     /// Accessor: [`rpidvel_kaf`](super::VectorStep::rpidvel_kaf).
     ///
-    /// Acceleration feed-forward gain of the speed PID
+    /// Acceleration feed-forward gain of the speed PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33230,7 +33230,7 @@ pub mod objects {
     /// 0x478C:01, holding register 10124, UNSIGNED16, rw, in Hz.
     /// Accessor: [`rpidvel_kff_fc`](super::VectorStep::rpidvel_kff_fc).
     ///
-    /// Cut-off frequency of the low-pass filter on the speed PID's feed-forward
+    /// Cut-off frequency of the low-pass filter on the speed PID's feed-forward.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33251,7 +33251,7 @@ pub mod objects {
     /// 0x478D:01, holding register 10125, UNSIGNED16, rw, in 0.001 1.
     /// Accessor: [`rpidvel_kaw`](super::VectorStep::rpidvel_kaw).
     ///
-    /// Anti-windup gain of the speed PID
+    /// Anti-windup gain of the speed PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33272,7 +33272,7 @@ pub mod objects {
     /// 0x478E:01, holding register 10126, UNSIGNED16, rw, in Hz.
     /// Accessor: [`rfilvel_fc`](super::VectorStep::rfilvel_fc).
     ///
-    /// Cut-off frequency of the filter at the speed loop's input
+    /// Cut-off frequency of the filter at the speed loop's input.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33293,7 +33293,7 @@ pub mod objects {
     /// 0x478F:01, holding register 10127, UNSIGNED16, rw, in 0.001 dB.
     /// Accessor: [`rfilvel_pg`](super::VectorStep::rfilvel_pg).
     ///
-    /// Peak gain of the filter at the speed loop's input
+    /// Peak gain of the filter at the speed loop's input.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33314,7 +33314,7 @@ pub mod objects {
     /// 0x4790:01, holding register 10128, UNSIGNED16, rw, in Hz.
     /// Accessor: [`rfilcur_fc`](super::VectorStep::rfilcur_fc).
     ///
-    /// Cut-off frequency of the filter at the speed loop's output
+    /// Cut-off frequency of the filter at the speed loop's output.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33335,7 +33335,7 @@ pub mod objects {
     /// 0x4791:01, holding register 10129, UNSIGNED16, rw, in 0.001 dB.
     /// Accessor: [`rfilcur_pg`](super::VectorStep::rfilcur_pg).
     ///
-    /// Peak gain of the filter at the speed loop's output
+    /// Peak gain of the filter at the speed loop's output.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33356,7 +33356,7 @@ pub mod objects {
     /// 0x47AC:01, holding registers 10156 to 10157, low word first, INTEGER32, ro.
     /// Accessor: [`rpidposinpact`](super::VectorStep::rpidposinpact).
     ///
-    /// Input of the position PID at present
+    /// Input of the position PID at present.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33373,7 +33373,7 @@ pub mod objects {
     /// 0x47AE:01, holding registers 10158 to 10159, low word first, INTEGER32, ro.
     /// Accessor: [`rpidpospropact`](super::VectorStep::rpidpospropact).
     ///
-    /// Proportional part of the position PID at present
+    /// Proportional part of the position PID at present.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33390,7 +33390,7 @@ pub mod objects {
     /// 0x47B0:01, holding registers 10160 to 10161, low word first, INTEGER32, ro.
     /// Accessor: [`rpidposintact`](super::VectorStep::rpidposintact).
     ///
-    /// Integral part of the position PID at present
+    /// Integral part of the position PID at present.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33407,7 +33407,7 @@ pub mod objects {
     /// 0x47B2:01, holding registers 10162 to 10163, low word first, INTEGER32, ro.
     /// Accessor: [`rpidposderact`](super::VectorStep::rpidposderact).
     ///
-    /// Derivative part of the position PID at present
+    /// Derivative part of the position PID at present.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33424,7 +33424,7 @@ pub mod objects {
     /// 0x47B4:01, holding registers 10164 to 10165, low word first, INTEGER32, ro.
     /// Accessor: [`rpidposffact`](super::VectorStep::rpidposffact).
     ///
-    /// Feed-forward part of the position PID at present
+    /// Feed-forward part of the position PID at present.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33441,7 +33441,7 @@ pub mod objects {
     /// 0x47B6:01, holding registers 10166 to 10167, low word first, INTEGER32, ro.
     /// Accessor: [`rpidposafact`](super::VectorStep::rpidposafact).
     ///
-    /// Acceleration feed-forward part of the position PID at present
+    /// Acceleration feed-forward part of the position PID at present.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33458,7 +33458,7 @@ pub mod objects {
     /// 0x47B8:01, holding registers 10168 to 10169, low word first, INTEGER32, ro.
     /// Accessor: [`rpidposoutact`](super::VectorStep::rpidposoutact).
     ///
-    /// Output of the position PID at present
+    /// Output of the position PID at present.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33475,7 +33475,7 @@ pub mod objects {
     /// 0x47BA:01, holding registers 10170 to 10171, low word first, INTEGER32, ro.
     /// Accessor: [`rpidvelinpact`](super::VectorStep::rpidvelinpact).
     ///
-    /// Input of the speed PID at present
+    /// Input of the speed PID at present.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33492,7 +33492,7 @@ pub mod objects {
     /// 0x47BC:01, holding registers 10172 to 10173, low word first, INTEGER32, ro.
     /// Accessor: [`rpidvelpropact`](super::VectorStep::rpidvelpropact).
     ///
-    /// Proportional part of the speed PID at present
+    /// Proportional part of the speed PID at present.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33509,7 +33509,7 @@ pub mod objects {
     /// 0x47BE:01, holding registers 10174 to 10175, low word first, INTEGER32, ro.
     /// Accessor: [`rpidvelintact`](super::VectorStep::rpidvelintact).
     ///
-    /// Integral part of the speed PID at present
+    /// Integral part of the speed PID at present.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33526,7 +33526,7 @@ pub mod objects {
     /// 0x47C0:01, holding registers 10176 to 10177, low word first, INTEGER32, ro.
     /// Accessor: [`rpidvelderact`](super::VectorStep::rpidvelderact).
     ///
-    /// Derivative part of the speed PID at present
+    /// Derivative part of the speed PID at present.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33543,7 +33543,7 @@ pub mod objects {
     /// 0x47C2:01, holding registers 10178 to 10179, low word first, INTEGER32, ro.
     /// Accessor: [`rpidvelffact`](super::VectorStep::rpidvelffact).
     ///
-    /// Feed-forward part of the speed PID at present
+    /// Feed-forward part of the speed PID at present.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33560,7 +33560,7 @@ pub mod objects {
     /// 0x47C4:01, holding registers 10180 to 10181, low word first, INTEGER32, ro.
     /// Accessor: [`rpidvelafact`](super::VectorStep::rpidvelafact).
     ///
-    /// Acceleration feed-forward part of the speed PID at present
+    /// Acceleration feed-forward part of the speed PID at present.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33577,7 +33577,7 @@ pub mod objects {
     /// 0x47C6:01, holding registers 10182 to 10183, low word first, INTEGER32, ro.
     /// Accessor: [`rpidveloutact`](super::VectorStep::rpidveloutact).
     ///
-    /// Output of the speed PID at present
+    /// Output of the speed PID at present.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33594,7 +33594,7 @@ pub mod objects {
     /// 0x47C8:01, holding registers 10184 to 10185, low word first, INTEGER32, ro.
     /// Accessor: [`rfilvelinpact`](super::VectorStep::rfilvelinpact).
     ///
-    /// Value before the filter at the speed loop's input
+    /// Value before the filter at the speed loop's input.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33611,7 +33611,7 @@ pub mod objects {
     /// 0x47CA:01, holding registers 10186 to 10187, low word first, INTEGER32, ro.
     /// Accessor: [`rfilveloutact`](super::VectorStep::rfilveloutact).
     ///
-    /// Value after the filter at the speed loop's input
+    /// Value after the filter at the speed loop's input.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33628,7 +33628,7 @@ pub mod objects {
     /// 0x47CC:01, holding registers 10188 to 10189, low word first, INTEGER32, ro.
     /// Accessor: [`rfilcurinpact`](super::VectorStep::rfilcurinpact).
     ///
-    /// Value before the filter at the speed loop's output
+    /// Value before the filter at the speed loop's output.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33645,7 +33645,7 @@ pub mod objects {
     /// 0x47CE:01, holding registers 10190 to 10191, low word first, INTEGER32, ro.
     /// Accessor: [`rfilcuroutact`](super::VectorStep::rfilcuroutact).
     ///
-    /// Value after the filter at the speed loop's output
+    /// Value after the filter at the speed loop's output.
     ///
     /// From firmware 7\.10 on.
     ///
@@ -33662,7 +33662,7 @@ pub mod objects {
     /// 0x20DA:01, holding register 218, UNSIGNED16, rw.
     /// Accessor: [`rmotype`](super::VectorStep::rmotype).
     ///
-    /// Position of the configured motor in the motor database
+    /// Position of the configured motor in the motor database.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33679,7 +33679,7 @@ pub mod objects {
     /// 0x210F:01, holding register 271, UNSIGNED16, rw, range 1 to 32767 (0.1 to 3276.7 Ω), in 0.1 Ω.
     /// Accessor: [`rmotres`](super::VectorStep::rmotres).
     ///
-    /// Phase resistance of the motor
+    /// Phase resistance of the motor.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33698,7 +33698,7 @@ pub mod objects {
     /// 0x2110:01, holding register 272, UNSIGNED16, rw, range 1 to 32767 (0.1 to 3276.7 mH), in 0.1 mH.
     /// Accessor: [`rmotind`](super::VectorStep::rmotind).
     ///
-    /// Phase inductance of the motor
+    /// Phase inductance of the motor.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33717,7 +33717,7 @@ pub mod objects {
     /// 0x2111:01, holding register 273, UNSIGNED16, rw, range 1 to 32767 (0.01 to 327.67 mH·A), in 0.01 mH·A.
     /// Accessor: [`rmotkfm`](super::VectorStep::rmotkfm).
     ///
-    /// Back-EMF constant of the motor: phase inductance in mH   nominal current in mA   100 / 1000
+    /// Back-EMF constant of the motor: phase inductance in mH   nominal current in mA   100 / 1000.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33740,7 +33740,7 @@ pub mod objects {
     /// 0x2112:01, holding register 274, UNSIGNED16, rw, range 1 to 32767, in V.
     /// Accessor: [`rmottensnom`](super::VectorStep::rmottensnom).
     ///
-    /// Nominal voltage of the motor
+    /// Nominal voltage of the motor.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33761,7 +33761,7 @@ pub mod objects {
     /// 0x2113:01, holding register 275, UNSIGNED16, rw, range 1 to 32767, in mA.
     /// Accessor: [`rmotiph`](super::VectorStep::rmotiph).
     ///
-    /// Nominal phase current of the motor
+    /// Nominal phase current of the motor.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33780,7 +33780,7 @@ pub mod objects {
     /// 0x2114:01, holding register 276, UNSIGNED16, rw, range 1 to 65535, in mNm/A.
     /// Accessor: [`rmotktq`](super::VectorStep::rmotktq).
     ///
-    /// Torque constant of the motor
+    /// Torque constant of the motor.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33799,7 +33799,7 @@ pub mod objects {
     /// 0x2115:01, holding register 277, UNSIGNED16, rw, in rev/s.
     /// Accessor: [`rmotvelnom`](super::VectorStep::rmotvelnom).
     ///
-    /// Nominal speed of the motor
+    /// Nominal speed of the motor.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -33820,7 +33820,7 @@ pub mod objects {
     /// 0x209B:01, holding registers 155 to 156, low word first, UNSIGNED32, rw, in ms.
     /// Accessor: [`rtim0`](super::VectorStep::rtim0).
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Chapter Timers. Manual, line 2761: Registro decrementato di 1 ogni 1 mS.
     pub const RTIM0: ReadWrite<u32> = ReadWriteU32::register_within(
@@ -33837,7 +33837,7 @@ pub mod objects {
     /// 0x209D:01, holding registers 157 to 158, low word first, UNSIGNED32, rw, in ms.
     /// Accessor: [`rtim1`](super::VectorStep::rtim1).
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Chapter Timers. Manual, line 2762: Registro decrementato di 1 ogni 1 mS.
     pub const RTIM1: ReadWrite<u32> = ReadWriteU32::register_within(
@@ -33854,7 +33854,7 @@ pub mod objects {
     /// 0x209F:01, holding registers 159 to 160, low word first, UNSIGNED32, rw, in ms.
     /// Accessor: [`rtim2`](super::VectorStep::rtim2).
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Chapter Timers. Manual, line 2763: Registro decrementato di 1 ogni 1 mS.
     pub const RTIM2: ReadWrite<u32> = ReadWriteU32::register_within(
@@ -33871,7 +33871,7 @@ pub mod objects {
     /// 0x20A1:01, holding registers 161 to 162, low word first, UNSIGNED32, rw, in ms.
     /// Accessor: [`rtim3`](super::VectorStep::rtim3).
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Chapter Timers. Manual, line 2764: Registro decrementato di 1 ogni 1 mS.
     pub const RTIM3: ReadWrite<u32> = ReadWriteU32::register_within(
@@ -33888,7 +33888,7 @@ pub mod objects {
     /// 0x2218:01, holding registers 536 to 537, low word first, UNSIGNED32, rw, at least 0, in ms.
     /// Accessor: [`rtim4`](super::VectorStep::rtim4).
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Chapter Timers. Manual, line 2765: Registro decrementato di 1 ogni 1 mS.
     ///
@@ -33909,7 +33909,7 @@ pub mod objects {
     /// 0x221A:01, holding registers 538 to 539, low word first, UNSIGNED32, rw, at least 0, in ms.
     /// Accessor: [`rtim5`](super::VectorStep::rtim5).
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Chapter Timers. Manual, line 2766: Registro decrementato di 1 ogni 1 mS.
     ///
@@ -33930,7 +33930,7 @@ pub mod objects {
     /// 0x221C:01, holding registers 540 to 541, low word first, UNSIGNED32, rw, at least 0, in ms.
     /// Accessor: [`rtim6`](super::VectorStep::rtim6).
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Chapter Timers. Manual, line 2767: Registro decrementato di 1 ogni 1 mS.
     ///
@@ -33951,7 +33951,7 @@ pub mod objects {
     /// 0x221E:01, holding registers 542 to 543, low word first, UNSIGNED32, rw, at least 0, in ms.
     /// Accessor: [`rtim7`](super::VectorStep::rtim7).
     ///
-    /// Timer that counts down to 0, by one every millisecond
+    /// Timer that counts down to 0, by one every millisecond.
     ///
     /// Chapter Timers. Manual, line 2768: Registro decrementato di 1 ogni 1 mS.
     ///
@@ -33972,7 +33972,7 @@ pub mod objects {
     /// 0x47AA:01, holding registers 10154 to 10155, low word first, UNSIGNED32, ro, range 0 to 4294967295, in ms.
     /// Accessor: [`rfreerun`](super::VectorStep::rfreerun).
     ///
-    /// Counter that runs freely, by one every millisecond
+    /// Counter that runs freely, by one every millisecond.
     ///
     /// Chapter Timers. Manual, line 2769: Contatore incrementato ogni 1ms.
     pub const RFREERUN: ReadOnly<u32> = ReadOnlyU32::register_within(
@@ -33989,7 +33989,7 @@ pub mod objects {
     /// 0x2094:01, holding register 148, INTEGER16, ro, mappable into TPDOs, in °C.
     /// Accessor: [`rtempact`](super::VectorStep::rtempact).
     ///
-    /// Temperature of the drive at present
+    /// Temperature of the drive at present.
     ///
     /// Chapter Various. Manual, line 2772: Temperatura attuale azionamento.
     pub const RTEMPACT: ReadOnly<i16> = ReadOnlyI16::register_within(
@@ -34006,7 +34006,7 @@ pub mod objects {
     /// 0x2095:01, holding register 149, UNSIGNED16, ro, mappable into TPDOs, in V.
     /// Accessor: [`rtensact`](super::VectorStep::rtensact).
     ///
-    /// Voltage of the drive's DC bus at present
+    /// Voltage of the drive's DC bus at present.
     ///
     /// Chapter Various. Manual, line 2773: Tensione attuale bus CC azionamento.
     pub const RTENSACT: ReadOnly<u16> = ReadOnlyU16::register_within(
@@ -34023,7 +34023,7 @@ pub mod objects {
     /// 0x2096:01, holding register 150, UNSIGNED16, ro, in mA.
     /// Accessor: [`rcurdact`](super::VectorStep::rcurdact).
     ///
-    /// Current that the drive draws from its DC supply at present
+    /// Current that the drive draws from its DC supply at present.
     ///
     /// Chapter Various. Manual, line 2774: Corrente attuale richiesta all'alimentatore.
     pub const RCURDACT: ReadOnly<u16> = ReadOnlyU16::register_within(
@@ -34040,7 +34040,7 @@ pub mod objects {
     /// 0x20BE:01, holding register 190, UNSIGNED16, ro.
     /// Accessor: [`rswrev`](super::VectorStep::rswrev).
     ///
-    /// Revision of the software; from firmware 6 see Rindswrev
+    /// Revision of the software; from firmware 6 see Rindswrev.
     ///
     /// Before firmware 6. Replaced by [Rindswrev](RINDSWREV).
     ///
@@ -34057,7 +34057,7 @@ pub mod objects {
     /// 0x20BF:01, holding register 191, UNSIGNED16, ro.
     /// Accessor: [`rhwrev`](super::VectorStep::rhwrev).
     ///
-    /// Revision of the hardware; the maker writes it before Rloadsav command 136
+    /// Revision of the hardware; the maker writes it before Rloadsav command 136.
     ///
     /// Before firmware 6. Replaced by [Rindhwrev](RINDHWREV).
     ///
@@ -34076,7 +34076,7 @@ pub mod objects {
     /// 0x20C0:01, holding registers 192 to 193, low word first, UNSIGNED32, rw.
     /// Accessor: [`rserial`](super::VectorStep::rserial).
     ///
-    /// Serial number, set at the final test and locked once it isn't 0
+    /// Serial number, set at the final test and locked once it isn't 0.
     ///
     /// Kept over power-off once 136 was given. Can be written only once.
     ///
@@ -34101,7 +34101,7 @@ pub mod objects {
     /// 0x20C5:01, holding register 197, UNSIGNED16, ro, range 0 to 99.
     /// Accessor: [`rrotsw`](super::VectorStep::rrotsw).
     ///
-    /// Position of the rotary switches, as the drive has read it
+    /// Position of the rotary switches, as the drive has read it.
     ///
     /// Chapter Various. Manual, line 2778: Copia del valore letto dai rotary switch.
     pub const RROTSW: ReadOnly<u16> = ReadOnlyU16::register_within(
@@ -34118,7 +34118,7 @@ pub mod objects {
     /// 0x2157:01, holding register 343, UNSIGNED16, ro.
     /// Accessor: [`rhwoptions`](super::VectorStep::rhwoptions). Values: [`HardwareOptions`](super::types::HardwareOptions).
     ///
-    /// Hardware options that are fitted and active
+    /// Hardware options that are fitted and active.
     ///
     /// Chapter Various. Manual, line 2779: Opzioni hardware attive.
     pub const RHWOPTIONS: ReadOnly<super::types::HardwareOptions> = ReadOnlyNamedHardwareOptions::register(
@@ -34133,7 +34133,7 @@ pub mod objects {
     /// 0x20C6:01, holding register 198, UNSIGNED16, ro.
     /// Accessor: [`rindtype`](super::VectorStep::rindtype). Values: [`ModelCode`](super::types::ModelCode).
     ///
-    /// Model of the drive, as one of 126 codes; from firmware 5.50 it reads as 0xFFFF
+    /// Model of the drive, as one of 126 codes; from firmware 5.50 it reads as 0xFFFF.
     ///
     /// Before firmware 6. Replaced by [Rindfamily](RINDFAMILY).
     ///
@@ -34160,7 +34160,7 @@ pub mod objects {
     /// 0x4710:01, holding register 10000, UNSIGNED16, ro.
     /// Accessor: [`rindfamily`](super::VectorStep::rindfamily).
     ///
-    /// Family of the drive as a decimal number, such as 1204, 2204 or 5206
+    /// Family of the drive as a decimal number, such as 1204, 2204 or 5206.
     ///
     /// Chapter Various. Manual, line 2785: Famiglia azionamento.
     ///
@@ -34179,7 +34179,7 @@ pub mod objects {
     /// 0x4711:01, holding register 10001, UNSIGNED16, ro.
     /// Accessor: [`rindmodel`](super::VectorStep::rindmodel). Values: [`ModelDefinition`](super::types::ModelDefinition).
     ///
-    /// Voltage, application, platform and communication chip of the drive
+    /// Voltage, application, platform and communication chip of the drive.
     ///
     /// Chapter Various. Manual, line 2786: Definizione modello.
     pub const RINDMODEL: ReadOnly<super::types::ModelDefinition> = ReadOnlyNamedModelDefinition::register(
@@ -34194,7 +34194,7 @@ pub mod objects {
     /// 0x4712:01, holding register 10002, UNSIGNED16, ro.
     /// Accessor: [`rindfielbus`](super::VectorStep::rindfielbus). Values: [`FieldbusKind`](super::types::FieldbusKind).
     ///
-    /// Fieldbus that the drive has
+    /// Fieldbus that the drive has.
     ///
     /// Chapter Various. Manual, line 2787: Definizione Fieldbus.
     ///
@@ -34211,7 +34211,7 @@ pub mod objects {
     /// 0x4713:01, holding register 10003, UNSIGNED16, ro.
     /// Accessor: [`rindoptions`](super::VectorStep::rindoptions). Values: [`DriveOptions`](super::types::DriveOptions).
     ///
-    /// Options that the drive has: the absolute encoder
+    /// Options that the drive has: the absolute encoder.
     ///
     /// Chapter Various. Manual, line 2788: Definizione opzioni.
     pub const RINDOPTIONS: ReadOnly<super::types::DriveOptions> = ReadOnlyNamedDriveOptions::register(
@@ -34226,7 +34226,7 @@ pub mod objects {
     /// 0x4714:01, holding register 10004, UNSIGNED16, ro.
     /// Accessor: [`rindregset`](super::VectorStep::rindregset). Values: [`RegisterMap`](super::types::RegisterMap).
     ///
-    /// Revision of the register map
+    /// Revision of the register map.
     ///
     /// Chapter Various. Manual, line 2789: Mappatura registri.
     ///
@@ -34243,7 +34243,7 @@ pub mod objects {
     /// 0x4715:01, holding register 10005, UNSIGNED16, ro.
     /// Accessor: [`rindswrev`](super::VectorStep::rindswrev).
     ///
-    /// Revision of the software
+    /// Revision of the software.
     ///
     /// Chapter Various. Manual, line 2790: Software revision.
     pub const RINDSWREV: ReadOnly<u16> = ReadOnlyU16::register(
@@ -34258,7 +34258,7 @@ pub mod objects {
     /// 0x4716:01, holding register 10006, UNSIGNED16, ro.
     /// Accessor: [`rindhwrev`](super::VectorStep::rindhwrev).
     ///
-    /// Revision of the hardware
+    /// Revision of the hardware.
     ///
     /// Chapter Various. Manual, line 2791: Hardware revision.
     pub const RINDHWREV: ReadOnly<u16> = ReadOnlyU16::register(
@@ -34273,7 +34273,7 @@ pub mod objects {
     /// 0x4717:01, holding registers 10007 to 10008, low word first, UNSIGNED32, ro.
     /// Accessor: [`rindsn`](super::VectorStep::rindsn).
     ///
-    /// Serial number, a copy of Rserial
+    /// Serial number, a copy of Rserial.
     ///
     /// Chapter Various. Manual, line 2792: Serial number.
     ///
@@ -34290,7 +34290,7 @@ pub mod objects {
     /// 0x202A:01, holding registers 42 to 43, low word first, UNSIGNED32, ro, default 0x499602D2, range 1234567890 to 1234567890.
     /// Accessor: [`rtestintmot`](super::VectorStep::rtestintmot).
     ///
-    /// Constant that shows, when read as 32 bits, whether the words come in Intel or Motorola order
+    /// Constant that shows, when read as 32 bits, whether the words come in Intel or Motorola order.
     ///
     /// Chapter Fieldbus. Manual, line 2795: Registro per controllo modalita' di comunicazione.
     ///
@@ -34316,7 +34316,7 @@ pub mod objects {
     /// 0x20A6:01, holding register 166, UNSIGNED16, ro.
     /// Accessor: [`rprofists`](super::VectorStep::rprofists). Values: [`ProfibusState`](super::types::ProfibusState).
     ///
-    /// State of the Profibus communication
+    /// State of the Profibus communication.
     ///
     /// Chapter Fieldbus. Manual, line 2796: Stato della comunicazione Profibus.
     ///
@@ -34333,7 +34333,7 @@ pub mod objects {
     /// 0x20A7:01, holding register 167, UNSIGNED16, rw, range 0 to 11.
     /// Accessor: [`rprofibaud`](super::VectorStep::rprofibaud). Values: [`ProfibusBitRate`](super::types::ProfibusBitRate).
     ///
-    /// Bit rate of Profibus
+    /// Bit rate of Profibus.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -34354,7 +34354,7 @@ pub mod objects {
     /// 0x20A8:01, holding register 168, UNSIGNED16, rw, range 0 to 127.
     /// Accessor: [`rprofiaddr`](super::VectorStep::rprofiaddr).
     ///
-    /// Added to the Profibus address set by hardware
+    /// Added to the Profibus address set by hardware.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -34373,7 +34373,7 @@ pub mod objects {
     /// 0x20A9:01, holding register 169, UNSIGNED16, rw, range 0 to 8.
     /// Accessor: [`rcanbaud`](super::VectorStep::rcanbaud). Values: [`CanBaudRate`](super::types::CanBaudRate).
     ///
-    /// Bit rate of CAN
+    /// Bit rate of CAN.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -34394,7 +34394,7 @@ pub mod objects {
     /// 0x20AA:01, holding register 170, UNSIGNED16, rw, range 0 to 127.
     /// Accessor: [`rcanaddr`](super::VectorStep::rcanaddr).
     ///
-    /// Added to the CAN address set by hardware
+    /// Added to the CAN address set by hardware.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -34413,7 +34413,7 @@ pub mod objects {
     /// 0x20AB:01, holding registers 171 to 172, low word first, UNSIGNED32, ro.
     /// Accessor: [`rcantx`](super::VectorStep::rcantx).
     ///
-    /// Number of CAN messages sent
+    /// Number of CAN messages sent.
     ///
     /// Chapter Fieldbus. Manual, line 2801: Numero messaggi trasmessi in Can.
     pub const RCANTX: ReadOnly<u32> = ReadOnlyU32::register(
@@ -34428,7 +34428,7 @@ pub mod objects {
     /// 0x20AD:01, holding registers 173 to 174, low word first, UNSIGNED32, ro.
     /// Accessor: [`rcanrx`](super::VectorStep::rcanrx).
     ///
-    /// Number of CAN messages received
+    /// Number of CAN messages received.
     ///
     /// Chapter Fieldbus. Manual, line 2802: Numero messaggi ricevuti in Can.
     pub const RCANRX: ReadOnly<u32> = ReadOnlyU32::register(
@@ -34443,7 +34443,7 @@ pub mod objects {
     /// 0x20AF:01, holding register 175, UNSIGNED16, ro.
     /// Accessor: [`rcanovr`](super::VectorStep::rcanovr).
     ///
-    /// Number of CAN overruns
+    /// Number of CAN overruns.
     ///
     /// Chapter Fieldbus. Manual, line 2803: Numero errori overrun in Can.
     pub const RCANOVR: ReadOnly<u16> = ReadOnlyU16::register(
@@ -34458,7 +34458,7 @@ pub mod objects {
     /// 0x20B0:01, holding register 176, UNSIGNED16, ro.
     /// Accessor: [`rcanerr`](super::VectorStep::rcanerr).
     ///
-    /// Number of CAN errors
+    /// Number of CAN errors.
     ///
     /// Chapter Fieldbus. Manual, line 2804: Numero errori in Can.
     pub const RCANERR: ReadOnly<u16> = ReadOnlyU16::register(
@@ -34473,7 +34473,7 @@ pub mod objects {
     /// 0x20B1:01, holding register 177, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rcanidx`](super::VectorStep::rcanidx).
     ///
-    /// Index of the CANopen object that Rcancmd reads or writes
+    /// Index of the CANopen object that Rcancmd reads or writes.
     ///
     /// Chapter Fieldbus. Manual, line 2805: Index oggetto CanOpen da leggere o scrivere.
     pub const RCANIDX: ReadWrite<u16> = ReadWriteU16::register(
@@ -34488,7 +34488,7 @@ pub mod objects {
     /// 0x20B2:01, holding register 178, UNSIGNED16, rw, range 0 to 255.
     /// Accessor: [`rcansub`](super::VectorStep::rcansub).
     ///
-    /// Sub-index of the CANopen object that Rcancmd reads or writes
+    /// Sub-index of the CANopen object that Rcancmd reads or writes.
     ///
     /// Chapter Fieldbus. Manual, line 2806: Subindex oggetto CanOpen da leggere o scrivere.
     pub const RCANSUB: ReadWrite<u16> = ReadWriteU16::register_within(
@@ -34505,7 +34505,7 @@ pub mod objects {
     /// 0x20B3:01, holding registers 179 to 180, low word first, UNSIGNED32, rw.
     /// Accessor: [`rcannew`](super::VectorStep::rcannew).
     ///
-    /// Value that Rcancmd writes to the CANopen object
+    /// Value that Rcancmd writes to the CANopen object.
     ///
     /// Chapter Fieldbus. Manual, line 2807: Nuovo valore da scrivere in oggetto CanOpen.
     pub const RCANNEW: ReadWrite<u32> = ReadWriteU32::register(
@@ -34520,7 +34520,7 @@ pub mod objects {
     /// 0x20B5:01, holding register 181, UNSIGNED16, rw, range 0 to 2.
     /// Accessor: [`rcancmd`](super::VectorStep::rcancmd). Values: [`CanObjectCommand`](super::types::CanObjectCommand).
     ///
-    /// Writes Rcannew to the object of Rcanidx and Rcansub, or reads that object into Rcanact
+    /// Writes Rcannew to the object of Rcanidx and Rcansub, or reads that object into Rcanact.
     ///
     /// reads or writes the CANopen object that Rcanidx and Rcansub choose.
     ///
@@ -34543,7 +34543,7 @@ pub mod objects {
     /// 0x20B6:01, holding registers 182 to 183, low word first, UNSIGNED32, ro.
     /// Accessor: [`rcanact`](super::VectorStep::rcanact).
     ///
-    /// Value that Rcancmd has read from the CANopen object
+    /// Value that Rcancmd has read from the CANopen object.
     ///
     /// Chapter Fieldbus. Manual, line 2811: Valore letto da oggetto CanOpen.
     pub const RCANACT: ReadOnly<u32> = ReadOnlyU32::register(
@@ -34558,7 +34558,7 @@ pub mod objects {
     /// 0x20B8:01, holding register 184, UNSIGNED16, ro.
     /// Accessor: [`rcansts`](super::VectorStep::rcansts). Values: [`CanopenStatus`](super::types::CanopenStatus).
     ///
-    /// State of CANopen, as its red and green LED show it
+    /// State of CANopen, as its red and green LED show it.
     ///
     /// Chapter Fieldbus. Manual, line 2812, 3323: CanOpen status.
     ///
@@ -34577,7 +34577,7 @@ pub mod objects {
     /// 0x20B9:01, holding register 185, UNSIGNED16, rw, range 0 to 7.
     /// Accessor: [`rserbaud`](super::VectorStep::rserbaud). Values: [`SerialBaudRate`](super::types::SerialBaudRate).
     ///
-    /// Bit rate of the serial port
+    /// Bit rate of the serial port.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -34596,7 +34596,7 @@ pub mod objects {
     /// 0x20BA:01, holding register 186, UNSIGNED16, rw, range 0 to 5.
     /// Accessor: [`rserpar`](super::VectorStep::rserpar). Values: [`SerialFormat`](super::types::SerialFormat).
     ///
-    /// Parity and stop bits of the serial port
+    /// Parity and stop bits of the serial port.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -34615,7 +34615,7 @@ pub mod objects {
     /// 0x20BB:01, holding register 187, UNSIGNED16, rw, range 0 to 16, in ms.
     /// Accessor: [`rserdly`](super::VectorStep::rserdly).
     ///
-    /// Delay before the drive replies on the serial port
+    /// Delay before the drive replies on the serial port.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -34634,7 +34634,7 @@ pub mod objects {
     /// 0x20BC:01, holding register 188, UNSIGNED16, rw, range 0 to 31.
     /// Accessor: [`rseraddr`](super::VectorStep::rseraddr).
     ///
-    /// Added to the serial address set by hardware
+    /// Added to the serial address set by hardware.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -34653,7 +34653,7 @@ pub mod objects {
     /// 0x20BD:01, holding register 189, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rintmot`](super::VectorStep::rintmot). Values: [`WordOrder`](super::types::WordOrder).
     ///
-    /// Order of the words of 32-bit registers on the serial port, RS232 or RS485
+    /// Order of the words of 32-bit registers on the serial port, RS232 or RS485.
     ///
     /// Kept over power-off once 129 was given. changes the word order of 32-bit registers on the serial port.
     ///
@@ -34674,7 +34674,7 @@ pub mod objects {
     /// 0x212E:01, holding register 302, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rfinsenable`](super::VectorStep::rfinsenable).
     ///
-    /// Enables Omron FINS/TCP on drives that communicate by Ethernet
+    /// Enables Omron FINS/TCP on drives that communicate by Ethernet.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -34695,7 +34695,7 @@ pub mod objects {
     /// 0x212F:01, holding register 303, UNSIGNED16, rw, range 1 to 254.
     /// Accessor: [`rfinsnode`](super::VectorStep::rfinsnode).
     ///
-    /// Station number with Omron FINS/TCP
+    /// Station number with Omron FINS/TCP.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -34714,7 +34714,7 @@ pub mod objects {
     /// 0x2130:01, holding register 304, UNSIGNED16, rw, default 502, range 0 to 65535.
     /// Accessor: [`rmdbport`](super::VectorStep::rmdbport).
     ///
-    /// TCP port of Modbus/TCP
+    /// TCP port of Modbus/TCP.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -34732,7 +34732,7 @@ pub mod objects {
     /// 0x2131:01, holding register 305, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rethintmot`](super::VectorStep::rethintmot). Values: [`WordOrder`](super::types::WordOrder).
     ///
-    /// Order of the words of 32-bit registers with Modbus/TCP and other Ethernet protocols
+    /// Order of the words of 32-bit registers with Modbus/TCP and other Ethernet protocols.
     ///
     /// Kept over power-off once 129 was given. changes the word order of 32-bit registers on Modbus/TCP and other Ethernet protocols.
     ///
@@ -34753,7 +34753,7 @@ pub mod objects {
     /// 0x2134:01, holding register 308, UNSIGNED16, rw, default 0, range 0 to 10000, in ms.
     /// Accessor: [`rextmdbtime`](super::VectorStep::rextmdbtime).
     ///
-    /// Additional time between Modbus RTU messages, for slow remote connections
+    /// Additional time between Modbus RTU messages, for slow remote connections.
     ///
     /// Kept over power-off once 129 was given. any value but 0 slows the communication.
     ///
@@ -34771,7 +34771,7 @@ pub mod objects {
     /// 0x2161:01, holding register 353, UNSIGNED16, rw.
     /// Accessor: [`rstatuscan`](super::VectorStep::rstatuscan).
     ///
-    /// Errors of agreement between controlword and statusword on CANopen
+    /// Errors of agreement between controlword and statusword on CANopen.
     ///
     /// Chapter Fieldbus. Manual, line 2825: Errori congruenza controlword-statusword in CanOpen.
     pub const RSTATUSCAN: ReadWrite<u16> = ReadWriteU16::register(
@@ -34786,7 +34786,7 @@ pub mod objects {
     /// 0x2162:01, holding register 354, INTEGER16, rw.
     /// Accessor: [`rcanmodeofoperation`](super::VectorStep::rcanmodeofoperation). Values: [`ModesOfOperationI16`](super::types::ModesOfOperationI16).
     ///
-    /// Copy of object 0x6060, modes of operation
+    /// Copy of object 0x6060, modes of operation.
     ///
     /// Chapter Fieldbus. Manual, line 2826, 1456: Copia dell'oggetto 0x6060.
     ///
@@ -34805,7 +34805,7 @@ pub mod objects {
     /// 0x2163:01, holding register 355, UNSIGNED16, rw.
     /// Accessor: [`rswrevariantais`](super::VectorStep::rswrevariantais).
     ///
-    /// Firmware version of the Antaios chip; from firmware 6 see Rswrevariantaios
+    /// Firmware version of the Antaios chip; from firmware 6 see Rswrevariantaios.
     ///
     /// Before firmware 6. Replaced by [Rswrevariantaios](RSWREVARIANTAIOS).
     ///
@@ -34824,7 +34824,7 @@ pub mod objects {
     /// 0x2164:01, holding register 356, UNSIGNED16, rw.
     /// Accessor: [`rhwrevariantais`](super::VectorStep::rhwrevariantais).
     ///
-    /// Hardware version of the Antaios chip; from firmware 6 see Rhwrevariantaios
+    /// Hardware version of the Antaios chip; from firmware 6 see Rhwrevariantaios.
     ///
     /// Before firmware 6. Replaced by [Rhwrevariantaios](RHWREVARIANTAIOS).
     ///
@@ -34843,7 +34843,7 @@ pub mod objects {
     /// 0x2165:01, holding register 357, UNSIGNED16, rw.
     /// Accessor: [`rethercatid`](super::VectorStep::rethercatid).
     ///
-    /// Explicit address of the drive on EtherCAT
+    /// Explicit address of the drive on EtherCAT.
     ///
     /// Chapter Fieldbus. Manual, line 2829: Explicite address ID Ethercat.
     ///
@@ -34860,7 +34860,7 @@ pub mod objects {
     /// 0x2166:01, holding register 358, INTEGER16, rw, range \-1 to 8.
     /// Accessor: [`rstrmodeofoperation`](super::VectorStep::rstrmodeofoperation). Values: [`ModesOfOperationI16`](super::types::ModesOfOperationI16).
     ///
-    /// Value that object 0x6060 has after power-on, on CANopen and EtherCAT
+    /// Value that object 0x6060 has after power-on, on CANopen and EtherCAT.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -34886,7 +34886,7 @@ pub mod objects {
     /// 0x216D:01, holding register 365, UNSIGNED16, rw.
     /// Accessor: [`rds402compatibility`](super::VectorStep::rds402compatibility). Values: [`Ds402Compatibility`](super::types::Ds402Compatibility).
     ///
-    /// Adapts the CiA 402 state machine to masters that expect something else
+    /// Adapts the CiA 402 state machine to masters that expect something else.
     ///
     /// Chapter Fieldbus. Manual, line 2831: Bit per adattare lo stack DS402.
     ///
@@ -34905,7 +34905,7 @@ pub mod objects {
     /// 0x2203:01, holding register 515, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethlocipaddr32`](super::VectorStep::rethlocipaddr32).
     ///
-    /// Bytes 3 and 2 of the drive's own IP address
+    /// Bytes 3 and 2 of the drive's own IP address.
     ///
     /// Kept over power-off once 129 was given. Takes effect at: Rloadsav command 139.
     ///
@@ -34924,7 +34924,7 @@ pub mod objects {
     /// 0x2204:01, holding register 516, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethlocipaddr10`](super::VectorStep::rethlocipaddr10).
     ///
-    /// Bytes 1 and 0 of the drive's own IP address
+    /// Bytes 1 and 0 of the drive's own IP address.
     ///
     /// Kept over power-off once 129 was given. Takes effect at: Rloadsav command 139.
     ///
@@ -34941,7 +34941,7 @@ pub mod objects {
     /// 0x2205:01, holding register 517, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethsubnet32`](super::VectorStep::rethsubnet32).
     ///
-    /// Bytes 3 and 2 of the subnet mask
+    /// Bytes 3 and 2 of the subnet mask.
     ///
     /// Kept over power-off once 129 was given. Takes effect at: Rloadsav command 139.
     ///
@@ -34958,7 +34958,7 @@ pub mod objects {
     /// 0x2206:01, holding register 518, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethsubnet10`](super::VectorStep::rethsubnet10).
     ///
-    /// Bytes 1 and 0 of the subnet mask
+    /// Bytes 1 and 0 of the subnet mask.
     ///
     /// Kept over power-off once 129 was given. Takes effect at: Rloadsav command 139.
     ///
@@ -34975,7 +34975,7 @@ pub mod objects {
     /// 0x2207:01, holding register 519, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethgwaddr32`](super::VectorStep::rethgwaddr32).
     ///
-    /// Bytes 3 and 2 of the gateway's IP address
+    /// Bytes 3 and 2 of the gateway's IP address.
     ///
     /// Kept over power-off once 129 was given. Takes effect at: Rloadsav command 139.
     ///
@@ -34992,7 +34992,7 @@ pub mod objects {
     /// 0x2208:01, holding register 520, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethgwaddr10`](super::VectorStep::rethgwaddr10).
     ///
-    /// Bytes 1 and 0 of the gateway's IP address
+    /// Bytes 1 and 0 of the gateway's IP address.
     ///
     /// Kept over power-off once 129 was given. Takes effect at: Rloadsav command 139.
     ///
@@ -35009,7 +35009,7 @@ pub mod objects {
     /// 0x2209:01, holding register 521, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethmacaddr054`](super::VectorStep::rethmacaddr054).
     ///
-    /// Bytes 5 and 4 of MAC address 0; write this one first of the three, command 140 saves them
+    /// Bytes 5 and 4 of MAC address 0; write this one first of the three, command 140 saves them.
     ///
     /// Kept over power-off once 140 was given.
     ///
@@ -35030,7 +35030,7 @@ pub mod objects {
     /// 0x220A:01, holding register 522, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethmacaddr032`](super::VectorStep::rethmacaddr032).
     ///
-    /// Bytes 3 and 2 of MAC address 0; write this one second of the three, command 140 saves them
+    /// Bytes 3 and 2 of MAC address 0; write this one second of the three, command 140 saves them.
     ///
     /// Kept over power-off once 140 was given.
     ///
@@ -35049,7 +35049,7 @@ pub mod objects {
     /// 0x220B:01, holding register 523, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethmacaddr010`](super::VectorStep::rethmacaddr010).
     ///
-    /// Bytes 1 and 0 of MAC address 0; write this one last, then at once Rloadsav command 140
+    /// Bytes 1 and 0 of MAC address 0; write this one last, then at once Rloadsav command 140.
     ///
     /// Kept over power-off once 140 was given.
     ///
@@ -35068,7 +35068,7 @@ pub mod objects {
     /// 0x220C:01, holding register 524, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethmacaddr154`](super::VectorStep::rethmacaddr154).
     ///
-    /// Bytes 5 and 4 of MAC address 1, of PROFINET port 1
+    /// Bytes 5 and 4 of MAC address 1, of PROFINET port 1.
     ///
     /// Chapter Fieldbus. Manual, line 2841: Byte 5-4 MAC address 1 ethernet.
     pub const RETHMACADDR154: ReadWrite<u16> = ReadWriteU16::register(
@@ -35083,7 +35083,7 @@ pub mod objects {
     /// 0x220D:01, holding register 525, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethmacaddr132`](super::VectorStep::rethmacaddr132).
     ///
-    /// Bytes 3 and 2 of MAC address 1, of PROFINET port 1
+    /// Bytes 3 and 2 of MAC address 1, of PROFINET port 1.
     ///
     /// Chapter Fieldbus. Manual, line 2842: Byte 3-2 MAC address 1 ethernet.
     pub const RETHMACADDR132: ReadWrite<u16> = ReadWriteU16::register(
@@ -35098,7 +35098,7 @@ pub mod objects {
     /// 0x220E:01, holding register 526, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethmacaddr110`](super::VectorStep::rethmacaddr110).
     ///
-    /// Bytes 1 and 0 of MAC address 1, of PROFINET port 1
+    /// Bytes 1 and 0 of MAC address 1, of PROFINET port 1.
     ///
     /// Chapter Fieldbus. Manual, line 2843: Byte 1-0 MAC address 1 ethernet.
     pub const RETHMACADDR110: ReadWrite<u16> = ReadWriteU16::register(
@@ -35113,7 +35113,7 @@ pub mod objects {
     /// 0x220F:01, holding register 527, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethmacaddr254`](super::VectorStep::rethmacaddr254).
     ///
-    /// Bytes 5 and 4 of MAC address 2, of PROFINET port 2
+    /// Bytes 5 and 4 of MAC address 2, of PROFINET port 2.
     ///
     /// Chapter Fieldbus. Manual, line 2844: Byte 5-4 MAC address 2 ethernet.
     pub const RETHMACADDR254: ReadWrite<u16> = ReadWriteU16::register(
@@ -35128,7 +35128,7 @@ pub mod objects {
     /// 0x2210:01, holding register 528, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethmacaddr232`](super::VectorStep::rethmacaddr232).
     ///
-    /// Bytes 3 and 2 of MAC address 2, of PROFINET port 2
+    /// Bytes 3 and 2 of MAC address 2, of PROFINET port 2.
     ///
     /// Chapter Fieldbus. Manual, line 2845: Byte 3-2 MAC address 2 ethernet.
     pub const RETHMACADDR232: ReadWrite<u16> = ReadWriteU16::register(
@@ -35143,7 +35143,7 @@ pub mod objects {
     /// 0x2211:01, holding register 529, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethmacaddr210`](super::VectorStep::rethmacaddr210).
     ///
-    /// Bytes 1 and 0 of MAC address 2, of PROFINET port 2
+    /// Bytes 1 and 0 of MAC address 2, of PROFINET port 2.
     ///
     /// Chapter Fieldbus. Manual, line 2846: Byte 1-0 MAC address 2 ethernet.
     pub const RETHMACADDR210: ReadWrite<u16> = ReadWriteU16::register(
@@ -35158,7 +35158,7 @@ pub mod objects {
     /// 0x2220:01, holding register 544, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rethprotsock1`](super::VectorStep::rethprotsock1). Values: [`SocketProtocol`](super::types::SocketProtocol).
     ///
-    /// Protocol of socket 1
+    /// Protocol of socket 1.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35177,7 +35177,7 @@ pub mod objects {
     /// 0x2221:01, holding register 545, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rethprotsock2`](super::VectorStep::rethprotsock2). Values: [`SocketProtocol`](super::types::SocketProtocol).
     ///
-    /// Protocol of socket 2
+    /// Protocol of socket 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35196,7 +35196,7 @@ pub mod objects {
     /// 0x2222:01, holding register 546, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rethprotsock3`](super::VectorStep::rethprotsock3). Values: [`SocketProtocol`](super::types::SocketProtocol).
     ///
-    /// Protocol of socket 3
+    /// Protocol of socket 3.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35215,7 +35215,7 @@ pub mod objects {
     /// 0x2223:01, holding register 547, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rethprotsock4`](super::VectorStep::rethprotsock4).
     ///
-    /// Reserved; by its name the protocol of socket 4
+    /// Reserved; by its name the protocol of socket 4.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35236,7 +35236,7 @@ pub mod objects {
     /// 0x2224:01, holding register 548, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rethprotsock5`](super::VectorStep::rethprotsock5).
     ///
-    /// Reserved; by its name the protocol of socket 5
+    /// Reserved; by its name the protocol of socket 5.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35257,7 +35257,7 @@ pub mod objects {
     /// 0x2225:01, holding register 549, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rethprotsock6`](super::VectorStep::rethprotsock6).
     ///
-    /// Reserved; by its name the protocol of socket 6
+    /// Reserved; by its name the protocol of socket 6.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35278,7 +35278,7 @@ pub mod objects {
     /// 0x2226:01, holding register 550, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rethprotsock7`](super::VectorStep::rethprotsock7).
     ///
-    /// Reserved; by its name the protocol of socket 7
+    /// Reserved; by its name the protocol of socket 7.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35299,7 +35299,7 @@ pub mod objects {
     /// 0x2227:01, holding register 551, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethportsock1`](super::VectorStep::rethportsock1).
     ///
-    /// Port number of socket 1
+    /// Port number of socket 1.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35316,7 +35316,7 @@ pub mod objects {
     /// 0x2228:01, holding register 552, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethportsock2`](super::VectorStep::rethportsock2).
     ///
-    /// Port number of socket 2
+    /// Port number of socket 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35333,7 +35333,7 @@ pub mod objects {
     /// 0x2229:01, holding register 553, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethportsock3`](super::VectorStep::rethportsock3).
     ///
-    /// Port number of socket 3
+    /// Port number of socket 3.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35350,7 +35350,7 @@ pub mod objects {
     /// 0x222A:01, holding register 554, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethportsock4`](super::VectorStep::rethportsock4).
     ///
-    /// Port number of socket 4
+    /// Port number of socket 4.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35369,7 +35369,7 @@ pub mod objects {
     /// 0x222B:01, holding register 555, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethportsock5`](super::VectorStep::rethportsock5).
     ///
-    /// Port number of socket 5
+    /// Port number of socket 5.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35388,7 +35388,7 @@ pub mod objects {
     /// 0x222C:01, holding register 556, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethportsock6`](super::VectorStep::rethportsock6).
     ///
-    /// Port number of socket 6
+    /// Port number of socket 6.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35407,7 +35407,7 @@ pub mod objects {
     /// 0x222D:01, holding register 557, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rethportsock7`](super::VectorStep::rethportsock7).
     ///
-    /// Port number of socket 7
+    /// Port number of socket 7.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35426,7 +35426,7 @@ pub mod objects {
     /// 0x222E:01, holding register 558, UNSIGNED16, rw, range 0 to 65535, in s.
     /// Accessor: [`rethcptimeout`](super::VectorStep::rethcptimeout).
     ///
-    /// Time-out of a TCP socket without activity; 0 switches it off
+    /// Time-out of a TCP socket without activity; 0 switches it off.
     ///
     /// 0 means: no time-out.
     ///
@@ -35449,7 +35449,7 @@ pub mod objects {
     /// 0x4760:01, holding register 10080, UNSIGNED16, rw.
     /// Accessor: [`rprofinetnameptr`](super::VectorStep::rprofinetnameptr).
     ///
-    /// Position in the PROFINET device name of the character that Rprofinetnamechr holds
+    /// Position in the PROFINET device name of the character that Rprofinetnamechr holds.
     ///
     /// Chapter Fieldbus. Manual, line 2864: Puntatore alla stringa "Nome dispositivo PROFINET".
     pub const RPROFINETNAMEPTR: ReadWrite<u16> = ReadWriteU16::register(
@@ -35464,7 +35464,7 @@ pub mod objects {
     /// 0x4761:01, holding register 10081, UNSIGNED16, rw.
     /// Accessor: [`rprofinetnamechr`](super::VectorStep::rprofinetnamechr).
     ///
-    /// Character of the PROFINET device name at the position in Rprofinetnameptr
+    /// Character of the PROFINET device name at the position in Rprofinetnameptr.
     ///
     /// Chapter Fieldbus. Manual, line 2865: Carattere puntato della stringa.
     pub const RPROFINETNAMECHR: ReadWrite<u16> = ReadWriteU16::register(
@@ -35479,7 +35479,7 @@ pub mod objects {
     /// 0x4762:01, holding register 10082, unknown type, rw.
     /// Accessor: [`rprofinetname`](super::VectorStep::rprofinetname).
     ///
-    /// PROFINET device name, for a tool; it can't be sent to the drive as a whole
+    /// PROFINET device name, for a tool; it can't be sent to the drive as a whole.
     ///
     /// Chapter Fieldbus. Manual, line 2866: Stringa nome PROFINET.
     ///
@@ -35496,7 +35496,7 @@ pub mod objects {
     /// 0x479C:01, holding register 10140, UNSIGNED16, rw.
     /// Accessor: [`rswrevariantaios`](super::VectorStep::rswrevariantaios).
     ///
-    /// Firmware version of the Antaios chip
+    /// Firmware version of the Antaios chip.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35515,7 +35515,7 @@ pub mod objects {
     /// 0x479D:01, holding register 10141, UNSIGNED16, rw.
     /// Accessor: [`rhwrevariantaios`](super::VectorStep::rhwrevariantaios).
     ///
-    /// Hardware version of the Antaios chip
+    /// Hardware version of the Antaios chip.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35534,7 +35534,7 @@ pub mod objects {
     /// 0x479E:01, holding register 10142, UNSIGNED16, rw.
     /// Accessor: [`rmodelantaios`](super::VectorStep::rmodelantaios).
     ///
-    /// Model of the expansion card, by the Antaios firmware; Rloadsav command 12 reads it from the card
+    /// Model of the expansion card, by the Antaios firmware; Rloadsav command 12 reads it from the card.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35555,7 +35555,7 @@ pub mod objects {
     /// 0x219D:01, holding register 413, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rmodulcmd`](super::VectorStep::rmodulcmd). Values: [`ModuloCommand`](super::types::ModuloCommand).
     ///
-    /// Which positions wrap around, and in which direction the axis goes to a target
+    /// Which positions wrap around, and in which direction the axis goes to a target.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35576,7 +35576,7 @@ pub mod objects {
     /// 0x219E:01, holding registers 414 to 415, UNSIGNED32, rw, range 1 to 2147483647, in step.
     /// Accessor: [`rmodulpos`](super::VectorStep::rmodulpos).
     ///
-    /// Highest position of the positioner before it rolls over to 0
+    /// Highest position of the positioner before it rolls over to 0.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35595,7 +35595,7 @@ pub mod objects {
     /// 0x21A0:01, holding registers 416 to 417, UNSIGNED32, rw, range 1 to 2147483647, in count.
     /// Accessor: [`rmodulmotenc`](super::VectorStep::rmodulmotenc).
     ///
-    /// Highest count of encoder 1 before it rolls over to 0
+    /// Highest count of encoder 1 before it rolls over to 0.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35614,7 +35614,7 @@ pub mod objects {
     /// 0x21A2:01, holding registers 418 to 419, UNSIGNED32, rw, range 1 to 2147483647, in count.
     /// Accessor: [`rmodulextenc`](super::VectorStep::rmodulextenc).
     ///
-    /// Highest count of encoder 2 before it rolls over to 0
+    /// Highest count of encoder 2 before it rolls over to 0.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35633,7 +35633,7 @@ pub mod objects {
     /// 0x21A4:01, holding register 420, UNSIGNED16, rw, mappable into RPDOs.
     /// Accessor: [`rlineupcmd`](super::VectorStep::rlineupcmd). Values: [`LineUpCommand`](super::types::LineUpCommand).
     ///
-    /// Starts the line-up of the chosen positions; all wanted bits have to be written together
+    /// Starts the line-up of the chosen positions; all wanted bits have to be written together.
     ///
     /// The device clears it by itself. copies Rlineuppos to Rposactreq, Rlineupmotenc to Rmotenc and Rlineupextenc to Rextenc, as chosen by the bits. blocks the interrupts of the DSP meanwhile, so that all chosen positions change at once.
     ///
@@ -35654,7 +35654,7 @@ pub mod objects {
     /// 0x21A5:01, holding registers 421 to 422, INTEGER32, rw, in step.
     /// Accessor: [`rlineuppos`](super::VectorStep::rlineuppos).
     ///
-    /// Position that a line-up puts into Rposactreq; set it before the command
+    /// Position that a line-up puts into Rposactreq; set it before the command.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35673,7 +35673,7 @@ pub mod objects {
     /// 0x21A7:01, holding registers 423 to 424, INTEGER32, rw, in count.
     /// Accessor: [`rlineupmotenc`](super::VectorStep::rlineupmotenc).
     ///
-    /// Count that a line-up gives to encoder 1; set it before the command
+    /// Count that a line-up gives to encoder 1; set it before the command.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35692,7 +35692,7 @@ pub mod objects {
     /// 0x21A9:01, holding registers 425 to 426, INTEGER32, rw, in count.
     /// Accessor: [`rlineupextenc`](super::VectorStep::rlineupextenc).
     ///
-    /// Count that a line-up gives to encoder 2; set it before the command
+    /// Count that a line-up gives to encoder 2; set it before the command.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35711,7 +35711,7 @@ pub mod objects {
     /// 0x21AB:01, holding register 427, UNSIGNED16, rw, mappable into RPDOs.
     /// Accessor: [`rlineupdef`](super::VectorStep::rlineupdef). Values: [`LineUpDefinition`](super::types::LineUpDefinition).
     ///
-    /// Bits that are copied to Rlineupcmd when the digital line-up input is activated
+    /// Bits that are copied to Rlineupcmd when the digital line-up input is activated.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -35730,7 +35730,7 @@ pub mod objects {
     /// 0x214B:01, holding register 331, UNSIGNED16, rw, mappable into RPDOs, default 0, range 0 to 65535.
     /// Accessor: [`rtouchprobefunc`](super::VectorStep::rtouchprobefunc). Values: [`TouchProbeControl`](super::types::TouchProbeControl).
     ///
-    /// Control word of both touch probes; the same as object 0x60B8
+    /// Control word of both touch probes; the same as object 0x60B8.
     ///
     /// Kept over power-off once 129 was given. bits 3-2 and 11-10 can't be changed any more once bit 4 or bit 12 is set.
     ///
@@ -35760,7 +35760,7 @@ pub mod objects {
     /// 0x214C:01, holding register 332, UNSIGNED16, ro, mappable into TPDOs, default 0.
     /// Accessor: [`rtouchprobestatus`](super::VectorStep::rtouchprobestatus). Values: [`TouchProbeStatusBeforeV6`](super::types::TouchProbeStatusBeforeV6).
     ///
-    /// Status word of both touch probes; the same as object 0x60B9
+    /// Status word of both touch probes; the same as object 0x60B9.
     ///
     /// Before firmware 6. Replaced by [Rtouchprobestatus\_v6](RTOUCHPROBESTATUS_V6).
     ///
@@ -35782,7 +35782,7 @@ pub mod objects {
     /// 0x214D:01, holding registers 333 to 334, low word first, INTEGER32, ro, mappable into TPDOs, default 0.
     /// Accessor: [`rtouchprobepos1pos`](super::VectorStep::rtouchprobepos1pos).
     ///
-    /// Position of probe 1 latched at its positive edge; object 0x60BA
+    /// Position of probe 1 latched at its positive edge; object 0x60BA.
     ///
     /// Before firmware 6. Replaced by [Rtouchprobepos1pos\_v6](RTOUCHPROBEPOS1POS_V6).
     ///
@@ -35806,7 +35806,7 @@ pub mod objects {
     /// 0x214F:01, holding registers 335 to 336, low word first, INTEGER32, ro, mappable into TPDOs, default 0.
     /// Accessor: [`rtouchprobepos1neg`](super::VectorStep::rtouchprobepos1neg).
     ///
-    /// Position of probe 1 latched at its negative edge; object 0x60BB
+    /// Position of probe 1 latched at its negative edge; object 0x60BB.
     ///
     /// Before firmware 6. Replaced by [Rtouchprobepos1neg\_v6](RTOUCHPROBEPOS1NEG_V6).
     ///
@@ -35830,7 +35830,7 @@ pub mod objects {
     /// 0x2151:01, holding registers 337 to 338, low word first, INTEGER32, ro, mappable into TPDOs, default 0.
     /// Accessor: [`rtouchprobepos2pos`](super::VectorStep::rtouchprobepos2pos).
     ///
-    /// Position of probe 2 latched at its positive edge; object 0x60BC
+    /// Position of probe 2 latched at its positive edge; object 0x60BC.
     ///
     /// Before firmware 6. Replaced by [Rtouchprobe2pos](RTOUCHPROBE2POS).
     ///
@@ -35854,7 +35854,7 @@ pub mod objects {
     /// 0x2153:01, holding registers 339 to 340, low word first, INTEGER32, ro, mappable into TPDOs, default 0.
     /// Accessor: [`rtouchprobe2neg`](super::VectorStep::rtouchprobe2neg).
     ///
-    /// Position of probe 2 latched at its negative edge; object 0x60BD
+    /// Position of probe 2 latched at its negative edge; object 0x60BD.
     ///
     /// Before firmware 6. Replaced by [Rtouchprobe2neg\_v6](RTOUCHPROBE2NEG_V6).
     ///
@@ -35882,7 +35882,7 @@ pub mod objects {
     /// 0x2155:01, holding register 341, INTEGER16, rw, mappable into RPDOs, range \-21 to 6.
     /// Accessor: [`rtouchprobe1inpdef`](super::VectorStep::rtouchprobe1inpdef). Values: [`TouchProbeInput`](super::types::TouchProbeInput).
     ///
-    /// Signal that triggers touch probe 1
+    /// Signal that triggers touch probe 1.
     ///
     /// Before firmware 6. Replaced by [Rtouchprobe1inp](RTOUCHPROBE1INP).
     ///
@@ -35908,7 +35908,7 @@ pub mod objects {
     /// 0x2156:01, holding register 342, INTEGER16, rw, mappable into RPDOs.
     /// Accessor: [`rtouchprobe2inpdef`](super::VectorStep::rtouchprobe2inpdef). Values: [`TouchProbeInput`](super::types::TouchProbeInput).
     ///
-    /// Signal that triggers touch probe 2
+    /// Signal that triggers touch probe 2.
     ///
     /// Before firmware 6. Replaced by [Rtouchprobe2inp](RTOUCHPROBE2INP).
     ///
@@ -35929,7 +35929,7 @@ pub mod objects {
     /// 0x4764:01, holding register 10084, UNSIGNED16, rw, default 0, range 0 to 65535.
     /// Accessor: [`rtouchprobefunc_v6`](super::VectorStep::rtouchprobefunc_v6). Values: [`TouchProbeControl`](super::types::TouchProbeControl).
     ///
-    /// Control word of both touch probes from firmware 6; the same as object 0x60B8
+    /// Control word of both touch probes from firmware 6; the same as object 0x60B8.
     ///
     /// Kept over power-off once 129 was given. bits 3-2 and 11-10 can't be changed any more once bit 4 or bit 12 is set.
     ///
@@ -35961,7 +35961,7 @@ pub mod objects {
     /// 0x4765:01, holding register 10085, UNSIGNED16, ro, default 0, range 0 to 65535.
     /// Accessor: [`rtouchprobestatus_v6`](super::VectorStep::rtouchprobestatus_v6). Values: [`TouchProbeStatusV6`](super::types::TouchProbeStatusV6).
     ///
-    /// Status word of both touch probes from firmware 6; the same as object 0x60B9
+    /// Status word of both touch probes from firmware 6; the same as object 0x60B9.
     ///
     /// From firmware 6 on.
     ///
@@ -35985,7 +35985,7 @@ pub mod objects {
     /// 0x4766:01, holding registers 10086 to 10087, low word first, INTEGER32, ro, default 0.
     /// Accessor: [`rtouchprobepos1pos_v6`](super::VectorStep::rtouchprobepos1pos_v6).
     ///
-    /// Position of probe 1 latched at its positive edge; object 0x60BA
+    /// Position of probe 1 latched at its positive edge; object 0x60BA.
     ///
     /// From firmware 6 on.
     ///
@@ -36011,7 +36011,7 @@ pub mod objects {
     /// 0x4768:01, holding registers 10088 to 10089, low word first, INTEGER32, ro, default 0.
     /// Accessor: [`rtouchprobepos1neg_v6`](super::VectorStep::rtouchprobepos1neg_v6).
     ///
-    /// Position of probe 1 latched at its negative edge; object 0x60BB
+    /// Position of probe 1 latched at its negative edge; object 0x60BB.
     ///
     /// From firmware 6 on.
     ///
@@ -36037,7 +36037,7 @@ pub mod objects {
     /// 0x476A:01, holding register 10090, INTEGER16, rw, range \-21 to 6.
     /// Accessor: [`rtouchprobe1inp`](super::VectorStep::rtouchprobe1inp). Values: [`TouchProbeInput`](super::types::TouchProbeInput).
     ///
-    /// Signal that triggers touch probe 1, from firmware 6
+    /// Signal that triggers touch probe 1, from firmware 6.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36061,7 +36061,7 @@ pub mod objects {
     /// 0x476B:01, holding registers 10091 to 10092, low word first, UNSIGNED32, ro, in ns.
     /// Accessor: [`rtouchprobe1timestamppos`](super::VectorStep::rtouchprobe1timestamppos).
     ///
-    /// Time since the positive edge of probe 1, up to 4 s
+    /// Time since the positive edge of probe 1, up to 4 s.
     ///
     /// Chapter Touch probe. Manual, line 2970: Touch probe time stamp 1 positive value.
     pub const RTOUCHPROBE1TIMESTAMPPOS: ReadOnly<u32> = ReadOnlyU32::register_within(
@@ -36078,7 +36078,7 @@ pub mod objects {
     /// 0x476D:01, holding registers 10093 to 10094, low word first, UNSIGNED32, ro, in ns.
     /// Accessor: [`rtouchprobe1timestampneg`](super::VectorStep::rtouchprobe1timestampneg).
     ///
-    /// Time since the negative edge of probe 1, up to 4 s
+    /// Time since the negative edge of probe 1, up to 4 s.
     ///
     /// Chapter Touch probe. Manual, line 2971: Touch probe time stamp 1 negative value.
     pub const RTOUCHPROBE1TIMESTAMPNEG: ReadOnly<u32> = ReadOnlyU32::register_within(
@@ -36095,7 +36095,7 @@ pub mod objects {
     /// 0x476F:01, holding register 10095, UNSIGNED16, ro.
     /// Accessor: [`rtouchprobe1posedgecnt`](super::VectorStep::rtouchprobe1posedgecnt).
     ///
-    /// Number of positive edges of probe 1
+    /// Number of positive edges of probe 1.
     ///
     /// Chapter Touch probe. Manual, line 2972: Contatore numero di fronti positivi.
     pub const RTOUCHPROBE1POSEDGECNT: ReadOnly<u16> = ReadOnlyU16::register(
@@ -36110,7 +36110,7 @@ pub mod objects {
     /// 0x4770:01, holding register 10096, UNSIGNED16, ro.
     /// Accessor: [`rtouchprobe1negedgecnt`](super::VectorStep::rtouchprobe1negedgecnt).
     ///
-    /// Number of negative edges of probe 1
+    /// Number of negative edges of probe 1.
     ///
     /// Chapter Touch probe. Manual, line 2973: Touch probe negative edge counter.
     ///
@@ -36127,7 +36127,7 @@ pub mod objects {
     /// 0x4771:01, holding registers 10097 to 10098, low word first, INTEGER32, ro, default 0.
     /// Accessor: [`rtouchprobe2pos`](super::VectorStep::rtouchprobe2pos).
     ///
-    /// Position of probe 2 latched at its positive edge; object 0x60BC
+    /// Position of probe 2 latched at its positive edge; object 0x60BC.
     ///
     /// From firmware 6 on.
     ///
@@ -36153,7 +36153,7 @@ pub mod objects {
     /// 0x4773:01, holding registers 10099 to 10100, low word first, INTEGER32, ro, default 0.
     /// Accessor: [`rtouchprobe2neg_v6`](super::VectorStep::rtouchprobe2neg_v6).
     ///
-    /// Position of probe 2 latched at its negative edge; object 0x60BD
+    /// Position of probe 2 latched at its negative edge; object 0x60BD.
     ///
     /// From firmware 6 on.
     ///
@@ -36181,7 +36181,7 @@ pub mod objects {
     /// 0x4775:01, holding register 10101, INTEGER16, rw.
     /// Accessor: [`rtouchprobe2inp`](super::VectorStep::rtouchprobe2inp). Values: [`TouchProbeInput`](super::types::TouchProbeInput).
     ///
-    /// Signal that triggers touch probe 2, from firmware 6
+    /// Signal that triggers touch probe 2, from firmware 6.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36198,7 +36198,7 @@ pub mod objects {
     /// 0x4776:01, holding registers 10102 to 10103, low word first, UNSIGNED32, ro, in ns.
     /// Accessor: [`rtouchprobe2timestamppos`](super::VectorStep::rtouchprobe2timestamppos).
     ///
-    /// Time since the positive edge of probe 2, up to 4 s
+    /// Time since the positive edge of probe 2, up to 4 s.
     ///
     /// Chapter Touch probe. Manual, line 2979: Touch probe time stamp 2 positive value.
     pub const RTOUCHPROBE2TIMESTAMPPOS: ReadOnly<u32> = ReadOnlyU32::register_within(
@@ -36215,7 +36215,7 @@ pub mod objects {
     /// 0x4778:01, holding registers 10104 to 10105, low word first, UNSIGNED32, ro, in ns.
     /// Accessor: [`rtouchprobe2timestampneg`](super::VectorStep::rtouchprobe2timestampneg).
     ///
-    /// Time since the negative edge of probe 2, up to 4 s
+    /// Time since the negative edge of probe 2, up to 4 s.
     ///
     /// Chapter Touch probe. Manual, line 2980, 2981: Touch probe time stamp 2 negative value.
     ///
@@ -36234,7 +36234,7 @@ pub mod objects {
     /// 0x477A:01, holding register 10106, UNSIGNED16, ro.
     /// Accessor: [`rtouchprobe2posedgecnt`](super::VectorStep::rtouchprobe2posedgecnt).
     ///
-    /// Number of positive edges of probe 2
+    /// Number of positive edges of probe 2.
     ///
     /// Chapter Touch probe. Manual, line 2982: Contatore numero di fronti positivi.
     pub const RTOUCHPROBE2POSEDGECNT: ReadOnly<u16> = ReadOnlyU16::register(
@@ -36249,7 +36249,7 @@ pub mod objects {
     /// 0x477B:01, holding register 10107, UNSIGNED16, ro.
     /// Accessor: [`rtouchprobe2negedgecnt`](super::VectorStep::rtouchprobe2negedgecnt).
     ///
-    /// Number of negative edges of probe 2
+    /// Number of negative edges of probe 2.
     ///
     /// Chapter Touch probe. Manual, line 2983: Contatore numero di fronti negativi.
     pub const RTOUCHPROBE2NEGEDGECNT: ReadOnly<u16> = ReadOnlyU16::register(
@@ -36264,7 +36264,7 @@ pub mod objects {
     /// 0x477C:01, holding register 10108, UNSIGNED16, rw.
     /// Accessor: [`rtouchprobe1source`](super::VectorStep::rtouchprobe1source). Values: [`TouchProbeSource`](super::types::TouchProbeSource).
     ///
-    /// Position that touch probe 1 latches
+    /// Position that touch probe 1 latches.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36283,7 +36283,7 @@ pub mod objects {
     /// 0x477D:01, holding register 10109, UNSIGNED16, rw.
     /// Accessor: [`rtouchprobe2source`](super::VectorStep::rtouchprobe2source). Values: [`TouchProbeSource`](super::types::TouchProbeSource).
     ///
-    /// Position that touch probe 2 latches
+    /// Position that touch probe 2 latches.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36302,7 +36302,7 @@ pub mod objects {
     /// 0x2159:01, holding register 345, UNSIGNED16, rw, range 0 to 15.
     /// Accessor: [`rcapselinp`](super::VectorStep::rcapselinp).
     ///
-    /// Number of the digital input that the capture function watches
+    /// Number of the digital input that the capture function watches.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36321,7 +36321,7 @@ pub mod objects {
     /// 0x215A:01, holding registers 346 to 347, low word first, UNSIGNED32, rw, in 20 us.
     /// Accessor: [`rcaptvelmax`](super::VectorStep::rcaptvelmax).
     ///
-    /// Highest value that the capture timer can reach, in steps of 20 µs
+    /// Highest value that the capture timer can reach, in steps of 20 µs.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36340,7 +36340,7 @@ pub mod objects {
     /// 0x215C:01, holding registers 348 to 349, low word first, UNSIGNED32, rw, in 20 us.
     /// Accessor: [`rcaptval`](super::VectorStep::rcaptval).
     ///
-    /// Period between two edges of the captured input, in steps of 20 µs
+    /// Period between two edges of the captured input, in steps of 20 µs.
     ///
     /// Chapter Capture. Manual, line 3106: Periodo registrato tra due fronti.
     pub const RCAPTVAL: ReadWrite<rt::Scaled<u32, 20>> = ReadWriteU32Times20Per1::register_within(
@@ -36357,7 +36357,7 @@ pub mod objects {
     /// 0x215E:01, holding register 350, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rcaptcnt`](super::VectorStep::rcaptcnt).
     ///
-    /// Pulses counted on the captured input; after 65535 it begins again at 0
+    /// Pulses counted on the captured input; after 65535 it begins again at 0.
     ///
     /// Chapter Capture. Manual, line 3107: Numero di impulsi arrivati.
     pub const RCAPTCNT: ReadWrite<u16> = ReadWriteU16::register(
@@ -36372,7 +36372,7 @@ pub mod objects {
     /// 0x217C:01, holding register 380, UNSIGNED16, rw, range 1 to 32767, in count.
     /// Accessor: [`rcamstpulse`](super::VectorStep::rcamstpulse).
     ///
-    /// Counts per revolution of the master encoder, for cams of type 1 and 2
+    /// Counts per revolution of the master encoder, for cams of type 1 and 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36391,7 +36391,7 @@ pub mod objects {
     /// 0x217D:01, holding register 381, UNSIGNED16, rw, range 1 to 32767, in count/s.
     /// Accessor: [`rcamstmaxfrq`](super::VectorStep::rcamstmaxfrq).
     ///
-    /// Highest counts per second of the master encoder, for cams of type 2
+    /// Highest counts per second of the master encoder, for cams of type 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36410,7 +36410,7 @@ pub mod objects {
     /// 0x217E:01, holding register 382, UNSIGNED16, rw, mappable into TPDOs, range 0 to 63.
     /// Accessor: [`rcamstrtphase`](super::VectorStep::rcamstrtphase).
     ///
-    /// Number of the task that holds the first phase, for cams of type 1 and 2
+    /// Number of the task that holds the first phase, for cams of type 1 and 2.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36429,7 +36429,7 @@ pub mod objects {
     /// 0x217F:01, holding register 383, UNSIGNED16, ro, mappable into TPDOs, in count.
     /// Accessor: [`rcamstposact`](super::VectorStep::rcamstposact).
     ///
-    /// Position of the master encoder now, for cams of type 1 and 2
+    /// Position of the master encoder now, for cams of type 1 and 2.
     ///
     /// Chapter Cam. Manual, line 3115: Posizione attuale encoder master.
     pub const RCAMSTPOSACT: ReadOnly<u16> = ReadOnlyU16::register_within(
@@ -36446,7 +36446,7 @@ pub mod objects {
     /// 0x2180:01, holding register 384, UNSIGNED16, ro.
     /// Accessor: [`rcamphaseact`](super::VectorStep::rcamphaseact).
     ///
-    /// Phase (task) that runs now, for cams of type 1 and 2
+    /// Phase (task) that runs now, for cams of type 1 and 2.
     ///
     /// Chapter Cam. Manual, line 3116: Fase attuale (task) in esecuzione.
     pub const RCAMPHASEACT: ReadOnly<u16> = ReadOnlyU16::register(
@@ -36461,7 +36461,7 @@ pub mod objects {
     /// 0x2181:01, holding register 385, UNSIGNED16, rw.
     /// Accessor: [`rcamflgwr`](super::VectorStep::rcamflgwr). Values: [`CamControl`](super::types::CamControl).
     ///
-    /// Control bits of cams of type 1 and 2
+    /// Control bits of cams of type 1 and 2.
     ///
     /// Chapter Cam. Manual, line 3117: Flag in scrittura camma.
     pub const RCAMFLGWR: ReadWrite<super::types::CamControl> = ReadWriteNamedCamControl::register(
@@ -36476,7 +36476,7 @@ pub mod objects {
     /// 0x2182:01, holding register 386, UNSIGNED16, ro, mappable into TPDOs.
     /// Accessor: [`rcamflgrd`](super::VectorStep::rcamflgrd). Values: [`CamStatus`](super::types::CamStatus).
     ///
-    /// Status bits of cams of type 1 and 2
+    /// Status bits of cams of type 1 and 2.
     ///
     /// Chapter Cam. Manual, line 3118: Flag in lettura camma.
     pub const RCAMFLGRD: ReadOnly<super::types::CamStatus> = ReadOnlyNamedCamStatus::register(
@@ -36491,7 +36491,7 @@ pub mod objects {
     /// 0x2183:01, holding register 387, UNSIGNED16, rw, range 0 to 32767.
     /// Accessor: [`rcamkpl`](super::VectorStep::rcamkpl).
     ///
-    /// Proportional gain of the increments in all cam modes: type 1, type 2, start/stop and winding
+    /// Proportional gain of the increments in all cam modes: type 1, type 2, start/stop and winding.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36510,7 +36510,7 @@ pub mod objects {
     /// 0x21C8:01, holding register 456, UNSIGNED16, rw, range 0 to 65535 (0 to 65.535 mm/count), in 0.001 mm/count.
     /// Accessor: [`rcamstspmstmmpulse`](super::VectorStep::rcamstspmstmmpulse).
     ///
-    /// Travel of the master per encoder count, in thousandths of a millimetre
+    /// Travel of the master per encoder count, in thousandths of a millimetre.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36529,7 +36529,7 @@ pub mod objects {
     /// 0x21C9:01, holding register 457, UNSIGNED16, rw, range 0 to 65535 (0 to 65.535 mm/step), in 0.001 mm/step.
     /// Accessor: [`rcamstspslvmmstep`](super::VectorStep::rcamstspslvmmstep).
     ///
-    /// Travel of the slave per motor step, in thousandths of a millimetre
+    /// Travel of the slave per motor step, in thousandths of a millimetre.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36550,7 +36550,7 @@ pub mod objects {
     /// 0x21CA:01, holding register 458, INTEGER16, rw, range \-1000 to 1000, in %.
     /// Accessor: [`rcamstspcor`](super::VectorStep::rcamstspcor).
     ///
-    /// Correction of the ratio between master and slave
+    /// Correction of the ratio between master and slave.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36571,7 +36571,7 @@ pub mod objects {
     /// 0x21CB:01, holding register 459, UNSIGNED16, rw, range 0 to 65535 (0 to 6553.5 mm), in 0.1 mm.
     /// Accessor: [`rcamstspaccspace`](super::VectorStep::rcamstspaccspace).
     ///
-    /// Master travel during which the slave accelerates
+    /// Master travel during which the slave accelerates.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36590,7 +36590,7 @@ pub mod objects {
     /// 0x21CC:01, holding register 460, UNSIGNED16, rw, mappable into RPDOs.
     /// Accessor: [`rcamstspctrl`](super::VectorStep::rcamstspctrl). Values: [`CamStartStopControl`](super::types::CamStartStopControl).
     ///
-    /// Control bits of the start/stop cam
+    /// Control bits of the start/stop cam.
     ///
     /// Chapter Cam start/stop. Manual, line 3128: Controllo camma start stop.
     pub const RCAMSTSPCTRL: ReadWrite<super::types::CamStartStopControl> = ReadWriteNamedCamStartStopControl::register(
@@ -36605,7 +36605,7 @@ pub mod objects {
     /// 0x21CD:01, holding register 461, UNSIGNED16, ro, mappable into TPDOs.
     /// Accessor: [`rcamstspstatus`](super::VectorStep::rcamstspstatus). Values: [`CamStartStopStatus`](super::types::CamStartStopStatus).
     ///
-    /// Status bits of the start/stop cam
+    /// Status bits of the start/stop cam.
     ///
     /// Chapter Cam start/stop. Manual, line 3129: Status camma start stop.
     pub const RCAMSTSPSTATUS: ReadOnly<super::types::CamStartStopStatus> = ReadOnlyNamedCamStartStopStatus::register(
@@ -36620,7 +36620,7 @@ pub mod objects {
     /// 0x21CE:01, holding registers 462 to 463, UNSIGNED32, rw, range 0 to 2147483647, in step.
     /// Accessor: [`rcamstsplowquotestlv`](super::VectorStep::rcamstsplowquotestlv).
     ///
-    /// Lowest position of the slave in the start/stop cam
+    /// Lowest position of the slave in the start/stop cam.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36639,7 +36639,7 @@ pub mod objects {
     /// 0x21D0:01, holding registers 464 to 465, UNSIGNED32, rw, range 0 to 2147483647, in step.
     /// Accessor: [`rcamstsphighquotestlv`](super::VectorStep::rcamstsphighquotestlv).
     ///
-    /// Highest position of the slave in the start/stop cam
+    /// Highest position of the slave in the start/stop cam.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36658,7 +36658,7 @@ pub mod objects {
     /// 0x21D2:01, holding registers 466 to 467, UNSIGNED32, rw, range 0 to 2147483647, in count.
     /// Accessor: [`rcamstsplowquotemst`](super::VectorStep::rcamstsplowquotemst).
     ///
-    /// Lowest position of the master in the start/stop cam
+    /// Lowest position of the master in the start/stop cam.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36677,7 +36677,7 @@ pub mod objects {
     /// 0x21D4:01, holding registers 468 to 469, UNSIGNED32, rw, range 0 to 2147483647, in count.
     /// Accessor: [`rcamstsphighquotemst`](super::VectorStep::rcamstsphighquotemst).
     ///
-    /// Highest position of the master in the start/stop cam
+    /// Highest position of the master in the start/stop cam.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36696,7 +36696,7 @@ pub mod objects {
     /// 0x21D6:01, holding register 470, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rcammodeselect`](super::VectorStep::rcammodeselect). Values: [`CamMode`](super::types::CamMode).
     ///
-    /// Which kind of cam is used
+    /// Which kind of cam is used.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36715,7 +36715,7 @@ pub mod objects {
     /// 0x21F0:01, holding register 496, UNSIGNED16, rw, in mm/s.
     /// Accessor: [`rcamstspsimvel`](super::VectorStep::rcamstspsimvel).
     ///
-    /// Speed of the simulated master encoder of the start/stop cam
+    /// Speed of the simulated master encoder of the start/stop cam.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36734,7 +36734,7 @@ pub mod objects {
     /// 0x21F1:01, holding register 497, UNSIGNED16, rw, in 0.1 mm.
     /// Accessor: [`rcamstspdecspace`](super::VectorStep::rcamstspdecspace).
     ///
-    /// Master travel during which the slave decelerates
+    /// Master travel during which the slave decelerates.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36753,7 +36753,7 @@ pub mod objects {
     /// 0x21F2:01, holding register 498, UNSIGNED16, rw, in 0.1 mm.
     /// Accessor: [`rcamstspstartdly`](super::VectorStep::rcamstspstartdly).
     ///
-    /// Master travel before the slave starts
+    /// Master travel before the slave starts.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36772,7 +36772,7 @@ pub mod objects {
     /// 0x21F3:01, holding register 499, UNSIGNED16, rw, in 0.1 mm.
     /// Accessor: [`rcamstspstopdly`](super::VectorStep::rcamstspstopdly).
     ///
-    /// Travel of the slave between the stop command and the beginning of its deceleration ramp
+    /// Travel of the slave between the stop command and the beginning of its deceleration ramp.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36791,7 +36791,7 @@ pub mod objects {
     /// 0x21D7:01, holding register 471, UNSIGNED16, rw, range 1 to 65535, in count.
     /// Accessor: [`rwindspoolimpturn`](super::VectorStep::rwindspoolimpturn).
     ///
-    /// Encoder counts per revolution of the spool
+    /// Encoder counts per revolution of the spool.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36810,7 +36810,7 @@ pub mod objects {
     /// 0x21D8:01, holding register 472, UNSIGNED16, rw, range 0 to 65535 (0 to 65.535 mm), in 0.001 mm.
     /// Accessor: [`rwindyarnguidemmstep`](super::VectorStep::rwindyarnguidemmstep).
     ///
-    /// Travel of the yarn guide per motor step
+    /// Travel of the yarn guide per motor step.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36829,7 +36829,7 @@ pub mod objects {
     /// 0x21D9:01, holding register 473, UNSIGNED16, rw, range 0 to 65535 (0 to 6553.5 rev), in 0.1 rev.
     /// Accessor: [`rwindaccspoolturn`](super::VectorStep::rwindaccspoolturn).
     ///
-    /// Revolutions in which the yarn guide accelerates to the speed required
+    /// Revolutions in which the yarn guide accelerates to the speed required.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36848,7 +36848,7 @@ pub mod objects {
     /// 0x21DA:01, holding register 474, UNSIGNED16, rw, range 0 to 65535 (0 to 655.35 mm), in 0.01 mm.
     /// Accessor: [`rwindyarnshift`](super::VectorStep::rwindyarnshift).
     ///
-    /// Travel of the yarn guide per revolution of the spool
+    /// Travel of the yarn guide per revolution of the spool.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36867,7 +36867,7 @@ pub mod objects {
     /// 0x21DB:01, holding register 475, UNSIGNED16, rw, range 0 to 65535 (0 to 655.35 mm), in 0.01 mm.
     /// Accessor: [`rwindtyingshift`](super::VectorStep::rwindtyingshift).
     ///
-    /// Travel of the yarn guide per revolution of the spool while it ties
+    /// Travel of the yarn guide per revolution of the spool while it ties.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -36886,7 +36886,7 @@ pub mod objects {
     /// 0x21DC:01, holding register 476, UNSIGNED16, rw, mappable into RPDOs.
     /// Accessor: [`rwindctrl`](super::VectorStep::rwindctrl). Values: [`WindingControl`](super::types::WindingControl).
     ///
-    /// Control bits of the winding cam
+    /// Control bits of the winding cam.
     ///
     /// Chapter Winding. Manual, line 3148: Control word modalita' winding.
     pub const RWINDCTRL: ReadWrite<super::types::WindingControl> = ReadWriteNamedWindingControl::register(
@@ -36901,7 +36901,7 @@ pub mod objects {
     /// 0x21DD:01, holding register 477, UNSIGNED16, ro, mappable into TPDOs.
     /// Accessor: [`rwindstatus`](super::VectorStep::rwindstatus). Values: [`WindingStatus`](super::types::WindingStatus).
     ///
-    /// Status bits of the winding cam
+    /// Status bits of the winding cam.
     ///
     /// Chapter Winding. Manual, line 3149: Status word modalita' winding.
     pub const RWINDSTATUS: ReadOnly<super::types::WindingStatus> = ReadOnlyNamedWindingStatus::register(
@@ -36916,7 +36916,7 @@ pub mod objects {
     /// 0x21DE:01, holding registers 478 to 479, UNSIGNED32, rw, range 0 to 2147483647 (0 to 214748364.7 mm), in 0.1 mm.
     /// Accessor: [`rwindquotelleft`](super::VectorStep::rwindquotelleft).
     ///
-    /// End position of the yarn guide on the side of the machine
+    /// End position of the yarn guide on the side of the machine.
     ///
     /// Chapter Winding. Manual, line 3150: Quota verso macchina guidafilo.
     pub const RWINDQUOTELLEFT: ReadWrite<rt::Scaled<u32, 1, 10>> = ReadWriteU32Times1Per10::register_within(
@@ -36933,7 +36933,7 @@ pub mod objects {
     /// 0x21E0:01, holding registers 480 to 481, UNSIGNED32, rw, range 0 to 2147483647 (0 to 214748364.7 mm), in 0.1 mm.
     /// Accessor: [`rwindquoteright`](super::VectorStep::rwindquoteright).
     ///
-    /// End position of the yarn guide on the side of the operator
+    /// End position of the yarn guide on the side of the operator.
     ///
     /// Chapter Winding. Manual, line 3151: Quota verso operatore guidafilo.
     pub const RWINDQUOTERIGHT: ReadWrite<rt::Scaled<u32, 1, 10>> = ReadWriteU32Times1Per10::register_within(
@@ -36950,7 +36950,7 @@ pub mod objects {
     /// 0x21E2:01, holding registers 482 to 483, UNSIGNED32, rw, range 0 to 2147483647 (0 to 214748364.7 mm), in 0.1 mm.
     /// Accessor: [`rwindquotestop`](super::VectorStep::rwindquotestop).
     ///
-    /// Position where the yarn guide stops
+    /// Position where the yarn guide stops.
     ///
     /// Chapter Winding. Manual, line 3152: Quota fermata guidafilo.
     pub const RWINDQUOTESTOP: ReadWrite<rt::Scaled<u32, 1, 10>> = ReadWriteU32Times1Per10::register_within(
@@ -36967,7 +36967,7 @@ pub mod objects {
     /// 0x21E4:01, holding registers 484 to 485, UNSIGNED32, rw, range 0 to 2147483647 (0 to 214748364.7 mm), in 0.1 mm.
     /// Accessor: [`rwindtyingquotelleft`](super::VectorStep::rwindtyingquotelleft).
     ///
-    /// End position of the yarn guide on the machine's side while it ties
+    /// End position of the yarn guide on the machine's side while it ties.
     ///
     /// Chapter Winding. Manual, line 3153: Quota verso macchina per legatura.
     pub const RWINDTYINGQUOTELLEFT: ReadWrite<rt::Scaled<u32, 1, 10>> = ReadWriteU32Times1Per10::register_within(
@@ -36984,7 +36984,7 @@ pub mod objects {
     /// 0x21E6:01, holding registers 486 to 487, UNSIGNED32, rw, range 0 to 2147483647 (0 to 214748364.7 mm), in 0.1 mm.
     /// Accessor: [`rwindtyingquoteright`](super::VectorStep::rwindtyingquoteright).
     ///
-    /// End position of the yarn guide on the operator's side while it ties
+    /// End position of the yarn guide on the operator's side while it ties.
     ///
     /// Chapter Winding. Manual, line 3154: Quota verso operatore per legatura.
     pub const RWINDTYINGQUOTERIGHT: ReadWrite<rt::Scaled<u32, 1, 10>> = ReadWriteU32Times1Per10::register_within(
@@ -37001,7 +37001,7 @@ pub mod objects {
     /// 0x21E8:01, holding registers 488 to 489, UNSIGNED32, rw, range 0 to 2147483647 (0 to 21474836.47 mm), in 0.01 mm.
     /// Accessor: [`rwindyarnguidemturnmotor`](super::VectorStep::rwindyarnguidemturnmotor).
     ///
-    /// Travel of the yarn guide per revolution of the stepper motor
+    /// Travel of the yarn guide per revolution of the stepper motor.
     ///
     /// Chapter Winding. Manual, line 3155: Spostamento guidafilo per giro motore.
     pub const RWINDYARNGUIDEMTURNMOTOR: ReadWrite<rt::Scaled<u32, 1, 100>> = ReadWriteU32Times1Per100::register_within(
@@ -37018,7 +37018,7 @@ pub mod objects {
     /// 0x21EA:01, holding register 490, UNSIGNED16, rw, mappable into TPDOs.
     /// Accessor: [`rwindrevcnt`](super::VectorStep::rwindrevcnt).
     ///
-    /// How often the stepper motor has reversed in winding mode
+    /// How often the stepper motor has reversed in winding mode.
     ///
     /// Chapter Winding. Manual, line 3156: Contatore inversioni motore pp.
     pub const RWINDREVCNT: ReadWrite<u16> = ReadWriteU16::register(
@@ -37033,7 +37033,7 @@ pub mod objects {
     /// 0x21EB:01, holding registers 491 to 492, UNSIGNED32, rw, range 0 to 2147483647, in count.
     /// Accessor: [`rwindrevpause`](super::VectorStep::rwindrevpause).
     ///
-    /// Counts of the master encoder for which the motor pauses while it reverses
+    /// Counts of the master encoder for which the motor pauses while it reverses.
     ///
     /// Chapter Winding. Manual, line 3157: Impulsi encoder master con motore in pausa.
     pub const RWINDREVPAUSE: ReadWrite<u32> = ReadWriteU32::register_within(
@@ -37050,7 +37050,7 @@ pub mod objects {
     /// 0x471C:01, holding register 10012, UNSIGNED16, rw, default 1.
     /// Accessor: [`renccamfbk`](super::VectorStep::renccamfbk). Values: [`CamFeedback`](super::types::CamFeedback).
     ///
-    /// Encoder that the cam and winding functions follow
+    /// Encoder that the cam and winding functions follow.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -37070,7 +37070,7 @@ pub mod objects {
     /// 0x2062:01, holding register 98, UNSIGNED16, rw, range 0 to 65535, in ms.
     /// Accessor: [`rbrakedlyopen`](super::VectorStep::rbrakedlyopen).
     ///
-    /// Delay with which the external brake opens
+    /// Delay with which the external brake opens.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -37089,7 +37089,7 @@ pub mod objects {
     /// 0x2158:01, holding register 344, UNSIGNED16, rw, range 0 to 65535, in ms.
     /// Accessor: [`rbrakedlyclose`](super::VectorStep::rbrakedlyclose).
     ///
-    /// Delay with which the external brake closes
+    /// Delay with which the external brake closes.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -37108,7 +37108,7 @@ pub mod objects {
     /// 0x21F4:01, holding register 500, UNSIGNED16, rw.
     /// Accessor: [`rusrpidkp`](super::VectorStep::rusrpidkp).
     ///
-    /// Proportional gain of the user PID
+    /// Proportional gain of the user PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -37125,7 +37125,7 @@ pub mod objects {
     /// 0x21F5:01, holding register 501, UNSIGNED16, rw.
     /// Accessor: [`rusrpidki`](super::VectorStep::rusrpidki).
     ///
-    /// Integral gain of the user PID
+    /// Integral gain of the user PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -37142,7 +37142,7 @@ pub mod objects {
     /// 0x21F6:01, holding register 502, UNSIGNED16, rw.
     /// Accessor: [`rusrpidkd`](super::VectorStep::rusrpidkd).
     ///
-    /// Derivative gain of the user PID
+    /// Derivative gain of the user PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -37159,7 +37159,7 @@ pub mod objects {
     /// 0x21F7:01, holding register 503, UNSIGNED16, rw, in ms.
     /// Accessor: [`rusrpidkt`](super::VectorStep::rusrpidkt).
     ///
-    /// Integration time of the user PID
+    /// Integration time of the user PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -37178,7 +37178,7 @@ pub mod objects {
     /// 0x21F8:01, holding register 504, UNSIGNED16, rw.
     /// Accessor: [`rusrpidflag`](super::VectorStep::rusrpidflag). Values: [`UserPidControl`](super::types::UserPidControl).
     ///
-    /// Starts, stops and resets the user PID
+    /// Starts, stops and resets the user PID.
     ///
     /// Chapter User PID. Manual, line 3173: Flag di controllo PID utente.
     pub const RUSRPIDFLAG: ReadWrite<super::types::UserPidControl> = ReadWriteNamedUserPidControl::register(
@@ -37193,7 +37193,7 @@ pub mod objects {
     /// 0x21F9:01, holding registers 505 to 506, low word first, INTEGER32, rw.
     /// Accessor: [`rusrpidmaxout`](super::VectorStep::rusrpidmaxout).
     ///
-    /// Highest output of the user PID
+    /// Highest output of the user PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -37210,7 +37210,7 @@ pub mod objects {
     /// 0x21FB:01, holding registers 507 to 508, low word first, INTEGER32, rw.
     /// Accessor: [`rusrpidminout`](super::VectorStep::rusrpidminout).
     ///
-    /// Lowest output of the user PID
+    /// Lowest output of the user PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -37227,7 +37227,7 @@ pub mod objects {
     /// 0x21FD:01, holding registers 509 to 510, low word first, INTEGER32, rw, mappable into RPDOs.
     /// Accessor: [`rusrpidsetpoint`](super::VectorStep::rusrpidsetpoint).
     ///
-    /// Set-point of the user PID
+    /// Set-point of the user PID.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -37244,7 +37244,7 @@ pub mod objects {
     /// 0x21FF:01, holding registers 511 to 512, low word first, INTEGER32, rw, mappable into TPDOs.
     /// Accessor: [`rusrpidprocessvalue`](super::VectorStep::rusrpidprocessvalue).
     ///
-    /// Process value of the user PID
+    /// Process value of the user PID.
     ///
     /// Chapter User PID. Manual, line 3177: Valore di processo PID utente.
     pub const RUSRPIDPROCESSVALUE: ReadWrite<i32> = ReadWriteI32::register(
@@ -37259,7 +37259,7 @@ pub mod objects {
     /// 0x2201:01, holding registers 513 to 514, low word first, INTEGER32, rw, mappable into TPDOs.
     /// Accessor: [`rusrpidout`](super::VectorStep::rusrpidout).
     ///
-    /// Output of the user PID
+    /// Output of the user PID.
     ///
     /// Chapter User PID. Manual, line 3178: Valore di uscita PID utente.
     pub const RUSRPIDOUT: ReadWrite<i32> = ReadWriteI32::register(
@@ -37274,7 +37274,7 @@ pub mod objects {
     /// 0x213B:01, holding register 315, UNSIGNED16, rw, range 0 to 5.
     /// Accessor: [`rfgapplyto`](super::VectorStep::rfgapplyto). Values: [`GeneratorTarget`](super::types::GeneratorTarget).
     ///
-    /// What the signal of the internal function generator is applied to
+    /// What the signal of the internal function generator is applied to.
     ///
     /// Chapter Function generator. Manual, line 3183: Grandezza a cui applicare il segnale.
     pub const RFGAPPLYTO: ReadWrite<super::types::GeneratorTarget> = ReadWriteNamedGeneratorTarget::register_within(
@@ -37291,7 +37291,7 @@ pub mod objects {
     /// 0x213C:01, holding registers 316 to 317, low word first, INTEGER32, ro, range \-2147483648 to 2147483647, in bit.
     /// Accessor: [`rfgvalmin`](super::VectorStep::rfgvalmin).
     ///
-    /// Lowest value of the generated signal
+    /// Lowest value of the generated signal.
     ///
     /// Chapter Function generator. Manual, line 3184: Val. minimo generatore di funzioni.
     ///
@@ -37310,7 +37310,7 @@ pub mod objects {
     /// 0x213E:01, holding registers 318 to 319, low word first, INTEGER32, ro, range \-2147483648 to 2147483647, in bit.
     /// Accessor: [`rfgvalmax`](super::VectorStep::rfgvalmax).
     ///
-    /// Highest value of the generated signal
+    /// Highest value of the generated signal.
     ///
     /// Chapter Function generator. Manual, line 3185: Val. massimo generatore di funzioni.
     ///
@@ -37329,7 +37329,7 @@ pub mod objects {
     /// 0x2140:01, holding register 320, UNSIGNED16, rw, range 1 to 10000, in Hz.
     /// Accessor: [`rfgfreq`](super::VectorStep::rfgfreq).
     ///
-    /// Frequency of the generated signal
+    /// Frequency of the generated signal.
     ///
     /// Chapter Function generator. Manual, line 3186: Frequenza del segnale generato.
     pub const RFGFREQ: ReadWrite<u16> = ReadWriteU16::register_within(
@@ -37346,7 +37346,7 @@ pub mod objects {
     /// 0x2141:01, holding register 321, UNSIGNED16, rw, range 1 to 1000, in ms.
     /// Accessor: [`rfgperiod`](super::VectorStep::rfgperiod).
     ///
-    /// Period of the generated signal
+    /// Period of the generated signal.
     ///
     /// Chapter Function generator. Manual, line 3187: Periodo del segnale generato.
     ///
@@ -37365,7 +37365,7 @@ pub mod objects {
     /// 0x2142:01, holding register 322, UNSIGNED16, rw, range 0 to 1.
     /// Accessor: [`rfgcmd`](super::VectorStep::rfgcmd). Values: [`GeneratorCommand`](super::types::GeneratorCommand).
     ///
-    /// Starts and stops the function generator
+    /// Starts and stops the function generator.
     ///
     /// Kept over power-off once 129 was given.
     ///
@@ -37386,7 +37386,7 @@ pub mod objects {
     /// 0x2143:01, holding register 323, UNSIGNED16, rw, range 0 to 2.
     /// Accessor: [`rfgmode`](super::VectorStep::rfgmode). Values: [`GeneratorMode`](super::types::GeneratorMode).
     ///
-    /// Shape of the generated signal
+    /// Shape of the generated signal.
     ///
     /// Chapter Function generator. Manual, line 3189: Tipo di segnale generato.
     ///
@@ -37405,7 +37405,7 @@ pub mod objects {
     /// 0x2144:01, holding registers 324 to 325, low word first, INTEGER32, ro.
     /// Accessor: [`rfgout32`](super::VectorStep::rfgout32).
     ///
-    /// Output of the function generator in 32 bits
+    /// Output of the function generator in 32 bits.
     ///
     /// Chapter Function generator. Manual, line 3190: Uscita generatore di funzioni.
     pub const RFGOUT32: ReadOnly<i32> = ReadOnlyI32::register(
@@ -37420,7 +37420,7 @@ pub mod objects {
     /// 0x2146:01, holding register 326, INTEGER16, rw.
     /// Accessor: [`rfgout16`](super::VectorStep::rfgout16).
     ///
-    /// Output of the function generator in 16 bits
+    /// Output of the function generator in 16 bits.
     ///
     /// Chapter Function generator. Manual, line 3191: Uscita generatore di funzioni.
     pub const RFGOUT16: ReadWrite<i16> = ReadWriteI16::register(
@@ -37435,7 +37435,7 @@ pub mod objects {
     /// 0x20CC:01, holding register 204, UNSIGNED16, ro.
     /// Accessor: [`rstsprg`](super::VectorStep::rstsprg). Values: [`ProgramStatus`](super::types::ProgramStatus).
     ///
-    /// Whether the user program runs and is valid
+    /// Whether the user program runs and is valid.
     ///
     /// Chapter User program. Manual, line 3196: Registro status programma MIL.
     pub const RSTSPRG: ReadOnly<super::types::ProgramStatus> = ReadOnlyNamedProgramStatus::register(
@@ -37450,7 +37450,7 @@ pub mod objects {
     /// 0x20CD:01, holding register 205, UNSIGNED16, rw, range 0 to 2.
     /// Accessor: [`rprgrunmode`](super::VectorStep::rprgrunmode). Values: [`ProgramRunMode`](super::types::ProgramRunMode).
     ///
-    /// Stops the user program, runs it, or runs one step of it
+    /// Stops the user program, runs it, or runs one step of it.
     ///
     /// Chapter User program. Manual, line 3197: Run mode User Programmare.
     ///
@@ -37469,7 +37469,7 @@ pub mod objects {
     /// 0x20CE:01, holding register 206, UNSIGNED16, ro.
     /// Accessor: [`rprgstopevent`](super::VectorStep::rprgstopevent). Values: [`ProgramStopEvent`](super::types::ProgramStopEvent).
     ///
-    /// Why the user program stopped
+    /// Why the user program stopped.
     ///
     /// Chapter User program. Manual, line 3198.
     ///
@@ -37486,7 +37486,7 @@ pub mod objects {
     /// 0x20CF:01, holding register 207, UNSIGNED16, rw, range 0 to 4998.
     /// Accessor: [`rprgcnt`](super::VectorStep::rprgcnt).
     ///
-    /// Program counter of the user program; it can be written while the program is stopped
+    /// Program counter of the user program; it can be written while the program is stopped.
     ///
     /// Can be written only while [Rprgrunmode](RPRGRUNMODE) is 0.
     ///
@@ -37509,7 +37509,7 @@ pub mod objects {
     /// 0x20D0:01, holding register 208, UNSIGNED16, rw.
     /// Accessor: [`rprgccflag`](super::VectorStep::rprgccflag). Values: [`ProgramConditionCodes`](super::types::ProgramConditionCodes).
     ///
-    /// Condition codes of the user program
+    /// Condition codes of the user program.
     ///
     /// Chapter User program. Manual, line 3200: Condition code flag.
     pub const RPRGCCFLAG: ReadWrite<super::types::ProgramConditionCodes> = ReadWriteNamedProgramConditionCodes::register(
@@ -37524,7 +37524,7 @@ pub mod objects {
     /// 0x2242:01, holding register 578, UNSIGNED16, rw, range 0 to 4988.
     /// Accessor: [`rprgeventcounterptr`](super::VectorStep::rprgeventcounterptr).
     ///
-    /// Program address whose passing is counted in Rprgeventcounter
+    /// Program address whose passing is counted in Rprgeventcounter.
     ///
     /// Chapter User program. Manual, line 3201: Indirizzo program counter per contatore eventi.
     ///
@@ -37543,7 +37543,7 @@ pub mod objects {
     /// 0x2243:01, holding register 579, UNSIGNED16, rw, range 0 to 65535.
     /// Accessor: [`rprgeventcounter`](super::VectorStep::rprgeventcounter).
     ///
-    /// How often the program has passed the address in Rprgeventcounterptr
+    /// How often the program has passed the address in Rprgeventcounterptr.
     ///
     /// Chapter User program. Manual, line 3202: Contatore eventi passaggio programma utente.
     pub const RPRGEVENTCOUNTER: ReadWrite<u16> = ReadWriteU16::register(
@@ -37558,7 +37558,7 @@ pub mod objects {
     /// Holding register 2000, UNSIGNED16, rw.
     /// Accessor: [`rprgusrpsw`](super::VectorStep::rprgusrpsw).
     ///
-    /// Password entered; unless it is the one in the EEPROM, the program memory can be neither read nor written
+    /// Password entered; unless it is the one in the EEPROM, the program memory can be neither read nor written.
     ///
     /// Lost at power-off.
     ///
@@ -37573,7 +37573,7 @@ pub mod objects {
     /// Holding register 2001, UNSIGNED16, rw.
     /// Accessor: [`rprgcmd`](super::VectorStep::rprgcmd). Values: [`ProgramCommand`](super::types::ProgramCommand).
     ///
-    /// Saves, loads and erases the user program, and sets its password
+    /// Saves, loads and erases the user program, and sets its password.
     ///
     /// Chapter User program. Manual, line 3204: Comandi.
     pub const RPRGCMD: ReadWrite<super::types::ProgramCommand, rt::OnModbus> = ReadWriteNamedProgramCommandOnModbus::register(
@@ -37586,7 +37586,7 @@ pub mod objects {
     /// Holding register 2002, UNSIGNED16, rw.
     /// Accessor: [`rprgcmdsts`](super::VectorStep::rprgcmdsts).
     ///
-    /// Result of the last command in Rprgcmd; its values aren't described
+    /// Result of the last command in Rprgcmd; its values aren't described.
     ///
     /// Chapter User program. Manual, line 3205: Stato di uscita ultimo comando.
     pub const RPRGCMDSTS: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
@@ -37599,7 +37599,7 @@ pub mod objects {
     /// Holding register 2003, UNSIGNED16, rw.
     /// Accessor: [`rprgnewpsw`](super::VectorStep::rprgnewpsw).
     ///
-    /// Password that the command 0x82 in Rprgcmd sets
+    /// Password that the command 0x82 in Rprgcmd sets.
     ///
     /// Chapter User program. Manual, line 3206: Nuova password da impostare.
     pub const RPRGNEWPSW: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
@@ -37612,7 +37612,7 @@ pub mod objects {
     /// Holding register 2004, UNSIGNED16, rw.
     /// Accessor: [`rprgpswact`](super::VectorStep::rprgpswact). Values: [`ProgramProtection`](super::types::ProgramProtection).
     ///
-    /// Whether a password protects the user program
+    /// Whether a password protects the user program.
     ///
     /// Chapter User program. Manual, line 3209: Password attiva.
     pub const RPRGPSWACT: ReadWrite<super::types::ProgramProtection, rt::OnModbus> = ReadWriteNamedProgramProtectionOnModbus::register(
@@ -37625,7 +37625,7 @@ pub mod objects {
     /// Holding register 2005, UNSIGNED16, rw.
     /// Accessor: [`rprgbpenable`](super::VectorStep::rprgbpenable).
     ///
-    /// Enables software breakpoints
+    /// Enables software breakpoints.
     ///
     /// Chapter User program. Manual, line 3210: Abilita gestione dei breakpoint software.
     ///
@@ -37640,7 +37640,7 @@ pub mod objects {
     /// Holding register 2006, UNSIGNED16, rw.
     /// Accessor: [`rprgbpnum`](super::VectorStep::rprgbpnum). Values: [`ProgramBreakpoint`](super::types::ProgramBreakpoint).
     ///
-    /// Which breakpoint Rprgbpval reads or writes
+    /// Which breakpoint Rprgbpval reads or writes.
     ///
     /// Chapter User program. Manual, line 3211: Numero del breakpoint da gestire.
     pub const RPRGBPNUM: ReadWrite<super::types::ProgramBreakpoint, rt::OnModbus> = ReadWriteNamedProgramBreakpointOnModbus::register(
@@ -37653,7 +37653,7 @@ pub mod objects {
     /// Holding register 2007, UNSIGNED16, rw.
     /// Accessor: [`rprgbpval`](super::VectorStep::rprgbpval).
     ///
-    /// Value of the breakpoint that Rprgbpnum points to
+    /// Value of the breakpoint that Rprgbpnum points to.
     ///
     /// Chapter User program. Manual, line 3212: Valore letto o da scrivere nel breakpoint.
     pub const RPRGBPVAL: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
@@ -37666,7 +37666,7 @@ pub mod objects {
     /// Holding register 2008, UNSIGNED16, rw.
     /// Accessor: [`rprglen`](super::VectorStep::rprglen).
     ///
-    /// Length of the user program
+    /// Length of the user program.
     ///
     /// Chapter User program. Manual, line 3213: Lunghezza del programma utente.
     pub const RPRGLEN: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
@@ -37679,7 +37679,7 @@ pub mod objects {
     /// Holding register 2009, UNSIGNED16, rw.
     /// Accessor: [`rprgprgcks`](super::VectorStep::rprgprgcks).
     ///
-    /// Checksum of the user program
+    /// Checksum of the user program.
     ///
     /// Chapter User program. Manual, line 3214: Checksum programma utente.
     pub const RPRGPRGCKS: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
@@ -37692,7 +37692,7 @@ pub mod objects {
     /// Holding register 2010, UNSIGNED16, rw.
     /// Accessor: [`rprgusrprg`](super::VectorStep::rprgusrprg).
     ///
-    /// First location of the user program
+    /// First location of the user program.
     ///
     /// Chapter User program. Manual, line 3215: Locazione 0 programma utente.
     pub const RPRGUSRPRG: ReadWrite<u16, rt::OnModbus> = ReadWriteU16OnModbus::register(
@@ -37705,7 +37705,7 @@ pub mod objects {
     /// Holding registers 2011 to 6998, low word first, unknown type, rw.
     /// Accessor: [`user_program_locations`](super::VectorStep::user_program_locations).
     ///
-    /// Locations 1 to 4988 of the user program
+    /// Locations 1 to 4988 of the user program.
     ///
     /// Chapter User program. Manual, line 3216: Locazioni nnn programma utente.
     ///
@@ -37722,7 +37722,7 @@ pub mod objects {
     /// Holding register 6999, UNSIGNED16, rw.
     /// Accessor: [`user_program_last_location`](super::VectorStep::user_program_last_location).
     ///
-    /// Last location of the user program
+    /// Last location of the user program.
     ///
     /// Chapter User program. Manual, line 3217: Locazione 4988 programma utente.
     ///
@@ -37739,7 +37739,7 @@ pub mod objects {
     /// 0x1000:00, UNSIGNED32, ro, default 0x40192, range 0 to 4294967295.
     /// Accessor: [`device_type`](super::VectorStep::device_type). Values: [`DeviceType`](super::types::DeviceType).
     ///
-    /// Device profile in the low word, additional information in the high word
+    /// Device profile in the low word, additional information in the high word.
     ///
     /// Manual, line 617: device\_type.
     pub const DEVICE_TYPE: ReadOnly<super::types::DeviceType, rt::OnCanOpenAndCoE> = ReadOnlyNamedDeviceTypeOnCanOpenCoE::shared_object_with_default(
@@ -37753,7 +37753,7 @@ pub mod objects {
     /// 0x1001:00, UNSIGNED8, ro, mappable into TPDOs, default 0, range 0 to 255.
     /// Accessor: [`error_register`](super::VectorStep::error_register). Values: [`ErrorRegister`](super::types::ErrorRegister).
     ///
-    /// Errors of the device, one bit per kind
+    /// Errors of the device, one bit per kind.
     ///
     /// Manual, line 632: error\_register.
     ///
@@ -37778,7 +37778,7 @@ pub mod objects {
         /// 0x1003:00, UNSIGNED8, rw, default 0, range 0 to 2.
         /// Accessor: [`Accessors::number_of_errors`].
         ///
-        /// How many errors are in the history; writing 0 clears it
+        /// How many errors are in the history; writing 0 clears it.
         ///
         /// Only 0 can be written. Writing 0 clears the error history.
         ///
@@ -37798,7 +37798,7 @@ pub mod objects {
         /// 0x1003:01, UNSIGNED32, ro, default 0, range 0 to 4294967295.
         /// Accessor: [`Accessors::standard_error_field_1`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
-        /// Error in the history; the low 16 bits are the code that 0x603F shows; present only after an error
+        /// Error in the history; the low 16 bits are the code that 0x603F shows; present only after an error.
         ///
         /// Manual, line 668: standard\_error\_field.
         ///
@@ -37817,7 +37817,7 @@ pub mod objects {
         /// 0x1003:02, UNSIGNED32, ro, default 0, range 0 to 4294967295.
         /// Accessor: [`Accessors::standard_error_field_2`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
         ///
-        /// Error in the history; present only after errors have occurred
+        /// Error in the history; present only after errors have occurred.
         ///
         /// Manual, line 674: standard\_error\_field.
         ///
@@ -37840,7 +37840,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of errors: 0x1003:00.
             ///
-            /// How many errors are in the history; writing 0 clears it
+            /// How many errors are in the history; writing 0 clears it.
             ///
             /// Constant: [`NUMBER_OF_ERRORS`].
             pub fn number_of_errors(
@@ -37850,7 +37850,7 @@ pub mod objects {
             }
             /// Standard error field 1: 0x1003:01.
             ///
-            /// Error in the history; the low 16 bits are the code that 0x603F shows; present only after an error
+            /// Error in the history; the low 16 bits are the code that 0x603F shows; present only after an error.
             ///
             /// Constant: [`STANDARD_ERROR_FIELD_1`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn standard_error_field_1(
@@ -37865,7 +37865,7 @@ pub mod objects {
             }
             /// Standard error field 2: 0x1003:02.
             ///
-            /// Error in the history; present only after errors have occurred
+            /// Error in the history; present only after errors have occurred.
             ///
             /// Constant: [`STANDARD_ERROR_FIELD_2`]. Values: [`ErrorFieldEntry`](super::super::types::ErrorFieldEntry).
             pub fn standard_error_field_2(
@@ -37885,7 +37885,7 @@ pub mod objects {
     /// 0x1005:00, UNSIGNED32, rw, default 128, range 0 to 4294967295.
     /// Accessor: [`cob_id_sync_message`](super::VectorStep::cob_id_sync_message). Values: [`CobIdSync`](super::types::CobIdSync).
     ///
-    /// Identifier of the SYNC message, and whether the device produces it; changes of bits 29 and 30 are refused (abort 0x06090030)
+    /// Identifier of the SYNC message, and whether the device produces it; changes of bits 29 and 30 are refused (abort 0x06090030).
     ///
     /// Manual, line 709: COD\_ID\_SYNC.
     ///
@@ -37906,7 +37906,7 @@ pub mod objects {
     /// 0x1006:00, UNSIGNED32, rw, default 0, range 0 to 4294967295, in us.
     /// Accessor: [`communication_cycle_period`](super::VectorStep::communication_cycle_period).
     ///
-    /// Interval of SYNC; 0 where it isn't used
+    /// Interval of SYNC; 0 where it isn't used.
     ///
     /// A new value other than 0 restarts the transmission of SYNC within one cycle of the new period.
     ///
@@ -37924,7 +37924,7 @@ pub mod objects {
     /// 0x1007:00, UNSIGNED32, rw, default 0, range 0 to 4294967295, in us.
     /// Accessor: [`synchronous_window_length`](super::VectorStep::synchronous_window_length).
     ///
-    /// Length of the time window for synchronous PDOs; 0 where it isn't used
+    /// Length of the time window for synchronous PDOs; 0 where it isn't used.
     ///
     /// Manual, line 747: Synchronous\_window\_length.
     pub const SYNCHRONOUS_WINDOW_LENGTH: ReadWrite<u32, rt::OnCanOpenAndCoE> = ReadWriteU32OnCanOpenCoE::new(
@@ -37940,7 +37940,7 @@ pub mod objects {
     /// 0x1008:00, VISIBLE_STRING, const, default "SMD50.06LIC".
     /// Accessor: [`manufacturer_device_name`](super::VectorStep::manufacturer_device_name).
     ///
-    /// Code of the device
+    /// Code of the device.
     ///
     /// Manual, line 755: Manufacturer\_device\_name.
     ///
@@ -37961,7 +37961,7 @@ pub mod objects {
     /// 0x1009:00, VISIBLE_STRING, const.
     /// Accessor: [`manufacturer_hardware_version`](super::VectorStep::manufacturer_hardware_version).
     ///
-    /// Hardware version, in the form Hw ver.X.XX
+    /// Hardware version, in the form Hw ver.X.XX.
     ///
     /// Manual, line 763: Manufacturer\_hardware\_version.
     ///
@@ -37981,7 +37981,7 @@ pub mod objects {
     /// 0x100A:00, VISIBLE_STRING, const.
     /// Accessor: [`manufacturer_software_version`](super::VectorStep::manufacturer_software_version).
     ///
-    /// Software version, in the form Sw ver.X.XX
+    /// Software version, in the form Sw ver.X.XX.
     ///
     /// Manual, line 771: Manufacturer\_software\_version.
     ///
@@ -38001,7 +38001,7 @@ pub mod objects {
     /// 0x100C:00, UNSIGNED16, rw, default 0, range 0 to 65535, in ms.
     /// Accessor: [`guard_time`](super::VectorStep::guard_time).
     ///
-    /// Times the life-time factor it is the life time of node guarding; 0 where it isn't used
+    /// Times the life-time factor it is the life time of node guarding; 0 where it isn't used.
     ///
     /// Manual, line 783: Guard\_time.
     pub const GUARD_TIME: ReadWrite<u16, rt::OnCanOpenAndCoE> = ReadWriteU16OnCanOpenCoE::new(
@@ -38017,7 +38017,7 @@ pub mod objects {
     /// 0x100D:00, UNSIGNED8, rw, default 0, range 0 to 255.
     /// Accessor: [`life_time_factor`](super::VectorStep::life_time_factor).
     ///
-    /// Factor that makes the life time of life guarding out of the guard time; 0 where it isn't used
+    /// Factor that makes the life time of life guarding out of the guard time; 0 where it isn't used.
     ///
     /// Manual, line 791: Life\_time\_factor.
     pub const LIFE_TIME_FACTOR: ReadWrite<u8, rt::OnCanOpenAndCoE> = ReadWriteU8OnCanOpenCoE::shared_object_with_default(
@@ -38031,7 +38031,7 @@ pub mod objects {
     /// 0x1014:00, UNSIGNED32, rw, default \$NODEID+0x80, range 1 to 4294967295.
     /// Accessor: [`cob_id_emergency_object`](super::VectorStep::cob_id_emergency_object). Values: [`CobIdEmergency`](super::types::CobIdEmergency).
     ///
-    /// Identifier of the emergency message; changes of bits 29 and 30 are refused (abort 0x06090030)
+    /// Identifier of the emergency message; changes of bits 29 and 30 are refused (abort 0x06090030).
     ///
     /// Manual, line 799: COD\_ID\_EMCY.
     ///
@@ -38054,7 +38054,7 @@ pub mod objects {
     /// 0x1015:00, UNSIGNED16, rw, default 0, range 0 to 65535 (0 to 6553500 us), in 100 us.
     /// Accessor: [`inhibit_time_emergency`](super::VectorStep::inhibit_time_emergency).
     ///
-    /// Least time between two emergency messages, in multiples of 100 µs
+    /// Least time between two emergency messages, in multiples of 100 µs.
     ///
     /// Manual, line 819: Inhibit\_time\_emergency.
     pub const INHIBIT_TIME_EMERGENCY: ReadWrite<
@@ -38078,7 +38078,7 @@ pub mod objects {
         /// 0x1016:00, UNSIGNED8, ro, default 0, range 0 to 2.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of sub-entries
+        /// Number of sub-entries.
         ///
         /// Manual, line 835: number\_of\_entries.
         ///
@@ -38096,7 +38096,7 @@ pub mod objects {
         /// 0x1016:01, UNSIGNED32, rw, default 0, range 0 to 2147483647.
         /// Accessor: [`Accessors::consumer_heartbeat_time_1`]. Values: [`ConsumerHeartbeat`](super::super::types::ConsumerHeartbeat).
         ///
-        /// Node watched and its time in ms; 0 is off; a node set twice is refused (abort 0x06040043)
+        /// Node watched and its time in ms; 0 is off; a node set twice is refused (abort 0x06040043).
         ///
         /// Manual, line 841: Consumer\_heartbeat\_time.
         ///
@@ -38117,7 +38117,7 @@ pub mod objects {
         /// 0x1016:02, UNSIGNED32, rw, default 0, range 0 to 2147483647.
         /// Accessor: [`Accessors::consumer_heartbeat_time_2`]. Values: [`ConsumerHeartbeat`](super::super::types::ConsumerHeartbeat).
         ///
-        /// Node watched and its time in ms; 0 is off; a node set twice is refused (abort 0x06040043)
+        /// Node watched and its time in ms; 0 is off; a node set twice is refused (abort 0x06040043).
         ///
         /// Manual, line 847: Consumer\_heartbeat\_time.
         ///
@@ -38140,7 +38140,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1016:00.
             ///
-            /// Number of sub-entries
+            /// Number of sub-entries.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -38150,7 +38150,7 @@ pub mod objects {
             }
             /// Consumer heartbeat time 1: 0x1016:01.
             ///
-            /// Node watched and its time in ms; 0 is off; a node set twice is refused (abort 0x06040043)
+            /// Node watched and its time in ms; 0 is off; a node set twice is refused (abort 0x06040043).
             ///
             /// Constant: [`CONSUMER_HEARTBEAT_TIME_1`]. Values: [`ConsumerHeartbeat`](super::super::types::ConsumerHeartbeat).
             pub fn consumer_heartbeat_time_1(
@@ -38165,7 +38165,7 @@ pub mod objects {
             }
             /// Consumer heartbeat time 2: 0x1016:02.
             ///
-            /// Node watched and its time in ms; 0 is off; a node set twice is refused (abort 0x06040043)
+            /// Node watched and its time in ms; 0 is off; a node set twice is refused (abort 0x06040043).
             ///
             /// Constant: [`CONSUMER_HEARTBEAT_TIME_2`]. Values: [`ConsumerHeartbeat`](super::super::types::ConsumerHeartbeat).
             pub fn consumer_heartbeat_time_2(
@@ -38185,7 +38185,7 @@ pub mod objects {
     /// 0x1017:00, UNSIGNED16, rw, default 0, range 0 to 65535, in ms.
     /// Accessor: [`producer_heartbeat_time`](super::VectorStep::producer_heartbeat_time).
     ///
-    /// Cycle time of the heartbeat that the device sends; 0 where it isn't used
+    /// Cycle time of the heartbeat that the device sends; 0 where it isn't used.
     ///
     /// Manual, line 864: Producer\_heartbeat\_time.
     pub const PRODUCER_HEARTBEAT_TIME: ReadWrite<u16, rt::OnCanOpenAndCoE> = ReadWriteU16OnCanOpenCoE::new(
@@ -38206,7 +38206,7 @@ pub mod objects {
         /// 0x1018:00, UNSIGNED8, ro, default 4, range 1 to 4.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of sub-entries
+        /// Number of sub-entries.
         ///
         /// Manual, line 885: number\_of\_entries.
         pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
@@ -38222,7 +38222,7 @@ pub mod objects {
         /// 0x1018:01, UNSIGNED32, ro, default 188, range 0 to 4294967295.
         /// Accessor: [`Accessors::vendor_id`].
         ///
-        /// Number of the manufacturer; AEC has 0xBC
+        /// Number of the manufacturer; AEC has 0xBC.
         ///
         /// Manual, line 891: vendor\_ID.
         pub const VENDOR_ID: super::ReadOnly<u32, rt::OnCanOpenAndCoE> = super::ReadOnlyU32OnCanOpenCoE::shared_object_with_default(
@@ -38236,7 +38236,7 @@ pub mod objects {
         /// 0x1018:02, UNSIGNED32, ro, range 0 to 4294967295.
         /// Accessor: [`Accessors::product_code`].
         ///
-        /// Product, as the decimal number of the model: 5006 or 3006
+        /// Product, as the decimal number of the model: 5006 or 3006.
         ///
         /// Manual, line 897: product\_code.
         ///
@@ -38251,7 +38251,7 @@ pub mod objects {
         /// 0x1018:03, UNSIGNED32, ro, range 0 to 4294967295.
         /// Accessor: [`Accessors::revision_number`]. Values: [`RevisionNumber`](super::super::types::RevisionNumber).
         ///
-        /// Revision of the CANopen behaviour and of the firmware
+        /// Revision of the CANopen behaviour and of the firmware.
         ///
         /// Manual, line 903: revision\_number.
         pub const REVISION_NUMBER: super::ReadOnly<
@@ -38267,7 +38267,7 @@ pub mod objects {
         /// 0x1018:04, UNSIGNED32, ro, range 0 to 4294967295.
         /// Accessor: [`Accessors::serial_number`].
         ///
-        /// Serial number of the product
+        /// Serial number of the product.
         ///
         /// Manual, line 909: serial\_number.
         ///
@@ -38284,7 +38284,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1018:00.
             ///
-            /// Number of sub-entries
+            /// Number of sub-entries.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -38294,7 +38294,7 @@ pub mod objects {
             }
             /// Vendor ID: 0x1018:01.
             ///
-            /// Number of the manufacturer; AEC has 0xBC
+            /// Number of the manufacturer; AEC has 0xBC.
             ///
             /// Constant: [`VENDOR_ID`].
             pub fn vendor_id(
@@ -38304,7 +38304,7 @@ pub mod objects {
             }
             /// Product code: 0x1018:02.
             ///
-            /// Product, as the decimal number of the model: 5006 or 3006
+            /// Product, as the decimal number of the model: 5006 or 3006.
             ///
             /// Constant: [`PRODUCT_CODE`].
             pub fn product_code(
@@ -38314,7 +38314,7 @@ pub mod objects {
             }
             /// Revision number: 0x1018:03.
             ///
-            /// Revision of the CANopen behaviour and of the firmware
+            /// Revision of the CANopen behaviour and of the firmware.
             ///
             /// Constant: [`REVISION_NUMBER`]. Values: [`RevisionNumber`](super::super::types::RevisionNumber).
             pub fn revision_number(
@@ -38329,7 +38329,7 @@ pub mod objects {
             }
             /// Serial number: 0x1018:04.
             ///
-            /// Serial number of the product
+            /// Serial number of the product.
             ///
             /// Constant: [`SERIAL_NUMBER`].
             pub fn serial_number(
@@ -38349,7 +38349,7 @@ pub mod objects {
         /// 0x1200:00, UNSIGNED8, ro, default 2, range 2 to 2.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of sub-entries
+        /// Number of sub-entries.
         ///
         /// Manual, line 929: number\_of\_entries.
         pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
@@ -38365,7 +38365,7 @@ pub mod objects {
         /// 0x1200:01, UNSIGNED32, rw, default \$NODEID+0x600, range 0 to 4294967295.
         /// Accessor: [`Accessors::cob_id_client_to_server`]. Values: [`SdoIdentifier`](super::super::types::SdoIdentifier).
         ///
-        /// Identifier of requests to the drive
+        /// Identifier of requests to the drive.
         ///
         /// Manual, line 935: COD-ID RxSDO (Cl -\> Sv).
         ///
@@ -38386,7 +38386,7 @@ pub mod objects {
         /// 0x1200:02, UNSIGNED32, rw, default \$NODEID+0x580, range 0 to 4294967295.
         /// Accessor: [`Accessors::cob_id_server_to_client`]. Values: [`SdoIdentifier`](super::super::types::SdoIdentifier).
         ///
-        /// Identifier of the drive's replies
+        /// Identifier of the drive's replies.
         ///
         /// Manual, line 941: COD-ID TxSDO (Sv -\> Cl).
         ///
@@ -38409,7 +38409,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1200:00.
             ///
-            /// Number of sub-entries
+            /// Number of sub-entries.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -38419,7 +38419,7 @@ pub mod objects {
             }
             /// COB-ID client to server: 0x1200:01.
             ///
-            /// Identifier of requests to the drive
+            /// Identifier of requests to the drive.
             ///
             /// Constant: [`COB_ID_CLIENT_TO_SERVER`]. Values: [`SdoIdentifier`](super::super::types::SdoIdentifier).
             pub fn cob_id_client_to_server(
@@ -38434,7 +38434,7 @@ pub mod objects {
             }
             /// COB-ID server to client: 0x1200:02.
             ///
-            /// Identifier of the drive's replies
+            /// Identifier of the drive's replies.
             ///
             /// Constant: [`COB_ID_SERVER_TO_CLIENT`]. Values: [`SdoIdentifier`](super::super::types::SdoIdentifier).
             pub fn cob_id_server_to_client(
@@ -38459,7 +38459,7 @@ pub mod objects {
         /// 0x1400:00, UNSIGNED8, ro, default 2, range 2 to 2.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of sub-entries
+        /// Number of sub-entries.
         ///
         /// Manual, line 962: number\_of\_entries.
         pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
@@ -38475,7 +38475,7 @@ pub mod objects {
         /// 0x1400:01, UNSIGNED32, rw, default \$NODEID+0x200, range 0 to 4294967295.
         /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
-        /// Identifier of the PDO and whether it is valid
+        /// Identifier of the PDO and whether it is valid.
         ///
         /// Manual, line 968: RxPDO COB-ID.
         pub const COB_ID: super::ReadWrite<
@@ -38494,7 +38494,7 @@ pub mod objects {
         /// 0x1400:02, UNSIGNED8, rw, default 254, range 0 to 255.
         /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
-        /// Whether the PDO is synchronous, event triggered or on request
+        /// Whether the PDO is synchronous, event triggered or on request.
         ///
         /// Manual, line 987: Transmission\_type.
         ///
@@ -38517,7 +38517,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1400:00.
             ///
-            /// Number of sub-entries
+            /// Number of sub-entries.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -38527,7 +38527,7 @@ pub mod objects {
             }
             /// COB-ID: 0x1400:01.
             ///
-            /// Identifier of the PDO and whether it is valid
+            /// Identifier of the PDO and whether it is valid.
             ///
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
@@ -38542,7 +38542,7 @@ pub mod objects {
             }
             /// Transmission type: 0x1400:02.
             ///
-            /// Whether the PDO is synchronous, event triggered or on request
+            /// Whether the PDO is synchronous, event triggered or on request.
             ///
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
@@ -38567,7 +38567,7 @@ pub mod objects {
         /// 0x1401:00, UNSIGNED8, ro, default 2, range 2 to 2.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of sub-entries
+        /// Number of sub-entries.
         ///
         /// Manual, line 962: number\_of\_entries.
         pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
@@ -38583,7 +38583,7 @@ pub mod objects {
         /// 0x1401:01, UNSIGNED32, rw, default \$NODEID+0x300, range 0 to 4294967295.
         /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
-        /// Identifier of the PDO and whether it is valid
+        /// Identifier of the PDO and whether it is valid.
         ///
         /// Manual, line 968: RxPDO COB-ID.
         pub const COB_ID: super::ReadWrite<
@@ -38602,7 +38602,7 @@ pub mod objects {
         /// 0x1401:02, UNSIGNED8, rw, default 254, range 0 to 255.
         /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
-        /// Whether the PDO is synchronous, event triggered or on request
+        /// Whether the PDO is synchronous, event triggered or on request.
         ///
         /// Manual, line 987: Transmission\_type.
         ///
@@ -38625,7 +38625,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1401:00.
             ///
-            /// Number of sub-entries
+            /// Number of sub-entries.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -38635,7 +38635,7 @@ pub mod objects {
             }
             /// COB-ID: 0x1401:01.
             ///
-            /// Identifier of the PDO and whether it is valid
+            /// Identifier of the PDO and whether it is valid.
             ///
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
@@ -38650,7 +38650,7 @@ pub mod objects {
             }
             /// Transmission type: 0x1401:02.
             ///
-            /// Whether the PDO is synchronous, event triggered or on request
+            /// Whether the PDO is synchronous, event triggered or on request.
             ///
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
@@ -38675,7 +38675,7 @@ pub mod objects {
         /// 0x1402:00, UNSIGNED8, ro, default 2, range 2 to 2.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of sub-entries
+        /// Number of sub-entries.
         ///
         /// Manual, line 962: number\_of\_entries.
         pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
@@ -38691,7 +38691,7 @@ pub mod objects {
         /// 0x1402:01, UNSIGNED32, rw, default \$NODEID+0x400, range 0 to 4294967295.
         /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
-        /// Identifier of the PDO and whether it is valid
+        /// Identifier of the PDO and whether it is valid.
         ///
         /// Manual, line 968: RxPDO COB-ID.
         pub const COB_ID: super::ReadWrite<
@@ -38710,7 +38710,7 @@ pub mod objects {
         /// 0x1402:02, UNSIGNED8, rw, default 254, range 0 to 255.
         /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
-        /// Whether the PDO is synchronous, event triggered or on request
+        /// Whether the PDO is synchronous, event triggered or on request.
         ///
         /// Manual, line 987: Transmission\_type.
         ///
@@ -38733,7 +38733,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1402:00.
             ///
-            /// Number of sub-entries
+            /// Number of sub-entries.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -38743,7 +38743,7 @@ pub mod objects {
             }
             /// COB-ID: 0x1402:01.
             ///
-            /// Identifier of the PDO and whether it is valid
+            /// Identifier of the PDO and whether it is valid.
             ///
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
@@ -38758,7 +38758,7 @@ pub mod objects {
             }
             /// Transmission type: 0x1402:02.
             ///
-            /// Whether the PDO is synchronous, event triggered or on request
+            /// Whether the PDO is synchronous, event triggered or on request.
             ///
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
@@ -38783,7 +38783,7 @@ pub mod objects {
         /// 0x1403:00, UNSIGNED8, ro, default 2, range 2 to 2.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of sub-entries
+        /// Number of sub-entries.
         ///
         /// Manual, line 962: number\_of\_entries.
         pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
@@ -38799,7 +38799,7 @@ pub mod objects {
         /// 0x1403:01, UNSIGNED32, rw, default \$NODEID+0x500, range 0 to 4294967295.
         /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
-        /// Identifier of the PDO and whether it is valid
+        /// Identifier of the PDO and whether it is valid.
         ///
         /// Manual, line 968: RxPDO COB-ID.
         pub const COB_ID: super::ReadWrite<
@@ -38818,7 +38818,7 @@ pub mod objects {
         /// 0x1403:02, UNSIGNED8, rw, default 254, range 0 to 255.
         /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
-        /// Whether the PDO is synchronous, event triggered or on request
+        /// Whether the PDO is synchronous, event triggered or on request.
         ///
         /// Manual, line 987: Transmission\_type.
         ///
@@ -38841,7 +38841,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1403:00.
             ///
-            /// Number of sub-entries
+            /// Number of sub-entries.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -38851,7 +38851,7 @@ pub mod objects {
             }
             /// COB-ID: 0x1403:01.
             ///
-            /// Identifier of the PDO and whether it is valid
+            /// Identifier of the PDO and whether it is valid.
             ///
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
@@ -38866,7 +38866,7 @@ pub mod objects {
             }
             /// Transmission type: 0x1403:02.
             ///
-            /// Whether the PDO is synchronous, event triggered or on request
+            /// Whether the PDO is synchronous, event triggered or on request.
             ///
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
@@ -38891,7 +38891,7 @@ pub mod objects {
         /// 0x1600:00, UNSIGNED8, rw, default 2, range 0 to 8.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of mapped objects; 0 while the mapping is changed
+        /// Number of mapped objects; 0 while the mapping is changed.
         ///
         /// Writing 0 disables the PDO. Writing the number of mapped objects enables the PDO.
         ///
@@ -38915,7 +38915,7 @@ pub mod objects {
         /// 0x1600:01, UNSIGNED32, rw, default 0x60400010, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; by default the Controlword
+        /// Object, sub-index and number of bits; by default the Controlword.
         ///
         /// Manual, line 1040, 1050, 1052: PDO mapping.
         ///
@@ -38934,7 +38934,7 @@ pub mod objects {
         /// 0x1600:02, UNSIGNED32, rw, default 0x60600008, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; by default the mode of operation or target position
+        /// Object, sub-index and number of bits; by default the mode of operation or target position.
         ///
         /// Manual, line 1040, 1051, 1053: PDO mapping.
         pub const MAPPED_OBJECT_2: super::ReadWrite<
@@ -38951,7 +38951,7 @@ pub mod objects {
         /// 0x1600:03, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040: PDO mapping.
         pub const MAPPED_OBJECT_3: super::ReadWrite<
@@ -38967,7 +38967,7 @@ pub mod objects {
         /// 0x1600:04, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040: PDO mapping.
         pub const MAPPED_OBJECT_4: super::ReadWrite<
@@ -38983,7 +38983,7 @@ pub mod objects {
         /// 0x1600:05, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040: PDO mapping.
         pub const MAPPED_OBJECT_5: super::ReadWrite<
@@ -38999,7 +38999,7 @@ pub mod objects {
         /// 0x1600:06, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040: PDO mapping.
         pub const MAPPED_OBJECT_6: super::ReadWrite<
@@ -39015,7 +39015,7 @@ pub mod objects {
         /// 0x1600:07, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040: PDO mapping.
         pub const MAPPED_OBJECT_7: super::ReadWrite<
@@ -39031,7 +39031,7 @@ pub mod objects {
         /// 0x1600:08, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040: PDO mapping.
         pub const MAPPED_OBJECT_8: super::ReadWrite<
@@ -39049,7 +39049,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1600:00.
             ///
-            /// Number of mapped objects; 0 while the mapping is changed
+            /// Number of mapped objects; 0 while the mapping is changed.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -39059,7 +39059,7 @@ pub mod objects {
             }
             /// Mapped object 1: 0x1600:01.
             ///
-            /// Object, sub-index and number of bits; by default the Controlword
+            /// Object, sub-index and number of bits; by default the Controlword.
             ///
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
@@ -39074,7 +39074,7 @@ pub mod objects {
             }
             /// Mapped object 2: 0x1600:02.
             ///
-            /// Object, sub-index and number of bits; by default the mode of operation or target position
+            /// Object, sub-index and number of bits; by default the mode of operation or target position.
             ///
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
@@ -39089,7 +39089,7 @@ pub mod objects {
             }
             /// Mapped object 3: 0x1600:03.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
@@ -39104,7 +39104,7 @@ pub mod objects {
             }
             /// Mapped object 4: 0x1600:04.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
@@ -39119,7 +39119,7 @@ pub mod objects {
             }
             /// Mapped object 5: 0x1600:05.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
@@ -39134,7 +39134,7 @@ pub mod objects {
             }
             /// Mapped object 6: 0x1600:06.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
@@ -39149,7 +39149,7 @@ pub mod objects {
             }
             /// Mapped object 7: 0x1600:07.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
@@ -39164,7 +39164,7 @@ pub mod objects {
             }
             /// Mapped object 8: 0x1600:08.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
@@ -39189,7 +39189,7 @@ pub mod objects {
         /// 0x1601:00, UNSIGNED8, rw, default 2, range 0 to 8.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of mapped objects; 0 while the mapping is changed
+        /// Number of mapped objects; 0 while the mapping is changed.
         ///
         /// Writing 0 disables the PDO. Writing the number of mapped objects enables the PDO.
         ///
@@ -39213,7 +39213,7 @@ pub mod objects {
         /// 0x1601:01, UNSIGNED32, rw, default 0x60400010, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; by default the Controlword
+        /// Object, sub-index and number of bits; by default the Controlword.
         ///
         /// Manual, line 1040, 1050, 1052: PDO mapping.
         ///
@@ -39232,7 +39232,7 @@ pub mod objects {
         /// 0x1601:02, UNSIGNED32, rw, default 0x607A0020, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; by default the mode of operation or target position
+        /// Object, sub-index and number of bits; by default the mode of operation or target position.
         ///
         /// Manual, line 1040, 1051, 1053: PDO mapping.
         pub const MAPPED_OBJECT_2: super::ReadWrite<
@@ -39249,7 +39249,7 @@ pub mod objects {
         /// 0x1601:03, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040: PDO mapping.
         pub const MAPPED_OBJECT_3: super::ReadWrite<
@@ -39265,7 +39265,7 @@ pub mod objects {
         /// 0x1601:04, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040: PDO mapping.
         pub const MAPPED_OBJECT_4: super::ReadWrite<
@@ -39281,7 +39281,7 @@ pub mod objects {
         /// 0x1601:05, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040: PDO mapping.
         pub const MAPPED_OBJECT_5: super::ReadWrite<
@@ -39297,7 +39297,7 @@ pub mod objects {
         /// 0x1601:06, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040: PDO mapping.
         pub const MAPPED_OBJECT_6: super::ReadWrite<
@@ -39313,7 +39313,7 @@ pub mod objects {
         /// 0x1601:07, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040: PDO mapping.
         pub const MAPPED_OBJECT_7: super::ReadWrite<
@@ -39329,7 +39329,7 @@ pub mod objects {
         /// 0x1601:08, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040: PDO mapping.
         pub const MAPPED_OBJECT_8: super::ReadWrite<
@@ -39347,7 +39347,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1601:00.
             ///
-            /// Number of mapped objects; 0 while the mapping is changed
+            /// Number of mapped objects; 0 while the mapping is changed.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -39357,7 +39357,7 @@ pub mod objects {
             }
             /// Mapped object 1: 0x1601:01.
             ///
-            /// Object, sub-index and number of bits; by default the Controlword
+            /// Object, sub-index and number of bits; by default the Controlword.
             ///
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
@@ -39372,7 +39372,7 @@ pub mod objects {
             }
             /// Mapped object 2: 0x1601:02.
             ///
-            /// Object, sub-index and number of bits; by default the mode of operation or target position
+            /// Object, sub-index and number of bits; by default the mode of operation or target position.
             ///
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
@@ -39387,7 +39387,7 @@ pub mod objects {
             }
             /// Mapped object 3: 0x1601:03.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
@@ -39402,7 +39402,7 @@ pub mod objects {
             }
             /// Mapped object 4: 0x1601:04.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
@@ -39417,7 +39417,7 @@ pub mod objects {
             }
             /// Mapped object 5: 0x1601:05.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
@@ -39432,7 +39432,7 @@ pub mod objects {
             }
             /// Mapped object 6: 0x1601:06.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
@@ -39447,7 +39447,7 @@ pub mod objects {
             }
             /// Mapped object 7: 0x1601:07.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
@@ -39462,7 +39462,7 @@ pub mod objects {
             }
             /// Mapped object 8: 0x1601:08.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
@@ -39487,7 +39487,7 @@ pub mod objects {
         /// 0x1602:00, UNSIGNED8, rw, default 0, range 0 to 8.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of mapped objects; 0 while the mapping is changed
+        /// Number of mapped objects; 0 while the mapping is changed.
         ///
         /// Writing 0 disables the PDO. Writing the number of mapped objects enables the PDO.
         ///
@@ -39511,7 +39511,7 @@ pub mod objects {
         /// 0x1602:01, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_1: super::ReadWrite<
@@ -39527,7 +39527,7 @@ pub mod objects {
         /// 0x1602:02, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_2: super::ReadWrite<
@@ -39543,7 +39543,7 @@ pub mod objects {
         /// 0x1602:03, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_3: super::ReadWrite<
@@ -39559,7 +39559,7 @@ pub mod objects {
         /// 0x1602:04, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_4: super::ReadWrite<
@@ -39575,7 +39575,7 @@ pub mod objects {
         /// 0x1602:05, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_5: super::ReadWrite<
@@ -39591,7 +39591,7 @@ pub mod objects {
         /// 0x1602:06, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_6: super::ReadWrite<
@@ -39607,7 +39607,7 @@ pub mod objects {
         /// 0x1602:07, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_7: super::ReadWrite<
@@ -39623,7 +39623,7 @@ pub mod objects {
         /// 0x1602:08, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_8: super::ReadWrite<
@@ -39641,7 +39641,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1602:00.
             ///
-            /// Number of mapped objects; 0 while the mapping is changed
+            /// Number of mapped objects; 0 while the mapping is changed.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -39651,7 +39651,7 @@ pub mod objects {
             }
             /// Mapped object 1: 0x1602:01.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
@@ -39666,7 +39666,7 @@ pub mod objects {
             }
             /// Mapped object 2: 0x1602:02.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
@@ -39681,7 +39681,7 @@ pub mod objects {
             }
             /// Mapped object 3: 0x1602:03.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
@@ -39696,7 +39696,7 @@ pub mod objects {
             }
             /// Mapped object 4: 0x1602:04.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
@@ -39711,7 +39711,7 @@ pub mod objects {
             }
             /// Mapped object 5: 0x1602:05.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
@@ -39726,7 +39726,7 @@ pub mod objects {
             }
             /// Mapped object 6: 0x1602:06.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
@@ -39741,7 +39741,7 @@ pub mod objects {
             }
             /// Mapped object 7: 0x1602:07.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
@@ -39756,7 +39756,7 @@ pub mod objects {
             }
             /// Mapped object 8: 0x1602:08.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
@@ -39781,7 +39781,7 @@ pub mod objects {
         /// 0x1603:00, UNSIGNED8, rw, default 0, range 0 to 8.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of mapped objects; 0 while the mapping is changed
+        /// Number of mapped objects; 0 while the mapping is changed.
         ///
         /// Writing 0 disables the PDO. Writing the number of mapped objects enables the PDO.
         ///
@@ -39805,7 +39805,7 @@ pub mod objects {
         /// 0x1603:01, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_1: super::ReadWrite<
@@ -39821,7 +39821,7 @@ pub mod objects {
         /// 0x1603:02, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_2: super::ReadWrite<
@@ -39837,7 +39837,7 @@ pub mod objects {
         /// 0x1603:03, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_3: super::ReadWrite<
@@ -39853,7 +39853,7 @@ pub mod objects {
         /// 0x1603:04, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_4: super::ReadWrite<
@@ -39869,7 +39869,7 @@ pub mod objects {
         /// 0x1603:05, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_5: super::ReadWrite<
@@ -39885,7 +39885,7 @@ pub mod objects {
         /// 0x1603:06, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_6: super::ReadWrite<
@@ -39901,7 +39901,7 @@ pub mod objects {
         /// 0x1603:07, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_7: super::ReadWrite<
@@ -39917,7 +39917,7 @@ pub mod objects {
         /// 0x1603:08, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1040, 1054, 1055: PDO mapping.
         pub const MAPPED_OBJECT_8: super::ReadWrite<
@@ -39935,7 +39935,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1603:00.
             ///
-            /// Number of mapped objects; 0 while the mapping is changed
+            /// Number of mapped objects; 0 while the mapping is changed.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -39945,7 +39945,7 @@ pub mod objects {
             }
             /// Mapped object 1: 0x1603:01.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
@@ -39960,7 +39960,7 @@ pub mod objects {
             }
             /// Mapped object 2: 0x1603:02.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
@@ -39975,7 +39975,7 @@ pub mod objects {
             }
             /// Mapped object 3: 0x1603:03.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
@@ -39990,7 +39990,7 @@ pub mod objects {
             }
             /// Mapped object 4: 0x1603:04.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
@@ -40005,7 +40005,7 @@ pub mod objects {
             }
             /// Mapped object 5: 0x1603:05.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
@@ -40020,7 +40020,7 @@ pub mod objects {
             }
             /// Mapped object 6: 0x1603:06.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
@@ -40035,7 +40035,7 @@ pub mod objects {
             }
             /// Mapped object 7: 0x1603:07.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
@@ -40050,7 +40050,7 @@ pub mod objects {
             }
             /// Mapped object 8: 0x1603:08.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
@@ -40075,7 +40075,7 @@ pub mod objects {
         /// 0x1800:00, UNSIGNED8, ro, default 5, range 2 to 5.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Greatest sub-index that exists
+        /// Greatest sub-index that exists.
         ///
         /// Manual, line 1072: number\_of\_entries.
         pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
@@ -40091,7 +40091,7 @@ pub mod objects {
         /// 0x1800:01, UNSIGNED32, rw, default \$NODEID+0x180, range 0 to 4294967295.
         /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
-        /// Identifier of the PDO, whether it is valid and may be requested
+        /// Identifier of the PDO, whether it is valid and may be requested.
         ///
         /// Manual, line 1078: TxPDO COB-ID.
         pub const COB_ID: super::ReadWrite<
@@ -40110,7 +40110,7 @@ pub mod objects {
         /// 0x1800:02, UNSIGNED8, rw, default 254, range 0 to 255.
         /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
-        /// When the PDO is sent: on SYNC, on events or on request
+        /// When the PDO is sent: on SYNC, on events or on request.
         ///
         /// Manual, line 1097: Transmission\_type.
         pub const TRANSMISSION_TYPE: super::ReadWrite<
@@ -40127,7 +40127,7 @@ pub mod objects {
         /// 0x1800:03, UNSIGNED16, rw, default 0, range 0 to 65535 (0 to 6553500 us), in 100 us.
         /// Accessor: [`Accessors::inhibit_time`].
         ///
-        /// Least time between two transmissions, in multiples of 100 µs
+        /// Least time between two transmissions, in multiples of 100 µs.
         ///
         /// Manual, line 1129: Transmission\_type.
         ///
@@ -40148,7 +40148,7 @@ pub mod objects {
         /// 0x1800:04, unknown type, rw.
         /// Accessor: [`Accessors::reserved`].
         ///
-        /// Reserved; all fields of its box are blank
+        /// Reserved; all fields of its box are blank.
         ///
         /// Manual, line 1137: Reserved.
         pub const RESERVED: super::ReadWrite<rt::Opaque, rt::OnCanOpenAndCoE> = super::ReadWriteOpaqueOnCanOpenCoE::shared_object(
@@ -40161,7 +40161,7 @@ pub mod objects {
         /// 0x1800:05, UNSIGNED16, rw, default 0, range 0 to 65535, in ms.
         /// Accessor: [`Accessors::event_timer`].
         ///
-        /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
+        /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only.
         ///
         /// Manual, line 1145: event\_timer.
         pub const EVENT_TIMER: super::ReadWrite<u16, rt::OnCanOpenAndCoE> = super::ReadWriteU16OnCanOpenCoE::new(
@@ -40179,7 +40179,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1800:00.
             ///
-            /// Greatest sub-index that exists
+            /// Greatest sub-index that exists.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -40189,7 +40189,7 @@ pub mod objects {
             }
             /// COB-ID: 0x1800:01.
             ///
-            /// Identifier of the PDO, whether it is valid and may be requested
+            /// Identifier of the PDO, whether it is valid and may be requested.
             ///
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
@@ -40204,7 +40204,7 @@ pub mod objects {
             }
             /// Transmission type: 0x1800:02.
             ///
-            /// When the PDO is sent: on SYNC, on events or on request
+            /// When the PDO is sent: on SYNC, on events or on request.
             ///
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
@@ -40219,7 +40219,7 @@ pub mod objects {
             }
             /// Inhibit time: 0x1800:03.
             ///
-            /// Least time between two transmissions, in multiples of 100 µs
+            /// Least time between two transmissions, in multiples of 100 µs.
             ///
             /// Constant: [`INHIBIT_TIME`].
             pub fn inhibit_time(
@@ -40234,7 +40234,7 @@ pub mod objects {
             }
             /// Reserved: 0x1800:04.
             ///
-            /// Reserved; all fields of its box are blank
+            /// Reserved; all fields of its box are blank.
             ///
             /// Constant: [`RESERVED`].
             pub fn reserved(
@@ -40244,7 +40244,7 @@ pub mod objects {
             }
             /// Event timer: 0x1800:05.
             ///
-            /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
+            /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only.
             ///
             /// Constant: [`EVENT_TIMER`].
             pub fn event_timer(
@@ -40264,7 +40264,7 @@ pub mod objects {
         /// 0x1801:00, UNSIGNED8, ro, default 5, range 2 to 5.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Greatest sub-index that exists
+        /// Greatest sub-index that exists.
         ///
         /// Manual, line 1072: number\_of\_entries.
         pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
@@ -40280,7 +40280,7 @@ pub mod objects {
         /// 0x1801:01, UNSIGNED32, rw, default \$NODEID+0x280, range 0 to 4294967295.
         /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
-        /// Identifier of the PDO, whether it is valid and may be requested
+        /// Identifier of the PDO, whether it is valid and may be requested.
         ///
         /// Manual, line 1078: TxPDO COB-ID.
         pub const COB_ID: super::ReadWrite<
@@ -40299,7 +40299,7 @@ pub mod objects {
         /// 0x1801:02, UNSIGNED8, rw, default 254, range 0 to 255.
         /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
-        /// When the PDO is sent: on SYNC, on events or on request
+        /// When the PDO is sent: on SYNC, on events or on request.
         ///
         /// Manual, line 1097: Transmission\_type.
         pub const TRANSMISSION_TYPE: super::ReadWrite<
@@ -40316,7 +40316,7 @@ pub mod objects {
         /// 0x1801:03, UNSIGNED16, rw, default 0, range 0 to 65535 (0 to 6553500 us), in 100 us.
         /// Accessor: [`Accessors::inhibit_time`].
         ///
-        /// Least time between two transmissions, in multiples of 100 µs
+        /// Least time between two transmissions, in multiples of 100 µs.
         ///
         /// Manual, line 1129: Transmission\_type.
         ///
@@ -40337,7 +40337,7 @@ pub mod objects {
         /// 0x1801:04, unknown type, rw.
         /// Accessor: [`Accessors::reserved`].
         ///
-        /// Reserved; all fields of its box are blank
+        /// Reserved; all fields of its box are blank.
         ///
         /// Manual, line 1137: Reserved.
         pub const RESERVED: super::ReadWrite<rt::Opaque, rt::OnCanOpenAndCoE> = super::ReadWriteOpaqueOnCanOpenCoE::shared_object(
@@ -40350,7 +40350,7 @@ pub mod objects {
         /// 0x1801:05, UNSIGNED16, rw, default 0, range 0 to 65535, in ms.
         /// Accessor: [`Accessors::event_timer`].
         ///
-        /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
+        /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only.
         ///
         /// Manual, line 1145: event\_timer.
         pub const EVENT_TIMER: super::ReadWrite<u16, rt::OnCanOpenAndCoE> = super::ReadWriteU16OnCanOpenCoE::new(
@@ -40368,7 +40368,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1801:00.
             ///
-            /// Greatest sub-index that exists
+            /// Greatest sub-index that exists.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -40378,7 +40378,7 @@ pub mod objects {
             }
             /// COB-ID: 0x1801:01.
             ///
-            /// Identifier of the PDO, whether it is valid and may be requested
+            /// Identifier of the PDO, whether it is valid and may be requested.
             ///
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
@@ -40393,7 +40393,7 @@ pub mod objects {
             }
             /// Transmission type: 0x1801:02.
             ///
-            /// When the PDO is sent: on SYNC, on events or on request
+            /// When the PDO is sent: on SYNC, on events or on request.
             ///
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
@@ -40408,7 +40408,7 @@ pub mod objects {
             }
             /// Inhibit time: 0x1801:03.
             ///
-            /// Least time between two transmissions, in multiples of 100 µs
+            /// Least time between two transmissions, in multiples of 100 µs.
             ///
             /// Constant: [`INHIBIT_TIME`].
             pub fn inhibit_time(
@@ -40423,7 +40423,7 @@ pub mod objects {
             }
             /// Reserved: 0x1801:04.
             ///
-            /// Reserved; all fields of its box are blank
+            /// Reserved; all fields of its box are blank.
             ///
             /// Constant: [`RESERVED`].
             pub fn reserved(
@@ -40433,7 +40433,7 @@ pub mod objects {
             }
             /// Event timer: 0x1801:05.
             ///
-            /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
+            /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only.
             ///
             /// Constant: [`EVENT_TIMER`].
             pub fn event_timer(
@@ -40453,7 +40453,7 @@ pub mod objects {
         /// 0x1802:00, UNSIGNED8, ro, default 5, range 2 to 5.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Greatest sub-index that exists
+        /// Greatest sub-index that exists.
         ///
         /// Manual, line 1072: number\_of\_entries.
         pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
@@ -40469,7 +40469,7 @@ pub mod objects {
         /// 0x1802:01, UNSIGNED32, rw, default \$NODEID+0x380, range 0 to 4294967295.
         /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
-        /// Identifier of the PDO, whether it is valid and may be requested
+        /// Identifier of the PDO, whether it is valid and may be requested.
         ///
         /// Manual, line 1078: TxPDO COB-ID.
         pub const COB_ID: super::ReadWrite<
@@ -40488,7 +40488,7 @@ pub mod objects {
         /// 0x1802:02, UNSIGNED8, rw, default 254, range 0 to 255.
         /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
-        /// When the PDO is sent: on SYNC, on events or on request
+        /// When the PDO is sent: on SYNC, on events or on request.
         ///
         /// Manual, line 1097: Transmission\_type.
         pub const TRANSMISSION_TYPE: super::ReadWrite<
@@ -40505,7 +40505,7 @@ pub mod objects {
         /// 0x1802:03, UNSIGNED16, rw, default 0, range 0 to 65535 (0 to 6553500 us), in 100 us.
         /// Accessor: [`Accessors::inhibit_time`].
         ///
-        /// Least time between two transmissions, in multiples of 100 µs
+        /// Least time between two transmissions, in multiples of 100 µs.
         ///
         /// Manual, line 1129: Transmission\_type.
         ///
@@ -40526,7 +40526,7 @@ pub mod objects {
         /// 0x1802:04, unknown type, rw.
         /// Accessor: [`Accessors::reserved`].
         ///
-        /// Reserved; all fields of its box are blank
+        /// Reserved; all fields of its box are blank.
         ///
         /// Manual, line 1137: Reserved.
         pub const RESERVED: super::ReadWrite<rt::Opaque, rt::OnCanOpenAndCoE> = super::ReadWriteOpaqueOnCanOpenCoE::shared_object(
@@ -40539,7 +40539,7 @@ pub mod objects {
         /// 0x1802:05, UNSIGNED16, rw, default 0, range 0 to 65535, in ms.
         /// Accessor: [`Accessors::event_timer`].
         ///
-        /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
+        /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only.
         ///
         /// Manual, line 1145: event\_timer.
         pub const EVENT_TIMER: super::ReadWrite<u16, rt::OnCanOpenAndCoE> = super::ReadWriteU16OnCanOpenCoE::new(
@@ -40557,7 +40557,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1802:00.
             ///
-            /// Greatest sub-index that exists
+            /// Greatest sub-index that exists.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -40567,7 +40567,7 @@ pub mod objects {
             }
             /// COB-ID: 0x1802:01.
             ///
-            /// Identifier of the PDO, whether it is valid and may be requested
+            /// Identifier of the PDO, whether it is valid and may be requested.
             ///
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
@@ -40582,7 +40582,7 @@ pub mod objects {
             }
             /// Transmission type: 0x1802:02.
             ///
-            /// When the PDO is sent: on SYNC, on events or on request
+            /// When the PDO is sent: on SYNC, on events or on request.
             ///
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
@@ -40597,7 +40597,7 @@ pub mod objects {
             }
             /// Inhibit time: 0x1802:03.
             ///
-            /// Least time between two transmissions, in multiples of 100 µs
+            /// Least time between two transmissions, in multiples of 100 µs.
             ///
             /// Constant: [`INHIBIT_TIME`].
             pub fn inhibit_time(
@@ -40612,7 +40612,7 @@ pub mod objects {
             }
             /// Reserved: 0x1802:04.
             ///
-            /// Reserved; all fields of its box are blank
+            /// Reserved; all fields of its box are blank.
             ///
             /// Constant: [`RESERVED`].
             pub fn reserved(
@@ -40622,7 +40622,7 @@ pub mod objects {
             }
             /// Event timer: 0x1802:05.
             ///
-            /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
+            /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only.
             ///
             /// Constant: [`EVENT_TIMER`].
             pub fn event_timer(
@@ -40642,7 +40642,7 @@ pub mod objects {
         /// 0x1803:00, UNSIGNED8, ro, default 5, range 2 to 5.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Greatest sub-index that exists
+        /// Greatest sub-index that exists.
         ///
         /// Manual, line 1072: number\_of\_entries.
         pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
@@ -40658,7 +40658,7 @@ pub mod objects {
         /// 0x1803:01, UNSIGNED32, rw, default \$NODEID+0x480, range 0 to 4294967295.
         /// Accessor: [`Accessors::cob_id`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
         ///
-        /// Identifier of the PDO, whether it is valid and may be requested
+        /// Identifier of the PDO, whether it is valid and may be requested.
         ///
         /// Manual, line 1078: TxPDO COB-ID.
         pub const COB_ID: super::ReadWrite<
@@ -40677,7 +40677,7 @@ pub mod objects {
         /// 0x1803:02, UNSIGNED8, rw, default 254, range 0 to 255.
         /// Accessor: [`Accessors::transmission_type`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
         ///
-        /// When the PDO is sent: on SYNC, on events or on request
+        /// When the PDO is sent: on SYNC, on events or on request.
         ///
         /// Manual, line 1097: Transmission\_type.
         pub const TRANSMISSION_TYPE: super::ReadWrite<
@@ -40694,7 +40694,7 @@ pub mod objects {
         /// 0x1803:03, UNSIGNED16, rw, default 0, range 0 to 65535 (0 to 6553500 us), in 100 us.
         /// Accessor: [`Accessors::inhibit_time`].
         ///
-        /// Least time between two transmissions, in multiples of 100 µs
+        /// Least time between two transmissions, in multiples of 100 µs.
         ///
         /// Manual, line 1129: Transmission\_type.
         ///
@@ -40715,7 +40715,7 @@ pub mod objects {
         /// 0x1803:04, unknown type, rw.
         /// Accessor: [`Accessors::reserved`].
         ///
-        /// Reserved; all fields of its box are blank
+        /// Reserved; all fields of its box are blank.
         ///
         /// Manual, line 1137: Reserved.
         pub const RESERVED: super::ReadWrite<rt::Opaque, rt::OnCanOpenAndCoE> = super::ReadWriteOpaqueOnCanOpenCoE::shared_object(
@@ -40728,7 +40728,7 @@ pub mod objects {
         /// 0x1803:05, UNSIGNED16, rw, default 0, range 0 to 65535, in ms.
         /// Accessor: [`Accessors::event_timer`].
         ///
-        /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
+        /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only.
         ///
         /// Manual, line 1145: event\_timer.
         pub const EVENT_TIMER: super::ReadWrite<u16, rt::OnCanOpenAndCoE> = super::ReadWriteU16OnCanOpenCoE::new(
@@ -40746,7 +40746,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1803:00.
             ///
-            /// Greatest sub-index that exists
+            /// Greatest sub-index that exists.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -40756,7 +40756,7 @@ pub mod objects {
             }
             /// COB-ID: 0x1803:01.
             ///
-            /// Identifier of the PDO, whether it is valid and may be requested
+            /// Identifier of the PDO, whether it is valid and may be requested.
             ///
             /// Constant: [`COB_ID`]. Values: [`CobIdPdo`](super::super::types::CobIdPdo).
             pub fn cob_id(
@@ -40771,7 +40771,7 @@ pub mod objects {
             }
             /// Transmission type: 0x1803:02.
             ///
-            /// When the PDO is sent: on SYNC, on events or on request
+            /// When the PDO is sent: on SYNC, on events or on request.
             ///
             /// Constant: [`TRANSMISSION_TYPE`]. Values: [`TransmissionType`](super::super::types::TransmissionType).
             pub fn transmission_type(
@@ -40786,7 +40786,7 @@ pub mod objects {
             }
             /// Inhibit time: 0x1803:03.
             ///
-            /// Least time between two transmissions, in multiples of 100 µs
+            /// Least time between two transmissions, in multiples of 100 µs.
             ///
             /// Constant: [`INHIBIT_TIME`].
             pub fn inhibit_time(
@@ -40801,7 +40801,7 @@ pub mod objects {
             }
             /// Reserved: 0x1803:04.
             ///
-            /// Reserved; all fields of its box are blank
+            /// Reserved; all fields of its box are blank.
             ///
             /// Constant: [`RESERVED`].
             pub fn reserved(
@@ -40811,7 +40811,7 @@ pub mod objects {
             }
             /// Event timer: 0x1803:05.
             ///
-            /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only
+            /// Sends the PDO whenever it runs out; events restart it; effective with transmission types 254 and 255 only.
             ///
             /// Constant: [`EVENT_TIMER`].
             pub fn event_timer(
@@ -40831,7 +40831,7 @@ pub mod objects {
         /// 0x1A00:00, UNSIGNED8, rw, default 2, range 0 to 8.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of mapped objects; 0 while the mapping is changed
+        /// Number of mapped objects; 0 while the mapping is changed.
         ///
         /// Writing 0 disables the PDO. Writing the number of mapped objects enables the PDO.
         ///
@@ -40853,7 +40853,7 @@ pub mod objects {
         /// 0x1A00:01, UNSIGNED32, rw, default 0x60410010, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; by default the Statusword
+        /// Object, sub-index and number of bits; by default the Statusword.
         ///
         /// Manual, line 1179, 1189, 1191: PDO mapping.
         pub const MAPPED_OBJECT_1: super::ReadWrite<
@@ -40870,7 +40870,7 @@ pub mod objects {
         /// 0x1A00:02, UNSIGNED32, rw, default 0x60610008, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; by default the mode shown or the actual position
+        /// Object, sub-index and number of bits; by default the mode shown or the actual position.
         ///
         /// Manual, line 1179, 1190, 1192: PDO mapping.
         pub const MAPPED_OBJECT_2: super::ReadWrite<
@@ -40887,7 +40887,7 @@ pub mod objects {
         /// 0x1A00:03, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179: PDO mapping.
         pub const MAPPED_OBJECT_3: super::ReadWrite<
@@ -40903,7 +40903,7 @@ pub mod objects {
         /// 0x1A00:04, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179: PDO mapping.
         pub const MAPPED_OBJECT_4: super::ReadWrite<
@@ -40919,7 +40919,7 @@ pub mod objects {
         /// 0x1A00:05, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179: PDO mapping.
         pub const MAPPED_OBJECT_5: super::ReadWrite<
@@ -40935,7 +40935,7 @@ pub mod objects {
         /// 0x1A00:06, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179: PDO mapping.
         pub const MAPPED_OBJECT_6: super::ReadWrite<
@@ -40951,7 +40951,7 @@ pub mod objects {
         /// 0x1A00:07, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179: PDO mapping.
         pub const MAPPED_OBJECT_7: super::ReadWrite<
@@ -40967,7 +40967,7 @@ pub mod objects {
         /// 0x1A00:08, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179: PDO mapping.
         pub const MAPPED_OBJECT_8: super::ReadWrite<
@@ -40985,7 +40985,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A00:00.
             ///
-            /// Number of mapped objects; 0 while the mapping is changed
+            /// Number of mapped objects; 0 while the mapping is changed.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -40995,7 +40995,7 @@ pub mod objects {
             }
             /// Mapped object 1: 0x1A00:01.
             ///
-            /// Object, sub-index and number of bits; by default the Statusword
+            /// Object, sub-index and number of bits; by default the Statusword.
             ///
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
@@ -41010,7 +41010,7 @@ pub mod objects {
             }
             /// Mapped object 2: 0x1A00:02.
             ///
-            /// Object, sub-index and number of bits; by default the mode shown or the actual position
+            /// Object, sub-index and number of bits; by default the mode shown or the actual position.
             ///
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
@@ -41025,7 +41025,7 @@ pub mod objects {
             }
             /// Mapped object 3: 0x1A00:03.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
@@ -41040,7 +41040,7 @@ pub mod objects {
             }
             /// Mapped object 4: 0x1A00:04.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
@@ -41055,7 +41055,7 @@ pub mod objects {
             }
             /// Mapped object 5: 0x1A00:05.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
@@ -41070,7 +41070,7 @@ pub mod objects {
             }
             /// Mapped object 6: 0x1A00:06.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
@@ -41085,7 +41085,7 @@ pub mod objects {
             }
             /// Mapped object 7: 0x1A00:07.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
@@ -41100,7 +41100,7 @@ pub mod objects {
             }
             /// Mapped object 8: 0x1A00:08.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
@@ -41125,7 +41125,7 @@ pub mod objects {
         /// 0x1A01:00, UNSIGNED8, rw, default 2, range 0 to 8.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of mapped objects; 0 while the mapping is changed
+        /// Number of mapped objects; 0 while the mapping is changed.
         ///
         /// Writing 0 disables the PDO. Writing the number of mapped objects enables the PDO.
         ///
@@ -41147,7 +41147,7 @@ pub mod objects {
         /// 0x1A01:01, UNSIGNED32, rw, default 0x60410010, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; by default the Statusword
+        /// Object, sub-index and number of bits; by default the Statusword.
         ///
         /// Manual, line 1179, 1189, 1191: PDO mapping.
         pub const MAPPED_OBJECT_1: super::ReadWrite<
@@ -41164,7 +41164,7 @@ pub mod objects {
         /// 0x1A01:02, UNSIGNED32, rw, default 0x60640020, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; by default the mode shown or the actual position
+        /// Object, sub-index and number of bits; by default the mode shown or the actual position.
         ///
         /// Manual, line 1179, 1190, 1192: PDO mapping.
         pub const MAPPED_OBJECT_2: super::ReadWrite<
@@ -41181,7 +41181,7 @@ pub mod objects {
         /// 0x1A01:03, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179: PDO mapping.
         pub const MAPPED_OBJECT_3: super::ReadWrite<
@@ -41197,7 +41197,7 @@ pub mod objects {
         /// 0x1A01:04, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179: PDO mapping.
         pub const MAPPED_OBJECT_4: super::ReadWrite<
@@ -41213,7 +41213,7 @@ pub mod objects {
         /// 0x1A01:05, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179: PDO mapping.
         pub const MAPPED_OBJECT_5: super::ReadWrite<
@@ -41229,7 +41229,7 @@ pub mod objects {
         /// 0x1A01:06, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179: PDO mapping.
         pub const MAPPED_OBJECT_6: super::ReadWrite<
@@ -41245,7 +41245,7 @@ pub mod objects {
         /// 0x1A01:07, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179: PDO mapping.
         pub const MAPPED_OBJECT_7: super::ReadWrite<
@@ -41261,7 +41261,7 @@ pub mod objects {
         /// 0x1A01:08, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179: PDO mapping.
         pub const MAPPED_OBJECT_8: super::ReadWrite<
@@ -41279,7 +41279,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A01:00.
             ///
-            /// Number of mapped objects; 0 while the mapping is changed
+            /// Number of mapped objects; 0 while the mapping is changed.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -41289,7 +41289,7 @@ pub mod objects {
             }
             /// Mapped object 1: 0x1A01:01.
             ///
-            /// Object, sub-index and number of bits; by default the Statusword
+            /// Object, sub-index and number of bits; by default the Statusword.
             ///
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
@@ -41304,7 +41304,7 @@ pub mod objects {
             }
             /// Mapped object 2: 0x1A01:02.
             ///
-            /// Object, sub-index and number of bits; by default the mode shown or the actual position
+            /// Object, sub-index and number of bits; by default the mode shown or the actual position.
             ///
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
@@ -41319,7 +41319,7 @@ pub mod objects {
             }
             /// Mapped object 3: 0x1A01:03.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
@@ -41334,7 +41334,7 @@ pub mod objects {
             }
             /// Mapped object 4: 0x1A01:04.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
@@ -41349,7 +41349,7 @@ pub mod objects {
             }
             /// Mapped object 5: 0x1A01:05.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
@@ -41364,7 +41364,7 @@ pub mod objects {
             }
             /// Mapped object 6: 0x1A01:06.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
@@ -41379,7 +41379,7 @@ pub mod objects {
             }
             /// Mapped object 7: 0x1A01:07.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
@@ -41394,7 +41394,7 @@ pub mod objects {
             }
             /// Mapped object 8: 0x1A01:08.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
@@ -41419,7 +41419,7 @@ pub mod objects {
         /// 0x1A02:00, UNSIGNED8, rw, default 0, range 0 to 8.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of mapped objects; 0 while the mapping is changed
+        /// Number of mapped objects; 0 while the mapping is changed.
         ///
         /// Writing 0 disables the PDO. Writing the number of mapped objects enables the PDO.
         ///
@@ -41441,7 +41441,7 @@ pub mod objects {
         /// 0x1A02:01, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_1: super::ReadWrite<
@@ -41457,7 +41457,7 @@ pub mod objects {
         /// 0x1A02:02, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_2: super::ReadWrite<
@@ -41473,7 +41473,7 @@ pub mod objects {
         /// 0x1A02:03, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_3: super::ReadWrite<
@@ -41489,7 +41489,7 @@ pub mod objects {
         /// 0x1A02:04, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_4: super::ReadWrite<
@@ -41505,7 +41505,7 @@ pub mod objects {
         /// 0x1A02:05, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_5: super::ReadWrite<
@@ -41521,7 +41521,7 @@ pub mod objects {
         /// 0x1A02:06, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_6: super::ReadWrite<
@@ -41537,7 +41537,7 @@ pub mod objects {
         /// 0x1A02:07, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_7: super::ReadWrite<
@@ -41553,7 +41553,7 @@ pub mod objects {
         /// 0x1A02:08, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_8: super::ReadWrite<
@@ -41571,7 +41571,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A02:00.
             ///
-            /// Number of mapped objects; 0 while the mapping is changed
+            /// Number of mapped objects; 0 while the mapping is changed.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -41581,7 +41581,7 @@ pub mod objects {
             }
             /// Mapped object 1: 0x1A02:01.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
@@ -41596,7 +41596,7 @@ pub mod objects {
             }
             /// Mapped object 2: 0x1A02:02.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
@@ -41611,7 +41611,7 @@ pub mod objects {
             }
             /// Mapped object 3: 0x1A02:03.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
@@ -41626,7 +41626,7 @@ pub mod objects {
             }
             /// Mapped object 4: 0x1A02:04.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
@@ -41641,7 +41641,7 @@ pub mod objects {
             }
             /// Mapped object 5: 0x1A02:05.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
@@ -41656,7 +41656,7 @@ pub mod objects {
             }
             /// Mapped object 6: 0x1A02:06.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
@@ -41671,7 +41671,7 @@ pub mod objects {
             }
             /// Mapped object 7: 0x1A02:07.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
@@ -41686,7 +41686,7 @@ pub mod objects {
             }
             /// Mapped object 8: 0x1A02:08.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
@@ -41711,7 +41711,7 @@ pub mod objects {
         /// 0x1A03:00, UNSIGNED8, rw, default 0, range 0 to 8.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of mapped objects; 0 while the mapping is changed
+        /// Number of mapped objects; 0 while the mapping is changed.
         ///
         /// Writing 0 disables the PDO. Writing the number of mapped objects enables the PDO.
         ///
@@ -41733,7 +41733,7 @@ pub mod objects {
         /// 0x1A03:01, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_1: super::ReadWrite<
@@ -41749,7 +41749,7 @@ pub mod objects {
         /// 0x1A03:02, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_2: super::ReadWrite<
@@ -41765,7 +41765,7 @@ pub mod objects {
         /// 0x1A03:03, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_3: super::ReadWrite<
@@ -41781,7 +41781,7 @@ pub mod objects {
         /// 0x1A03:04, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_4: super::ReadWrite<
@@ -41797,7 +41797,7 @@ pub mod objects {
         /// 0x1A03:05, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_5: super::ReadWrite<
@@ -41813,7 +41813,7 @@ pub mod objects {
         /// 0x1A03:06, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_6: super::ReadWrite<
@@ -41829,7 +41829,7 @@ pub mod objects {
         /// 0x1A03:07, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_7: super::ReadWrite<
@@ -41845,7 +41845,7 @@ pub mod objects {
         /// 0x1A03:08, UNSIGNED32, rw, range 0 to 4294967295.
         /// Accessor: [`Accessors::mapped_object_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
         ///
-        /// Object, sub-index and number of bits; not used by default
+        /// Object, sub-index and number of bits; not used by default.
         ///
         /// Manual, line 1179, 1193, 1194: PDO mapping.
         pub const MAPPED_OBJECT_8: super::ReadWrite<
@@ -41863,7 +41863,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x1A03:00.
             ///
-            /// Number of mapped objects; 0 while the mapping is changed
+            /// Number of mapped objects; 0 while the mapping is changed.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -41873,7 +41873,7 @@ pub mod objects {
             }
             /// Mapped object 1: 0x1A03:01.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_1`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_1(
@@ -41888,7 +41888,7 @@ pub mod objects {
             }
             /// Mapped object 2: 0x1A03:02.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_2`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_2(
@@ -41903,7 +41903,7 @@ pub mod objects {
             }
             /// Mapped object 3: 0x1A03:03.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_3`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_3(
@@ -41918,7 +41918,7 @@ pub mod objects {
             }
             /// Mapped object 4: 0x1A03:04.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_4`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_4(
@@ -41933,7 +41933,7 @@ pub mod objects {
             }
             /// Mapped object 5: 0x1A03:05.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_5`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_5(
@@ -41948,7 +41948,7 @@ pub mod objects {
             }
             /// Mapped object 6: 0x1A03:06.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_6`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_6(
@@ -41963,7 +41963,7 @@ pub mod objects {
             }
             /// Mapped object 7: 0x1A03:07.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_7`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_7(
@@ -41978,7 +41978,7 @@ pub mod objects {
             }
             /// Mapped object 8: 0x1A03:08.
             ///
-            /// Object, sub-index and number of bits; not used by default
+            /// Object, sub-index and number of bits; not used by default.
             ///
             /// Constant: [`MAPPED_OBJECT_8`]. Values: [`PdoMapping`](super::super::types::PdoMapping).
             pub fn mapped_object_8(
@@ -42003,7 +42003,7 @@ pub mod objects {
         /// 0x23E8:00, UNSIGNED8, ro, default 2.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of sub-indices
+        /// Number of sub-indices.
         ///
         /// Manual, line 3233: number\_of\_entries.
         ///
@@ -42019,7 +42019,7 @@ pub mod objects {
         /// 0x23E8:01, UNSIGNED16, rw, default 1, range 1 to 128.
         /// Accessor: [`Accessors::variable_number_sdo`].
         ///
-        /// Number of the variable that sub-index 2 reads or writes
+        /// Number of the variable that sub-index 2 reads or writes.
         ///
         /// chooses the variable behind sub-index 2.
         ///
@@ -42037,7 +42037,7 @@ pub mod objects {
         /// 0x23E8:02, INTEGER32, rw, default 0, range \-2147483648 to 2147483647.
         /// Accessor: [`Accessors::variable_value_sdo`].
         ///
-        /// Value of the variable whose number is in sub-index 1
+        /// Value of the variable whose number is in sub-index 1.
         ///
         /// Manual, line 3249, 3241: variable\_value.
         pub const VARIABLE_VALUE_SDO: super::ReadWrite<i32, rt::OnCanOpenAndCoE> = super::ReadWriteI32OnCanOpenCoE::shared_object_with_default(
@@ -42051,7 +42051,7 @@ pub mod objects {
         /// 0x23E8:03, UNSIGNED16, rw, mappable into RPDOs, default 1, range 1 to 128.
         /// Accessor: [`Accessors::variable_number_write_pdo`].
         ///
-        /// Number of the variable that sub-index 4 writes
+        /// Number of the variable that sub-index 4 writes.
         ///
         /// chooses the variable behind sub-index 4.
         ///
@@ -42072,7 +42072,7 @@ pub mod objects {
         /// 0x23E8:04, INTEGER32, rw, mappable into RPDOs, default 0, range \-2147483648 to 2147483647.
         /// Accessor: [`Accessors::variable_value_write_pdo`].
         ///
-        /// Value written to the variable whose number is in sub-index 3
+        /// Value written to the variable whose number is in sub-index 3.
         ///
         /// Manual, line 3265, 3257: variable\_value.
         ///
@@ -42089,7 +42089,7 @@ pub mod objects {
         /// 0x23E8:05, UNSIGNED16, rw, mappable into RPDOs, default 1, range 1 to 128.
         /// Accessor: [`Accessors::variable_number_read_pdo`].
         ///
-        /// Number of the variable that sub-index 6 reads
+        /// Number of the variable that sub-index 6 reads.
         ///
         /// chooses the variable behind sub-index 6.
         ///
@@ -42107,7 +42107,7 @@ pub mod objects {
         /// 0x23E8:06, INTEGER32, rw, mappable into TPDOs, default 0, range \-2147483648 to 2147483647.
         /// Accessor: [`Accessors::variable_value_read_pdo`].
         ///
-        /// Value of the variable whose number is in sub-index 5
+        /// Value of the variable whose number is in sub-index 5.
         ///
         /// Manual, line 3281, 3273: variable\_value.
         ///
@@ -42128,7 +42128,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// number\_of\_entries: 0x23E8:00.
             ///
-            /// Number of sub-indices
+            /// Number of sub-indices.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -42138,7 +42138,7 @@ pub mod objects {
             }
             /// variable\_number\_sdo: 0x23E8:01.
             ///
-            /// Number of the variable that sub-index 2 reads or writes
+            /// Number of the variable that sub-index 2 reads or writes.
             ///
             /// Constant: [`VARIABLE_NUMBER_SDO`].
             pub fn variable_number_sdo(
@@ -42148,7 +42148,7 @@ pub mod objects {
             }
             /// variable\_value\_sdo: 0x23E8:02.
             ///
-            /// Value of the variable whose number is in sub-index 1
+            /// Value of the variable whose number is in sub-index 1.
             ///
             /// Constant: [`VARIABLE_VALUE_SDO`].
             pub fn variable_value_sdo(
@@ -42158,7 +42158,7 @@ pub mod objects {
             }
             /// variable\_number\_write\_pdo: 0x23E8:03.
             ///
-            /// Number of the variable that sub-index 4 writes
+            /// Number of the variable that sub-index 4 writes.
             ///
             /// Constant: [`VARIABLE_NUMBER_WRITE_PDO`].
             pub fn variable_number_write_pdo(
@@ -42168,7 +42168,7 @@ pub mod objects {
             }
             /// variable\_value\_write\_pdo: 0x23E8:04.
             ///
-            /// Value written to the variable whose number is in sub-index 3
+            /// Value written to the variable whose number is in sub-index 3.
             ///
             /// Constant: [`VARIABLE_VALUE_WRITE_PDO`].
             pub fn variable_value_write_pdo(
@@ -42178,7 +42178,7 @@ pub mod objects {
             }
             /// variable\_number\_read\_pdo: 0x23E8:05.
             ///
-            /// Number of the variable that sub-index 6 reads
+            /// Number of the variable that sub-index 6 reads.
             ///
             /// Constant: [`VARIABLE_NUMBER_READ_PDO`].
             pub fn variable_number_read_pdo(
@@ -42188,7 +42188,7 @@ pub mod objects {
             }
             /// variable\_value\_read\_pdo: 0x23E8:06.
             ///
-            /// Value of the variable whose number is in sub-index 5
+            /// Value of the variable whose number is in sub-index 5.
             ///
             /// Constant: [`VARIABLE_VALUE_READ_PDO`].
             pub fn variable_value_read_pdo(
@@ -42203,7 +42203,7 @@ pub mod objects {
     /// 0x603F:00, UNSIGNED16, ro, default 0, range 0 to 65535.
     /// Accessor: [`error_code`](super::VectorStep::error_code). Values: [`ErrorCode`](super::types::ErrorCode).
     ///
-    /// Code of the last error, the low 16 bits of the entry in 0x1003
+    /// Code of the last error, the low 16 bits of the entry in 0x1003.
     ///
     /// Manual, line 1259: error\_code.
     pub const ERROR_CODE: ReadOnly<super::types::ErrorCode, rt::OnCanOpenAndCoE> = ReadOnlyNamedErrorCodeOnCanOpenCoE::shared_object_with_default(
@@ -42217,7 +42217,7 @@ pub mod objects {
     /// 0x6040:00, UNSIGNED16, rw, mappable into RPDOs, default 0, range 0 to 65535.
     /// Accessor: [`controlword`](super::VectorStep::controlword). Values: [`Controlword`](super::types::Controlword). Carried by [`RxPdo1`](super::pdo::RxPdo1), [`RxPdo2`](super::pdo::RxPdo2).
     ///
-    /// Commands the state machine and the mode of operation; the manual has it in the first two bytes of every received PDO
+    /// Commands the state machine and the mode of operation; the manual has it in the first two bytes of every received PDO.
     ///
     /// Manual, line 1277: Controlword.
     ///
@@ -42238,7 +42238,7 @@ pub mod objects {
     /// 0x6041:00, UNSIGNED16, ro, mappable into TPDOs, default 0, range 0 to 65535.
     /// Accessor: [`statusword`](super::VectorStep::statusword). Values: [`Statusword`](super::types::Statusword). Carried by [`TxPdo1`](super::pdo::TxPdo1), [`TxPdo2`](super::pdo::TxPdo2).
     ///
-    /// State of the drive; the manual has it in the first two bytes of every transmitted PDO
+    /// State of the drive; the manual has it in the first two bytes of every transmitted PDO.
     ///
     /// Manual, line 1320: Statusword.
     ///
@@ -42257,7 +42257,7 @@ pub mod objects {
     /// 0x605A:00, INTEGER16, rw, default 2, range \-32768 to 32767.
     /// Accessor: [`quick_stop_option_code`](super::VectorStep::quick_stop_option_code). Values: [`QuickStopOptionCode`](super::types::QuickStopOptionCode).
     ///
-    /// What a quick stop does (transition 11)
+    /// What a quick stop does (transition 11).
     ///
     /// Manual, line 1360: quick\_stop\_option\_code.
     ///
@@ -42276,7 +42276,7 @@ pub mod objects {
     /// 0x605B:00, INTEGER16, rw, default 0, range \-32768 to 32767.
     /// Accessor: [`shutdown_option_code`](super::VectorStep::shutdown_option_code). Values: [`ShutdownOptionCode`](super::types::ShutdownOptionCode).
     ///
-    /// What transition 8 does, from operation enabled to ready to switch on
+    /// What transition 8 does, from operation enabled to ready to switch on.
     ///
     /// Manual, line 1383: shutdown\_option\_code.
     ///
@@ -42295,7 +42295,7 @@ pub mod objects {
     /// 0x605C:00, INTEGER16, rw, default 1, range \-32768 to 32767.
     /// Accessor: [`disable_operation_option_code`](super::VectorStep::disable_operation_option_code). Values: [`DisableOperationOptionCode`](super::types::DisableOperationOptionCode).
     ///
-    /// What transition 5 does, from operation enabled to switched on
+    /// What transition 5 does, from operation enabled to switched on.
     ///
     /// Manual, line 1399: disable\_operation\_option\_code.
     ///
@@ -42314,7 +42314,7 @@ pub mod objects {
     /// 0x605D:00, INTEGER16, rw, default 1, range \-32768 to 32767.
     /// Accessor: [`stop_option_code`](super::VectorStep::stop_option_code). Values: [`StopOptionCode`](super::types::StopOptionCode).
     ///
-    /// What a requested stop does
+    /// What a requested stop does.
     ///
     /// Manual, line 1417: stop\_option\_code.
     ///
@@ -42335,7 +42335,7 @@ pub mod objects {
     /// 0x605E:00, INTEGER16, rw, default 2, range \-32768 to 32767.
     /// Accessor: [`fault_reaction_option_code`](super::VectorStep::fault_reaction_option_code). Values: [`FaultReactionOptionCode`](super::types::FaultReactionOptionCode).
     ///
-    /// What the drive does on a fault
+    /// What the drive does on a fault.
     ///
     /// Manual, line 1436: fault\_reaction\_option\_code.
     ///
@@ -42356,7 +42356,7 @@ pub mod objects {
     /// 0x6060:00, INTEGER8, wo, mappable into RPDOs, default 1, range \-128 to 127.
     /// Accessor: [`modes_of_operation`](super::VectorStep::modes_of_operation). Values: [`ModesOfOperation`](super::types::ModesOfOperation). Carried by [`RxPdo1`](super::pdo::RxPdo1).
     ///
-    /// Chooses the mode of operation
+    /// Chooses the mode of operation.
     ///
     /// Changed while the motor moves, it aborts the movement with the emergency ramp and leaves the state machine as it is.
     ///
@@ -42380,7 +42380,7 @@ pub mod objects {
     /// 0x6061:00, INTEGER8, ro, mappable into TPDOs, default 1.
     /// Accessor: [`modes_of_operation_display`](super::VectorStep::modes_of_operation_display). Values: [`ModesOfOperation`](super::types::ModesOfOperation). Carried by [`TxPdo1`](super::pdo::TxPdo1).
     ///
-    /// The mode of operation that is in effect
+    /// The mode of operation that is in effect.
     ///
     /// Manual, line 1479: Modes\_of\_operation\_display.
     ///
@@ -42404,7 +42404,7 @@ pub mod objects {
     /// 0x6064:00, INTEGER32, ro, mappable into TPDOs, default 0, range \-2147483648 to 2147483647, in step.
     /// Accessor: [`position_actual_value`](super::VectorStep::position_actual_value). Carried by [`TxPdo2`](super::pdo::TxPdo2).
     ///
-    /// Absolute position of the axis in steps
+    /// Absolute position of the axis in steps.
     ///
     /// Manual, line 1499: Position\_actual\_value.
     pub const POSITION_ACTUAL_VALUE: ReadOnly<i32, rt::OnCanOpenAndCoE> = ReadOnlyI32OnCanOpenCoE::new(
@@ -42420,7 +42420,7 @@ pub mod objects {
     /// 0x6065:00, UNSIGNED32, rw, mappable into RPDOs.
     /// Accessor: [`following_error_window`](super::VectorStep::following_error_window).
     ///
-    /// Following error that is tolerated
+    /// Following error that is tolerated.
     ///
     /// Manual, line 1217: Following error window.
     ///
@@ -42436,7 +42436,7 @@ pub mod objects {
     /// 0x6066:00, UNSIGNED16, rw, mappable into RPDOs, in ms.
     /// Accessor: [`following_error_time_out`](super::VectorStep::following_error_time_out).
     ///
-    /// How long the following error may exceed its window
+    /// How long the following error may exceed its window.
     ///
     /// Manual, line 1218: Following error time-out.
     ///
@@ -42454,7 +42454,7 @@ pub mod objects {
     /// 0x6067:00, UNSIGNED32, rw, mappable into RPDOs.
     /// Accessor: [`position_window`](super::VectorStep::position_window).
     ///
-    /// Distance from the target within which it counts as reached
+    /// Distance from the target within which it counts as reached.
     ///
     /// Manual, line 1219: Position window.
     ///
@@ -42470,7 +42470,7 @@ pub mod objects {
     /// 0x6068:00, UNSIGNED16, rw, mappable into RPDOs, in ms.
     /// Accessor: [`position_window_time_out`](super::VectorStep::position_window_time_out).
     ///
-    /// How long the position has to stay within its window
+    /// How long the position has to stay within its window.
     ///
     /// Manual, line 1220: Position window time-out.
     ///
@@ -42488,7 +42488,7 @@ pub mod objects {
     /// 0x606C:00, INTEGER32, ro, mappable into TPDOs, in 0.01 rev/s.
     /// Accessor: [`velocity_actual_value`](super::VectorStep::velocity_actual_value).
     ///
-    /// Present velocity of the motor
+    /// Present velocity of the motor.
     ///
     /// Manual, line 1507: Velocity\_actual\_value.
     ///
@@ -42509,7 +42509,7 @@ pub mod objects {
     /// 0x607A:00, INTEGER32, rw, mappable into RPDOs, default 0, range \-2147483648 to 2147483647, in step.
     /// Accessor: [`target_position`](super::VectorStep::target_position). Carried by [`RxPdo2`](super::pdo::RxPdo2).
     ///
-    /// Position wanted in profile position mode; bit 6 of the Controlword makes it absolute or relative
+    /// Position wanted in profile position mode; bit 6 of the Controlword makes it absolute or relative.
     ///
     /// Manual, line 1515: Target\_position.
     ///
@@ -42527,7 +42527,7 @@ pub mod objects {
     /// 0x607C:00, INTEGER32, rw, mappable into RPDOs, default 0, range \-2147483648 to 2147483647, in step.
     /// Accessor: [`home_offset`](super::VectorStep::home_offset).
     ///
-    /// Value that the actual position gets at the end of homing
+    /// Value that the actual position gets at the end of homing.
     ///
     /// Manual, line 1523: Home\_offset.
     pub const HOME_OFFSET: ReadWrite<i32, rt::OnCanOpenAndCoE> = ReadWriteI32OnCanOpenCoE::new(
@@ -42543,7 +42543,7 @@ pub mod objects {
     /// 0x6081:00, UNSIGNED32, rw, mappable into RPDOs, default 100, range 0 to 2147483647 (0 to 21474836.47 rev/s), in 0.01 rev/s.
     /// Accessor: [`profile_velocity`](super::VectorStep::profile_velocity).
     ///
-    /// Velocity of a movement
+    /// Velocity of a movement.
     ///
     /// Manual, line 1535: Profile\_velocity.
     ///
@@ -42564,7 +42564,7 @@ pub mod objects {
     /// 0x6082:00, INTEGER32, rw, mappable into RPDOs, default 0, range \-5000 to 5000 (-50 to 50 rev/s), in 0.01 rev/s.
     /// Accessor: [`end_velocity`](super::VectorStep::end_velocity).
     ///
-    /// Velocity at which a movement starts and stops
+    /// Velocity at which a movement starts and stops.
     ///
     /// Manual, line 1547: End\_velocity.
     ///
@@ -42584,7 +42584,7 @@ pub mod objects {
     /// 0x6083:00, UNSIGNED32, rw, mappable into RPDOs, default 1000, range 1 to 200000 (0.1 to 20000 rev/s²), in 0.1 rev/s².
     /// Accessor: [`profile_acceleration`](super::VectorStep::profile_acceleration).
     ///
-    /// Acceleration of a movement
+    /// Acceleration of a movement.
     ///
     /// Manual, line 1559: Profile\_acceleration.
     ///
@@ -42605,7 +42605,7 @@ pub mod objects {
     /// 0x6084:00, UNSIGNED32, rw, mappable into RPDOs, default 1000, range 1 to 200000 (0.1 to 20000 rev/s²), in 0.1 rev/s².
     /// Accessor: [`profile_deceleration`](super::VectorStep::profile_deceleration).
     ///
-    /// Deceleration of a movement
+    /// Deceleration of a movement.
     ///
     /// Manual, line 1571: Profile\_deceleration.
     ///
@@ -42626,7 +42626,7 @@ pub mod objects {
     /// 0x6085:00, UNSIGNED32, rw, default 1000, range 1 to 200000 (0.1 to 20000 rev/s²), in 0.1 rev/s².
     /// Accessor: [`quick_stop_deceleration`](super::VectorStep::quick_stop_deceleration).
     ///
-    /// Deceleration in an emergency
+    /// Deceleration in an emergency.
     ///
     /// Manual, line 1579: Quick\_stop\_deceleration.
     ///
@@ -42647,7 +42647,7 @@ pub mod objects {
     /// 0x6086:00, INTEGER16, rw, mappable into RPDOs, default 0, range \-32768 to 32767.
     /// Accessor: [`motion_profile_type`](super::VectorStep::motion_profile_type). Values: [`MotionProfileType`](super::types::MotionProfileType).
     ///
-    /// Shape of the acceleration and deceleration ramps: linear or S
+    /// Shape of the acceleration and deceleration ramps: linear or S.
     ///
     /// Manual, line 1587: Motion\_profile\_type.
     ///
@@ -42667,7 +42667,7 @@ pub mod objects {
     /// 0x6098:00, INTEGER8, rw, mappable into RPDOs, default 0, range \-128 to 127.
     /// Accessor: [`homing_method`](super::VectorStep::homing_method). Values: [`HomingMethod`](super::types::HomingMethod).
     ///
-    /// How the axis is homed
+    /// How the axis is homed.
     ///
     /// Manual, line 1617: Homing\_method.
     ///
@@ -42696,7 +42696,7 @@ pub mod objects {
         /// 0x6099:00, UNSIGNED8, ro, default 2, range 2 to 2.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of sub-entries
+        /// Number of sub-entries.
         ///
         /// Manual, line 1656: number\_of\_entries.
         pub const NUMBER_OF_ENTRIES: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
@@ -42712,7 +42712,7 @@ pub mod objects {
         /// 0x6099:01, UNSIGNED32, rw, mappable into RPDOs, default 100, range 0 to 10000 (0 to 100 rev/s), in 0.01 rev/s.
         /// Accessor: [`Accessors::speed_during_search_for_switch`].
         ///
-        /// Velocity of the approach
+        /// Velocity of the approach.
         ///
         /// Ramps are disabled while it is less than or equal to the speed during search for zero.
         ///
@@ -42733,7 +42733,7 @@ pub mod objects {
         /// 0x6099:02, UNSIGNED32, rw, mappable into RPDOs, default 10, range 0 to 10000 (0 to 100 rev/s), in 0.01 rev/s.
         /// Accessor: [`Accessors::speed_during_search_for_zero`].
         ///
-        /// Velocity of the search for zero
+        /// Velocity of the search for zero.
         ///
         /// Ramps are disabled while it is greater than or equal to the speed during search for switch.
         ///
@@ -42756,7 +42756,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x6099:00.
             ///
-            /// Number of sub-entries
+            /// Number of sub-entries.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -42766,7 +42766,7 @@ pub mod objects {
             }
             /// Speed during search for switch: 0x6099:01.
             ///
-            /// Velocity of the approach
+            /// Velocity of the approach.
             ///
             /// Constant: [`SPEED_DURING_SEARCH_FOR_SWITCH`].
             pub fn speed_during_search_for_switch(
@@ -42781,7 +42781,7 @@ pub mod objects {
             }
             /// Speed during search for zero: 0x6099:02.
             ///
-            /// Velocity of the search for zero
+            /// Velocity of the search for zero.
             ///
             /// Constant: [`SPEED_DURING_SEARCH_FOR_ZERO`].
             pub fn speed_during_search_for_zero(
@@ -42801,7 +42801,7 @@ pub mod objects {
     /// 0x609A:00, UNSIGNED32, rw, mappable into RPDOs, default 1, range 1 to 500000 (0.1 to 50000 rev/s²), in 0.1 rev/s².
     /// Accessor: [`homing_acceleration`](super::VectorStep::homing_acceleration).
     ///
-    /// Acceleration and deceleration during homing
+    /// Acceleration and deceleration during homing.
     ///
     /// Manual, line 1682: Homing\_acceleration.
     ///
@@ -42822,7 +42822,7 @@ pub mod objects {
     /// 0x60B8:00, UNSIGNED16, rw, mappable into RPDOs, default 0, range 0 to 65535.
     /// Accessor: [`touch_probe_function`](super::VectorStep::touch_probe_function). Values: [`TouchProbeFunction`](super::types::TouchProbeFunction).
     ///
-    /// Controls the touch probes; the same as register 331, from firmware 6 register 10084 (L2994)
+    /// Controls the touch probes; the same as register 331, from firmware 6 register 10084 (L2994).
     ///
     /// Manual, line 1690: Rtouchprobefunc.
     ///
@@ -42854,7 +42854,7 @@ pub mod objects {
     /// 0x60B9:00, UNSIGNED16, ro, mappable into TPDOs, default 0, range 0 to 65535.
     /// Accessor: [`touch_probe_status`](super::VectorStep::touch_probe_status). Values: [`TouchProbeStatus`](super::types::TouchProbeStatus).
     ///
-    /// State of the touch probes; the same as register 332, from firmware 6 register 10085 (L3035)
+    /// State of the touch probes; the same as register 332, from firmware 6 register 10085 (L3035).
     ///
     /// Manual, line 1730: Rtouchprobestatus.
     ///
@@ -42878,7 +42878,7 @@ pub mod objects {
     /// 0x60BA:00, INTEGER32, ro, mappable into TPDOs, default 0, range \-2147483648 to 2147483647.
     /// Accessor: [`touch_probe_position_1_positive_value`](super::VectorStep::touch_probe_position_1_positive_value).
     ///
-    /// Position at the positive edge of touch probe 1, in the user's position units; register 333-334, from firmware 6 10086-10087
+    /// Position at the positive edge of touch probe 1, in the user's position units; register 333-334, from firmware 6 10086-10087.
     ///
     /// Manual, line 1760: Touch probe posizione 1 valore positivo.
     ///
@@ -42900,7 +42900,7 @@ pub mod objects {
     /// 0x60BB:00, INTEGER32, ro, mappable into TPDOs, default 0, range \-2147483648 to 2147483647.
     /// Accessor: [`touch_probe_position_1_negative_value`](super::VectorStep::touch_probe_position_1_negative_value).
     ///
-    /// Position at the negative edge of touch probe 1, in the user's position units; register 335-336, from firmware 6 10088-10089
+    /// Position at the negative edge of touch probe 1, in the user's position units; register 335-336, from firmware 6 10088-10089.
     ///
     /// Manual, line 1772: Touch probe posizione 1 valore negativo.
     ///
@@ -42922,7 +42922,7 @@ pub mod objects {
     /// 0x60BC:00, INTEGER32, ro, mappable into TPDOs, default 0, range \-2147483648 to 2147483647.
     /// Accessor: [`touch_probe_position_2_positive_value`](super::VectorStep::touch_probe_position_2_positive_value).
     ///
-    /// Position at the positive edge of touch probe 2, in the user's position units; register 337-338, from firmware 6 10097-10098
+    /// Position at the positive edge of touch probe 2, in the user's position units; register 337-338, from firmware 6 10097-10098.
     ///
     /// Manual, line 1784: Touch probe posizione 2 valore positivo.
     ///
@@ -42944,7 +42944,7 @@ pub mod objects {
     /// 0x60BD:00, INTEGER32, ro, mappable into TPDOs, default 0, range \-2147483648 to 2147483647.
     /// Accessor: [`touch_probe_position_2_negative_value`](super::VectorStep::touch_probe_position_2_negative_value).
     ///
-    /// Position at the negative edge of touch probe 2, in the user's position units; register 339-340, from firmware 6 10099-10100
+    /// Position at the negative edge of touch probe 2, in the user's position units; register 339-340, from firmware 6 10099-10100.
     ///
     /// Manual, line 1796: Touch probe posizione 2 valore negativo.
     ///
@@ -42966,7 +42966,7 @@ pub mod objects {
     /// 0x60C0:00, INTEGER16, rw, default 0, range \-32768 to 32767.
     /// Accessor: [`interpolation_submode_select`](super::VectorStep::interpolation_submode_select). Values: [`InterpolationSubmode`](super::types::InterpolationSubmode).
     ///
-    /// How the drive interpolates
+    /// How the drive interpolates.
     ///
     /// Manual, line 1804: Interpolation\_submode\_select.
     pub const INTERPOLATION_SUBMODE_SELECT: ReadWrite<
@@ -42988,7 +42988,7 @@ pub mod objects {
         /// 0x60C1:00, UNSIGNED8, ro, default 2.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of sub-entries
+        /// Number of sub-entries.
         ///
         /// Manual, line 1823.
         ///
@@ -43004,7 +43004,7 @@ pub mod objects {
         /// 0x60C1:01, INTEGER32, rw, mappable into RPDOs, default 0, range \-2147483648 to 2147483647, in step.
         /// Accessor: [`Accessors::_1st_ip_function_parameter`].
         ///
-        /// First target position of the interpolator
+        /// First target position of the interpolator.
         ///
         /// Manual, line 1829: 1 st \_ip\_function\_parameter.
         ///
@@ -43025,7 +43025,7 @@ pub mod objects {
         /// 0x60C1:02, INTEGER32, rw, mappable into RPDOs, default 0, range \-2147483648 to 2147483647, in step.
         /// Accessor: [`Accessors::_2nd_ip_function_parameter`].
         ///
-        /// Second target position of the interpolator
+        /// Second target position of the interpolator.
         ///
         /// Manual, line 1835: 2 nd \_ip\_function\_parameter.
         ///
@@ -43048,7 +43048,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x60C1:00.
             ///
-            /// Number of sub-entries
+            /// Number of sub-entries.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -43058,7 +43058,7 @@ pub mod objects {
             }
             /// 1st ip function parameter: 0x60C1:01.
             ///
-            /// First target position of the interpolator
+            /// First target position of the interpolator.
             ///
             /// Constant: [`_1ST_IP_FUNCTION_PARAMETER`].
             pub fn _1st_ip_function_parameter(
@@ -43068,7 +43068,7 @@ pub mod objects {
             }
             /// 2nd ip function parameter: 0x60C1:02.
             ///
-            /// Second target position of the interpolator
+            /// Second target position of the interpolator.
             ///
             /// Constant: [`_2ND_IP_FUNCTION_PARAMETER`].
             pub fn _2nd_ip_function_parameter(
@@ -43088,7 +43088,7 @@ pub mod objects {
         /// 0x60C2:00, UNSIGNED8, ro, default 2.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of sub-entries
+        /// Number of sub-entries.
         ///
         /// Manual, line 1849.
         ///
@@ -43104,7 +43104,7 @@ pub mod objects {
         /// 0x60C2:01, UNSIGNED8, rw, mappable into RPDOs, default 4, range 1 to 10, in ms.
         /// Accessor: [`Accessors::interpolation_time_units`].
         ///
-        /// Period of the interpolation, in units that the time index gives: milliseconds
+        /// Period of the interpolation, in units that the time index gives: milliseconds.
         ///
         /// Manual, line 1855: ip\_time\_units.
         ///
@@ -43122,7 +43122,7 @@ pub mod objects {
         /// 0x60C2:02, INTEGER8, rw, default -3, range \-3 to \-3.
         /// Accessor: [`Accessors::interpolation_time_index`].
         ///
-        /// Power of ten of the time units:  3, milliseconds
+        /// Power of ten of the time units:  3, milliseconds.
         ///
         /// Manual, line 1861: ip\_time\_index.
         ///
@@ -43144,7 +43144,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x60C2:00.
             ///
-            /// Number of sub-entries
+            /// Number of sub-entries.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -43154,7 +43154,7 @@ pub mod objects {
             }
             /// Interpolation time units: 0x60C2:01.
             ///
-            /// Period of the interpolation, in units that the time index gives: milliseconds
+            /// Period of the interpolation, in units that the time index gives: milliseconds.
             ///
             /// Constant: [`INTERPOLATION_TIME_UNITS`].
             pub fn interpolation_time_units(
@@ -43164,7 +43164,7 @@ pub mod objects {
             }
             /// Interpolation time index: 0x60C2:02.
             ///
-            /// Power of ten of the time units:  3, milliseconds
+            /// Power of ten of the time units:  3, milliseconds.
             ///
             /// Constant: [`INTERPOLATION_TIME_INDEX`].
             pub fn interpolation_time_index(
@@ -43184,7 +43184,7 @@ pub mod objects {
         /// 0x60C3:00, UNSIGNED8, ro, default 2.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of sub-entries
+        /// Number of sub-entries.
         ///
         /// Manual, line 1873.
         ///
@@ -43200,7 +43200,7 @@ pub mod objects {
         /// 0x60C3:01, UNSIGNED8, rw, default 0, range 0 to 0.
         /// Accessor: [`Accessors::synchronize_on_group`].
         ///
-        /// Group of synchronisation; only 0 is possible
+        /// Group of synchronisation; only 0 is possible.
         ///
         /// Manual, line 1879: sincronize\_on\_group.
         ///
@@ -43218,7 +43218,7 @@ pub mod objects {
         /// 0x60C3:02, UNSIGNED8, rw, default 1, range 1 to 1.
         /// Accessor: [`Accessors::ip_sync_every_n_event`].
         ///
-        /// Number of events between synchronisations; only 1 is possible
+        /// Number of events between synchronisations; only 1 is possible.
         ///
         /// Manual, line 1885: ip\_sync\_every\_n\_event.
         pub const IP_SYNC_EVERY_N_EVENT: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
@@ -43236,7 +43236,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x60C3:00.
             ///
-            /// Number of sub-entries
+            /// Number of sub-entries.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -43246,7 +43246,7 @@ pub mod objects {
             }
             /// Synchronize on group: 0x60C3:01.
             ///
-            /// Group of synchronisation; only 0 is possible
+            /// Group of synchronisation; only 0 is possible.
             ///
             /// Constant: [`SYNCHRONIZE_ON_GROUP`].
             pub fn synchronize_on_group(
@@ -43256,7 +43256,7 @@ pub mod objects {
             }
             /// Ip sync every n event: 0x60C3:02.
             ///
-            /// Number of events between synchronisations; only 1 is possible
+            /// Number of events between synchronisations; only 1 is possible.
             ///
             /// Constant: [`IP_SYNC_EVERY_N_EVENT`].
             pub fn ip_sync_every_n_event(
@@ -43276,7 +43276,7 @@ pub mod objects {
         /// 0x60C4:00, UNSIGNED8, ro, default 6.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of sub-entries
+        /// Number of sub-entries.
         ///
         /// Manual, line 1895.
         ///
@@ -43292,7 +43292,7 @@ pub mod objects {
         /// 0x60C4:01, UNSIGNED8, ro, default 2, range 2 to 2.
         /// Accessor: [`Accessors::maximum_buffer_size`].
         ///
-        /// Number of places of the buffer
+        /// Number of places of the buffer.
         ///
         /// Manual, line 1901: max\_buffer\_size.
         pub const MAXIMUM_BUFFER_SIZE: super::ReadOnly<u8, rt::OnCanOpenAndCoE> = super::ReadOnlyU8OnCanOpenCoE::new(
@@ -43308,7 +43308,7 @@ pub mod objects {
         /// 0x60C4:02, UNSIGNED8, rw, default 0, range 0 to 2.
         /// Accessor: [`Accessors::actual_size`].
         ///
-        /// Number of places in use
+        /// Number of places in use.
         ///
         /// Manual, line 1907: actual\_size.
         pub const ACTUAL_SIZE: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
@@ -43324,7 +43324,7 @@ pub mod objects {
         /// 0x60C4:03, UNSIGNED8, rw, default 0, range 0 to 0.
         /// Accessor: [`Accessors::buffer_organisation`].
         ///
-        /// How the buffer is organised; only 0 is possible
+        /// How the buffer is organised; only 0 is possible.
         ///
         /// Manual, line 1913: buffer\_organisation.
         pub const BUFFER_ORGANISATION: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
@@ -43340,7 +43340,7 @@ pub mod objects {
         /// 0x60C4:04, UNSIGNED8, rw, mappable into RPDOs, default 0, range 0 to 1.
         /// Accessor: [`Accessors::buffer_position`].
         ///
-        /// Place of the buffer that is accessed
+        /// Place of the buffer that is accessed.
         ///
         /// Manual, line 1919: buffer\_position.
         pub const BUFFER_POSITION: super::ReadWrite<u8, rt::OnCanOpenAndCoE> = super::ReadWriteU8OnCanOpenCoE::new(
@@ -43356,7 +43356,7 @@ pub mod objects {
         /// 0x60C4:05, UNSIGNED8, ro, default 1, range 1 to 1.
         /// Accessor: [`Accessors::size_of_data_record`].
         ///
-        /// Size of a record of the buffer
+        /// Size of a record of the buffer.
         ///
         /// Manual, line 1925: size\_of\_data\_record.
         ///
@@ -43374,7 +43374,7 @@ pub mod objects {
         /// 0x60C4:06, UNSIGNED8, wo, default 0, range 0 to 1.
         /// Accessor: [`Accessors::buffer_clear`]. Values: [`BufferClear`](super::super::types::BufferClear).
         ///
-        /// Clears the buffer, or enables access to it
+        /// Clears the buffer, or enables access to it.
         ///
         /// Manual, line 1931: buffer\_clear.
         ///
@@ -43397,7 +43397,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x60C4:00.
             ///
-            /// Number of sub-entries
+            /// Number of sub-entries.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -43407,7 +43407,7 @@ pub mod objects {
             }
             /// Maximum buffer size: 0x60C4:01.
             ///
-            /// Number of places of the buffer
+            /// Number of places of the buffer.
             ///
             /// Constant: [`MAXIMUM_BUFFER_SIZE`].
             pub fn maximum_buffer_size(
@@ -43417,7 +43417,7 @@ pub mod objects {
             }
             /// Actual size: 0x60C4:02.
             ///
-            /// Number of places in use
+            /// Number of places in use.
             ///
             /// Constant: [`ACTUAL_SIZE`].
             pub fn actual_size(
@@ -43427,7 +43427,7 @@ pub mod objects {
             }
             /// Buffer organisation: 0x60C4:03.
             ///
-            /// How the buffer is organised; only 0 is possible
+            /// How the buffer is organised; only 0 is possible.
             ///
             /// Constant: [`BUFFER_ORGANISATION`].
             pub fn buffer_organisation(
@@ -43437,7 +43437,7 @@ pub mod objects {
             }
             /// Buffer position: 0x60C4:04.
             ///
-            /// Place of the buffer that is accessed
+            /// Place of the buffer that is accessed.
             ///
             /// Constant: [`BUFFER_POSITION`].
             pub fn buffer_position(
@@ -43447,7 +43447,7 @@ pub mod objects {
             }
             /// Size of data record: 0x60C4:05.
             ///
-            /// Size of a record of the buffer
+            /// Size of a record of the buffer.
             ///
             /// Constant: [`SIZE_OF_DATA_RECORD`].
             pub fn size_of_data_record(
@@ -43457,7 +43457,7 @@ pub mod objects {
             }
             /// Buffer clear: 0x60C4:06.
             ///
-            /// Clears the buffer, or enables access to it
+            /// Clears the buffer, or enables access to it.
             ///
             /// Constant: [`BUFFER_CLEAR`]. Values: [`BufferClear`](super::super::types::BufferClear).
             pub fn buffer_clear(
@@ -43477,7 +43477,7 @@ pub mod objects {
     /// 0x60FD:00, UNSIGNED32, ro, mappable into TPDOs, default 0, range 0 to 4294902007.
     /// Accessor: [`digital_inputs`](super::VectorStep::digital_inputs). Values: [`ProfileDigitalInputs`](super::types::ProfileDigitalInputs).
     ///
-    /// Limit and home switches, and the 16 digital inputs
+    /// Limit and home switches, and the 16 digital inputs.
     ///
     /// Manual, line 1947: Digital\_inputs.
     ///
@@ -43503,7 +43503,7 @@ pub mod objects {
         /// 0x60FE:00, UNSIGNED8, ro, default 2.
         /// Accessor: [`Accessors::number_of_entries`].
         ///
-        /// Number of sub-entries
+        /// Number of sub-entries.
         ///
         /// Manual, line 1967.
         ///
@@ -43519,7 +43519,7 @@ pub mod objects {
         /// 0x60FE:01, UNSIGNED32, rw, mappable into RPDOs, default 0, range 0 to 16711680.
         /// Accessor: [`Accessors::physical_outputs`]. Values: [`ProfileDigitalOutputs`](super::super::types::ProfileDigitalOutputs).
         ///
-        /// Levels of the outputs; only those in the bit mask change
+        /// Levels of the outputs; only those in the bit mask change.
         ///
         /// Manual, line 1973: Physical\_output.
         pub const PHYSICAL_OUTPUTS: super::ReadWrite<
@@ -43540,7 +43540,7 @@ pub mod objects {
         /// 0x60FE:02, UNSIGNED32, rw, mappable into RPDOs, default 0xFF0000, range 0 to 4294967295.
         /// Accessor: [`Accessors::bit_mask`]. Values: [`ProfileDigitalOutputs`](super::super::types::ProfileDigitalOutputs).
         ///
-        /// Outputs that may be changed: those with 1; the others keep their level
+        /// Outputs that may be changed: those with 1; the others keep their level.
         ///
         /// Manual, line 1979: bitmask.
         pub const BIT_MASK: super::ReadWrite<
@@ -43560,7 +43560,7 @@ pub mod objects {
         impl<C> Accessors<'_, C> {
             /// Number of entries: 0x60FE:00.
             ///
-            /// Number of sub-entries
+            /// Number of sub-entries.
             ///
             /// Constant: [`NUMBER_OF_ENTRIES`].
             pub fn number_of_entries(
@@ -43570,7 +43570,7 @@ pub mod objects {
             }
             /// Physical outputs: 0x60FE:01.
             ///
-            /// Levels of the outputs; only those in the bit mask change
+            /// Levels of the outputs; only those in the bit mask change.
             ///
             /// Constant: [`PHYSICAL_OUTPUTS`]. Values: [`ProfileDigitalOutputs`](super::super::types::ProfileDigitalOutputs).
             pub fn physical_outputs(
@@ -43585,7 +43585,7 @@ pub mod objects {
             }
             /// Bit mask: 0x60FE:02.
             ///
-            /// Outputs that may be changed: those with 1; the others keep their level
+            /// Outputs that may be changed: those with 1; the others keep their level.
             ///
             /// Constant: [`BIT_MASK`]. Values: [`ProfileDigitalOutputs`](super::super::types::ProfileDigitalOutputs).
             pub fn bit_mask(
@@ -43605,7 +43605,7 @@ pub mod objects {
     /// 0x6402:00, UNSIGNED16, rw, default 9, range 0 to 65535.
     /// Accessor: [`motor_type`](super::VectorStep::motor_type). Values: [`MotorType`](super::types::MotorType).
     ///
-    /// Kind of motor; 9 again after each power-on
+    /// Kind of motor; 9 again after each power-on.
     ///
     /// Lost at power-off.
     ///
@@ -43629,7 +43629,7 @@ pub mod objects {
     /// 0x6502:00, UNSIGNED32, ro, default 0x10021.
     /// Accessor: [`supported_drive_modes`](super::VectorStep::supported_drive_modes). Values: [`SupportedDriveModes`](super::types::SupportedDriveModes).
     ///
-    /// Modes of operation that the drive has
+    /// Modes of operation that the drive has.
     ///
     /// Manual, line 2033: Supported\_drive\_mode.
     ///
@@ -43652,7 +43652,7 @@ pub mod objects {
     /// 0x6504:00, VISIBLE_STRING, rw, default "Aec srl...Italy".
     /// Accessor: [`drive_manufacturer`](super::VectorStep::drive_manufacturer).
     ///
-    /// Name of the manufacturer; what is written is lost at power-off
+    /// Name of the manufacturer; what is written is lost at power-off.
     ///
     /// Lost at power-off.
     ///
@@ -43670,7 +43670,7 @@ pub mod objects {
     /// 0x6505:00, VISIBLE_STRING, rw, default "www.aec-smd.it".
     /// Accessor: [`http_drive_catalog_address`](super::VectorStep::http_drive_catalog_address).
     ///
-    /// Web address of the data sheet; what is written is lost at power-off
+    /// Web address of the data sheet; what is written is lost at power-off.
     ///
     /// Lost at power-off.
     ///

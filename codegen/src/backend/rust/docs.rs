@@ -179,7 +179,7 @@ fn documentation(item: &Item, lines: &mut Vec<String>) {
     let Some(documentation) = &item.documentation else { return };
     for paragraph in documentation.text.lines().filter(|line| !line.trim().is_empty()) {
         lines.push(String::new());
-        lines.push(escape(paragraph));
+        lines.push(sentence(&escape(paragraph)));
     }
 }
 
