@@ -115,3 +115,18 @@ fn repairs_stand_where_they_matter() {
     let pages = files(Format::Html, &["dictionaries/demo-drive.eds"]);
     assert!(pages.iter().all(|page| !page.path.ends_with("findings.html")));
 }
+
+#[test]
+fn languages_of_modules_can_be_chosen() {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/drive.gsdml.xml");
+    let german = "<Language xml:lang=\"de\"><Text TextId=\"T_Tel1\" Value=\"Standardtelegramm 1\"/></Language></ExternalTextList>";
+    let text = std::fs::read_to_string(path).expect("a description").replace("</ExternalTextList>", german);
+    let pages = site(Format::Html, vec![("drive".to_owned(), Source::new("drive.xml", text.into()))]);
+    let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
+    for path in ["drive/index.html", "drive/modules.html"] {
+        assert!(text(path).contains("<option>de</option>"), "{path}");
+    }
+    let modules = text("drive/modules.html");
+    assert!(modules.contains("<i lang=\"de\">"), "names");
+    assert!(modules.contains("<p lang=\"de\">"), "descriptions");
+}

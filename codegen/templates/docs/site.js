@@ -207,9 +207,9 @@ byId("theme").addEventListener("click", () => {
   root.dataset.theme = kept("theme", dark ? "light" : "dark");
 });
 
-// Names in the language that is chosen: of elements that have none in it, the name of the description.
+// Names and descriptions in the language that is chosen: of elements that have none in it, the name of the description.
 function names(language) {
-  for (const own of document.querySelectorAll("i[lang]")) own.hidden = language !== "" && own.lang !== language;
+  for (const own of document.querySelectorAll(":is(i, p)[lang]")) own.hidden = language !== "" && own.lang !== language;
   for (const own of document.querySelectorAll("b:has(+ i[lang])")) {
     const others = [];
     for (let next = own.nextElementSibling; next && next.matches("i[lang]"); next = next.nextElementSibling) others.push(next);

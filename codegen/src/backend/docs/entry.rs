@@ -24,6 +24,8 @@ pub(super) struct Row {
     pub unit: String,
     /// Sentences.
     pub facts: Vec<String>,
+    /// The description in other languages.
+    pub translations: Vec<(String, String)>,
     /// Further addresses, with their bus.
     pub elsewhere: Vec<String>,
     pub doubts: Vec<Doubt>,
@@ -49,6 +51,7 @@ impl Row {
     /// Whether anything stands below the row.
     pub fn has_more(&self) -> bool {
         !self.facts.is_empty()
+            || !self.translations.is_empty()
             || !self.elsewhere.is_empty()
             || !self.doubts.is_empty()
             || !self.findings.is_empty()
@@ -117,6 +120,7 @@ impl Rows<'_> {
             range: range(item, basic),
             unit: unit(item),
             facts: self.facts(item),
+            translations: words::translations(item.documentation.as_deref()),
             elsewhere,
             doubts: doubts(&item.doubts),
             findings: self.known.findings.of_item(item),

@@ -1,6 +1,6 @@
 //! The pages of a catalogue, in a folder of their own.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use super::anchor::Names;
 use super::area::{self, Area};
@@ -17,7 +17,7 @@ use super::search::{Entry, Index};
 use super::Page;
 use crate::backend::rust;
 use crate::backend::words::Manual;
-use crate::ir::{Catalog, Device};
+use crate::ir::{Catalog, Device, Documentation, Group, Texts};
 
 /// The name of the first page of a folder, without ending.
 const FIRST: &str = "index";
@@ -57,11 +57,12 @@ impl Folder {
         let findings = (!self.findings.list.is_empty()).then(|| self.file("Findings"));
         self.listed.shared.extend(files.iter().cloned());
         self.listed.shared.extend(findings.iter().map(|file| (file.clone(), "Findings".to_owned())));
+        let spoken = languages_of_modules(catalog);
         for device in &catalog.devices {
-            self.device(device, catalog, is_alone);
+            self.device(device, catalog, is_alone, &spoken);
         }
         let title = self.listed.devices.first().filter(|_| is_alone).map_or(title, |own| own.title.as_str()).to_owned();
-        let set = Frameset { title, links: self.around(), languages: Vec::new() };
+        let set = Frameset { title, links: self.around(), languages: languages(&catalog.devices, &spoken) };
         self.module_pages(&modules, &files, &set);
         if let Some(file) = &findings {
             let text = self.format.findings(Around { set: &set, file }, &self.findings.list);
@@ -91,7 +92,7 @@ impl Folder {
         self.files.file(title) + self.format.ending()
     }
 
-    fn device(&mut self, device: &Device, catalog: &Catalog, is_alone: bool) {
+    fn device(&mut self, device: &Device, catalog: &Catalog, is_alone: bool, spoken: &BTreeSet<&str>) {
         let (format, title) = (self.format, title(device));
         let own = if is_alone { FIRST.to_owned() } else { self.files.file(&title) };
         let first = own.clone() + format.ending();
@@ -100,7 +101,7 @@ impl Folder {
         let (parts, pages) = self.parts(device, &manual, &prefix);
         let mut links = vec![(first.clone(), "Overview".to_owned())];
         links.extend(pages.iter().chain(&self.listed.shared).cloned());
-        let set = Frameset { title: title.clone(), links, languages: languages(device) };
+        let set = Frameset { title: title.clone(), links, languages: languages(std::slice::from_ref(device), spoken) };
         let own = overview::overview(device, catalog.files.first(), &manual);
         let text = format.overview(Around { set: &set, file: &first }, &own, &contents(device, &parts));
         self.page(&first, text);
@@ -265,15 +266,43 @@ fn title(device: &Device) -> String {
     names.into_iter().find(|name| !name.trim().is_empty()).map_or_else(|| "Device".to_owned(), ToString::to_string)
 }
 
-/// The languages of the names of items.
-fn languages(device: &Device) -> Vec<String> {
-    let groups = device
-        .groups
-        .iter()
-        .flat_map(|group| group.names.iter().chain(group.items.iter().flat_map(|item| item.names.iter())));
-    let messages = device.messages.iter().flat_map(|message| message.names.iter());
-    let mut languages: Vec<String> = groups.chain(messages).map(|own| own.language.to_string()).collect();
-    languages.sort();
-    languages.dedup();
-    languages
+/// The languages of names and descriptions: of these devices, and those that their modules have, which are on pages of all devices.
+fn languages(devices: &[Device], modules: &BTreeSet<&str>) -> Vec<String> {
+    let mut all = Languages(modules.clone());
+    for device in devices {
+        all.add(&device.names, device.documentation.as_deref());
+        device.messages.iter().for_each(|own| all.add(&own.names, own.documentation.as_deref()));
+        all.add_groups(&device.groups);
+    }
+    all.0.into_iter().map(str::to_owned).collect()
+}
+
+fn languages_of_modules(catalog: &Catalog) -> BTreeSet<&str> {
+    let mut all = Languages::default();
+    for module in &catalog.modules {
+        all.add(&module.names, module.documentation.as_deref());
+        all.add_groups(&module.groups);
+    }
+    for submodule in &catalog.submodules {
+        all.add(&submodule.names, submodule.documentation.as_deref());
+        all.add_groups(&submodule.records);
+    }
+    all.0
+}
+
+#[derive(Default)]
+struct Languages<'c>(BTreeSet<&'c str>);
+
+impl<'c> Languages<'c> {
+    fn add(&mut self, names: &'c Texts, documentation: Option<&'c Documentation>) {
+        let translations = documentation.into_iter().flat_map(|own| own.translations.iter());
+        self.0.extend(names.iter().chain(translations).map(|own| own.language.as_str()));
+    }
+
+    fn add_groups(&mut self, groups: &'c [Group]) {
+        for group in groups {
+            self.add(&group.names, group.documentation.as_deref());
+            group.items.iter().for_each(|item| self.add(&item.names, item.documentation.as_deref()));
+        }
+    }
 }

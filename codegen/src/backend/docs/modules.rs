@@ -20,6 +20,8 @@ pub(super) struct ModuleModel {
     pub name: String,
     pub names: Vec<(String, String)>,
     pub facts: Vec<String>,
+    /// The description in other languages.
+    pub translations: Vec<(String, String)>,
     pub frames: Vec<Frame>,
     pub sections: Vec<(String, Section)>,
     /// Submodules that belong to it: name and link.
@@ -74,6 +76,7 @@ fn module(own: &Module, anchor: String, parts: Vec<(String, String)>, findings: 
         name: own.name.to_string(),
         names: words::names(&own.names),
         facts,
+        translations: words::translations(own.documentation.as_deref()),
         frames: process::frames(&own.process_data, &own.types),
         sections: sections(own.fixed_objects.iter().chain(&own.groups), &own.types, &anchor, findings),
         parts,
@@ -93,6 +96,7 @@ fn submodule(catalog: &Catalog, own: &Submodule, anchor: String, findings: &Find
         name: own.name.to_string(),
         names: words::names(&own.names),
         facts,
+        translations: words::translations(own.documentation.as_deref()),
         frames: inputs.into_iter().chain(outputs).collect(),
         sections: sections(own.records.iter(), &catalog.types, &anchor, findings),
         parts: Vec::new(),

@@ -2,7 +2,7 @@
 
 use super::entry::{self, Doubt};
 use super::modules::Slot;
-use super::words::PLAIN;
+use super::words::{self, PLAIN};
 use crate::backend::words::Manual;
 use crate::ir::{Device, DistributedClocks, EtherCatSettings, FileInfo, ProfinetSettings};
 
@@ -10,6 +10,8 @@ use crate::ir::{Device, DistributedClocks, EtherCatSettings, FileInfo, ProfinetS
 #[derive(Debug)]
 pub(super) struct Overview {
     pub facts: Vec<String>,
+    /// The description in other languages.
+    pub translations: Vec<(String, String)>,
     /// Name and value: who made it, on which buses it is, where this was read.
     pub identity: Vec<(&'static str, String)>,
     /// Models, with their constants.
@@ -49,7 +51,8 @@ pub(super) fn overview(device: &Device, file: Option<&FileInfo>, manual: &Manual
         facts: PLAIN.description(own.documentation.as_deref()).join(" "),
         constants: own.constants.iter().map(|(name, value)| (name.to_string(), PLAIN.value(value))).collect(),
     });
-    Overview { facts, identity, models: models.collect(), doubts: entry::doubts(&device.doubts) }
+    let translations = words::translations(device.documentation.as_deref());
+    Overview { facts, translations, identity, models: models.collect(), doubts: entry::doubts(&device.doubts) }
 }
 
 fn identity(device: &Device) -> Vec<(&'static str, String)> {

@@ -1,7 +1,7 @@
 //! Words of documentation pages. Templates escape them.
 
 pub(super) use crate::backend::words::{one_line, PLAIN};
-use crate::ir::{Binding, Item, ObjectBuses, RegisterSpace, Texts, Type, TypeDef, Value};
+use crate::ir::{Binding, Documentation, Item, ObjectBuses, RegisterSpace, Texts, Type, TypeDef, Value};
 use crate::passes::owner::Owner;
 
 /// The basic type below; of arrays and records, nothing is known.
@@ -20,6 +20,11 @@ pub(super) fn type_name(types: &[TypeDef], ty: Type) -> String {
 /// A name in other languages.
 pub(super) fn names(names: &Texts) -> Vec<(String, String)> {
     names.iter().map(|own| (own.language.to_string(), own.text.to_string())).collect()
+}
+
+/// A description in other languages.
+pub(super) fn translations(documentation: Option<&Documentation>) -> Vec<(String, String)> {
+    documentation.map(|own| names(&own.translations)).unwrap_or_default()
 }
 
 /// `3`, `4 to 7`.
