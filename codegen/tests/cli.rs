@@ -454,7 +454,7 @@ fn pages_of_markdown() {
     assert_eq!(code(&call(&[])), 0);
     assert!(std::fs::read_to_string(&page).expect("a page").contains("<a id=\"0x6040\"></a>"));
     // What somebody else wrote is left alone.
-    std::fs::write(out.join("README.md"), "# A project\n").expect("a file");
+    std::fs::write(out.join("README.md"), "# A project\n\nPages are made by `lexibus docs`.\n").expect("a file");
     let output = call(&[]);
     assert_eq!(code(&output), 1);
     assert!(
@@ -462,7 +462,10 @@ fn pages_of_markdown() {
         "{}",
         err(&output)
     );
-    assert_eq!(std::fs::read_to_string(out.join("README.md")).expect("a file"), "# A project\n");
+    assert_eq!(
+        std::fs::read_to_string(out.join("README.md")).expect("a file"),
+        "# A project\n\nPages are made by `lexibus docs`.\n"
+    );
 }
 
 #[test]

@@ -1,3 +1,4 @@
+// Written by lexibus docs.
 "use strict";
 // What the index of a site, or of one device, has: pages with their titles, numbers, texts, and entries, each of which is a page,
 // an address within it, a number and a text. Texts are name, names in other languages, unit and description.

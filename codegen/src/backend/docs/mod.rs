@@ -55,14 +55,20 @@ pub struct Page {
     pub text: String,
 }
 
-/// What every page says of itself.
-const MARK: &str = "lexibus docs";
+/// What a page of HTML says of itself.
+const GENERATOR: &str = "<meta name=\"generator\" content=\"lexibus docs\">";
+
+/// How other files begin.
+const BEGINNINGS: [&str; 4] =
+    ["<!-- Written by lexibus docs", "/* Written by lexibus docs", "// Written by lexibus docs", "lexibusIndex("];
 
 impl Page {
     /// Whether a file with this text may become this page: it is one of an earlier call.
     pub fn replaces(&self, text: &str) -> bool {
-        let is_page = self.path.ends_with(".html") || self.path.ends_with(".md");
-        !is_page || text.contains(MARK)
+        match self.path.ends_with(".html") {
+            true => text.contains(GENERATOR),
+            false => BEGINNINGS.iter().any(|own| text.starts_with(own)),
+        }
     }
 
     fn new(path: &str, text: String) -> Self {
