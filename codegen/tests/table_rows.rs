@@ -95,8 +95,9 @@ fn scales() {
     assert_eq!(of("{ fraction = 15, of = \"base\" }"), Some(Scale::Fraction { bits: 15, base: "base".into() }));
     let mantissa = Scale::Exponent { exponent: "b".into(), base: 2, fraction: 15 };
     assert_eq!(of("{ exponent = \"b\", base = 2, fraction = 15 }"), Some(mantissa));
-    assert!(rust(&a(", scale = { exponent = \"b\", base = 2, fraction = 15 }")).contains("stands for raw / 2^15 × 2^b"));
-    assert!(rust(&a(", scale = { times = \"b\" }")).contains("stands for raw × b"));
+    assert!(rust(&a(", scale = { exponent = \"b\", base = 2, fraction = 15 }"))
+        .contains("stands for raw / 2^15 × 2^[b](B)"));
+    assert!(rust(&a(", scale = { times = \"b\" }")).contains("stands for raw × [b](B)"));
     for (scale, words) in [
         ("0", "the scale is 0"),
         ("nan", "the scale is NaN"),
@@ -172,7 +173,7 @@ fn words_that_are_no_command() {
 fn conditions_on_bits() {
     let text = a(", when = { b = { mask = 4, value = 0 } }");
     assert_eq!(said(&text), [""; 0]);
-    assert!(rust(&text).contains("Can be written only while b \\& 0x4 is 0."));
+    assert!(rust(&text).contains("Can be written only while [b](B) \\& 0x4 is 0."));
     is_wrong(", when = { b = { mask = 4, value = 1 } }", "never holds");
     is_wrong(", when = { b = { mask = 4 } }", "never holds");
     is_wrong(", when = { b = [1, { mask = 4 }] }", "one table of `mask` and `value`");
@@ -180,7 +181,7 @@ fn conditions_on_bits() {
         + "[enums.E.values]\n0 = { name = \"off\", buses = [\"canopen\"] }\n1 = { name = \"on\", when = { b = 3 } }\n";
     assert_eq!(said(&values), [""; 0]);
     let text = rust(&values);
-    assert!(text.contains("Only on CANopen.") && text.contains("Only while b is 3."), "{text}");
+    assert!(text.contains("Only on CANopen.") && text.contains("Only while [b](super::objects::B) is 3."), "{text}");
     let never = values.replace("b = 3", "b = { mask = 4, value = 8 }");
     assert!(said(&never)[0].contains("never holds"));
     let meanings = |other: &str| {
@@ -191,7 +192,7 @@ fn conditions_on_bits() {
     };
     assert_eq!(said(&meanings("{ mask = 6, value = 2 }")), [""; 0]);
     assert!(said(&meanings("{ mask = 2, value = 2 }"))[0].contains("share bits"));
-    assert!(rust(&meanings("{ mask = 6, value = 2 }")).contains("while b \\& 0x4 is 4"));
+    assert!(rust(&meanings("{ mask = 6, value = 2 }")).contains("while [b](super::objects::B) \\& 0x4 is 4"));
     let bits = a(", bits = \"B\"")
         + "[bits.B.at]\n0 = { name = \"kept\", reserved = 1 }\n1 = { name = \"x\", access = \"ro\", replaced_by = \"bit 2\" }\n";
     assert_eq!(said(&bits), [""; 0]);
@@ -342,7 +343,7 @@ fn one_address_of_two_models_and_one_name_in_two_chapters() {
                           c = {{ reg = 9, type = \"u16\", access = \"rw\", when = {{ {when} = 1 }} }}\n")
     };
     assert_eq!(said(&chapter("\"Two/a\"")), [""; 0]);
-    assert!(rust(&chapter("\"Two/a\"")).contains("only while Two/a is 1"));
+    assert!(rust(&chapter("\"Two/a\"")).contains("only while [Two/a](A_"));
     let found = said(&chapter("a"));
     assert!(found.len() == 1 && found[0].contains("several chapters have `a`"), "{found:?}");
     assert!(said(&chapter("\"Three/a\""))[0].contains("no item called `Three/a`"));
