@@ -1,34 +1,16 @@
 //! State machines and procedures.
 
 use super::types::named;
-use super::{Changes, Judgement};
+use super::{by_name, Changes, Judgement};
 use crate::backend::words::PLAIN;
 use crate::ir::{Device, Pattern, Procedure, StateMachine};
 
 pub(super) fn compare(old: &Device, new: &Device, changes: &mut Changes) {
-    for was in &old.machines {
-        let element = format!("machine {}", was.name);
-        match new.machines.iter().find(|own| own.name == was.name) {
-            Some(is) => machine(was, is, &element, changes),
-            None => changes.existence(&element, true, false),
-        }
-    }
-    for is in new.machines.iter().filter(|own| !old.machines.iter().any(|other| other.name == own.name)) {
-        changes.existence(&format!("machine {}", is.name), false, true);
-    }
-    for was in &old.procedures {
-        let element = format!("procedure {}", was.name);
-        match new.procedures.iter().find(|own| own.name == was.name) {
-            Some(is) => procedure(was, is, &element, changes),
-            None => changes.existence(&element, true, false),
-        }
-    }
-    for is in new.procedures.iter().filter(|own| !old.procedures.iter().any(|other| other.name == own.name)) {
-        changes.existence(&format!("procedure {}", is.name), false, true);
-    }
+    by_name("machine", (&old.machines, &new.machines), |own| &own.name, changes, machine);
+    by_name("procedure", (&old.procedures, &new.procedures), |own| &own.name, changes, procedure);
 }
 
-fn machine(was: &StateMachine, is: &StateMachine, element: &str, changes: &mut Changes) {
+fn machine((was, is): (&StateMachine, &StateMachine), element: &str, changes: &mut Changes) {
     let item = |own: &StateMachine| (own.status_item.to_string(), own.control_item.to_string());
     let ((status, control), (new_status, new_control)) = (item(was), item(is));
     changes.fact(element, "status", (status, new_status), Judgement::Breaking);
@@ -56,7 +38,7 @@ fn machine(was: &StateMachine, is: &StateMachine, element: &str, changes: &mut C
     changes.fact(element, "transitions", (ways(was), ways(is)), Judgement::Compatible);
 }
 
-fn procedure(was: &Procedure, is: &Procedure, element: &str, changes: &mut Changes) {
+fn procedure((was, is): (&Procedure, &Procedure), element: &str, changes: &mut Changes) {
     let arguments = |own: &Procedure| own.arguments.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
     changes.fact(element, "arguments", (arguments(was), arguments(is)), Judgement::Breaking);
     let steps = |own: &Procedure| own.steps.iter().map(|own| PLAIN.step(own)).collect::<Vec<_>>().join(" ");

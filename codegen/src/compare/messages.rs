@@ -1,25 +1,18 @@
 //! Messages of a command protocol.
 
-use super::{Changes, Judgement};
+use super::{by_name, Changes, Judgement};
 use crate::ir::{Device, Message, MessageField, TypeDef};
 
 pub(super) fn compare(old: &Device, new: &Device, changes: &mut Changes) {
-    for was in &old.messages {
-        let element = format!("message {}", was.name);
-        let Some(is) = new.messages.iter().find(|own| own.name == was.name) else {
-            changes.existence(&element, true, false);
-            continue;
-        };
+    let both = |(was, is): (&Message, &Message), element: &str, changes: &mut Changes| {
         for (fact, one, other) in [("request", &was.request, &is.request), ("reply", &was.reply, &is.reply)] {
             let layouts = (layout(one, &old.types), layout(other, &new.types));
-            changes.fact(&element, fact, layouts, Judgement::Breaking);
+            changes.fact(element, fact, layouts, Judgement::Breaking);
         }
         let states = |own: &Message| own.accepted_in.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-        changes.fact(&element, "accepted in", (states(was), states(is)), Judgement::Compatible);
-    }
-    for is in new.messages.iter().filter(|own| !old.messages.iter().any(|other| other.name == own.name)) {
-        changes.existence(&format!("message {}", is.name), false, true);
-    }
+        changes.fact(element, "accepted in", (states(was), states(is)), Judgement::Compatible);
+    };
+    by_name("message", (&old.messages, &new.messages), |own| &own.name, changes, both);
 }
 
 /// The fields one after the other.

@@ -232,6 +232,24 @@ fn pairs<'a, T, K: Ord>(
     all
 }
 
+/// Compares what has the same name, and tells what is gone and what is new.
+fn by_name<T>(
+    kind: &str,
+    (old, new): (&[T], &[T]),
+    name: impl Fn(&T) -> &str,
+    changes: &mut Changes,
+    both: impl Fn((&T, &T), &str, &mut Changes),
+) {
+    for (was, is) in pairs(old, new, |own| name(own).to_owned(), false) {
+        let Some(own) = was.or(is) else { continue };
+        let element = format!("{kind} {}", name(own));
+        match was.zip(is) {
+            Some(pair) => both(pair, &element, changes),
+            None => changes.existence(&element, was.is_some(), is.is_some()),
+        }
+    }
+}
+
 /// Whether a new name is another identifier.
 fn renamed(old: &str, new: &str) -> Judgement {
     let identifier = |name: &str| names_unique::unique(&[Wish::new(name, "item", "")], &[], Case::Snake);

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{renamed, Changes, Judgement};
+use super::{by_name, renamed, Changes, Judgement};
 use crate::backend::words::PLAIN;
 use crate::ir::{BitMeaning, CodeTable, EnumValue, Shape, Type, TypeDef};
 use crate::passes::owner::Owner;
@@ -100,18 +100,14 @@ pub(super) fn named(
 
 /// Tables of codes, which are enumerations in Rust.
 pub(super) fn codes(old: &[CodeTable], new: &[CodeTable], changes: &mut Changes) {
-    for table in old {
-        let element = format!("codes {}", table.name);
-        let key = |row: &crate::ir::CodeRow| (format!("code {:#X}", row.code), row.name.to_string());
-        match new.iter().find(|own| own.name == table.name) {
-            Some(other) => {
-                let (old, new) = (table.rows.iter().map(key), other.rows.iter().map(key));
-                named(old, new, &element, Judgement::Breaking, changes);
-            }
-            None => changes.existence(&element, true, false),
-        }
-    }
-    for table in new.iter().filter(|own| !old.iter().any(|other| other.name == own.name)) {
-        changes.existence(&format!("codes {}", table.name), false, true);
-    }
+    let key = |row: &crate::ir::CodeRow| (format!("code {:#X}", row.code), row.name.to_string());
+    by_name(
+        "codes",
+        (old, new),
+        |own| &own.name,
+        changes,
+        |(was, is), element, changes| {
+            named(was.rows.iter().map(key), is.rows.iter().map(key), element, Judgement::Breaking, changes);
+        },
+    );
 }
