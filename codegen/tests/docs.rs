@@ -121,7 +121,11 @@ fn languages_of_modules_can_be_chosen() {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/data/drive.gsdml.xml");
     let german = "<Language xml:lang=\"de\"><Text TextId=\"T_Tel1\" Value=\"Standardtelegramm 1\"/></Language></ExternalTextList>";
     let text = std::fs::read_to_string(path).expect("a description").replace("</ExternalTextList>", german);
-    let pages = site(Format::Html, vec![("drive".to_owned(), Source::new("drive.xml", text.into()))]);
+    let source = || vec![("drive".to_owned(), Source::new("drive.xml", text.clone().into()))];
+    let pages = site(Format::Html, source());
+    let markdown = site(Format::Markdown, source());
+    let page = markdown.iter().find(|page| page.path == "drive/modules.md").expect("the modules");
+    assert!(page.text.contains(" Standard telegram 1 *Standardtelegramm 1*\n"), "{}", page.text);
     let text = |path: &str| &pages.iter().find(|page| page.path == path).unwrap_or_else(|| panic!("{path}")).text;
     for path in ["drive/index.html", "drive/modules.html"] {
         assert!(text(path).contains("<option>de</option>"), "{path}");
