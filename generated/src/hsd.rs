@@ -4936,7 +4936,9 @@ pub mod messages {
             rt::message::check::<u8>(self.status.raw(), &range)?;
             to.number(4, self.status.raw() as u64)?;
             to.bytes(&[0xC0, 0x00])?;
+            let same_at = to.len();
             PARAMETER.write(&self.setting, to)?;
+            to.same(same_at, request, 4, 2)?;
             Ok(())
         }
     }

@@ -197,8 +197,9 @@ impl SettingsRule {
     ///
     /// # Errors
     ///
-    /// Where the number has more bits, or there is no room.
+    /// Where the number has more bits, the parameter's values have another length, or there is no room.
     pub fn write(&self, setting: &Setting, to: &mut Writer<'_>) -> Result<(), WriteError> {
+        self.takes(setting)?;
         self.write_code(setting.parameter, to)?;
         to.value(self.order, setting.value())
     }
@@ -282,9 +283,13 @@ impl<'a> Settings<'a> {
     ///
     /// # Errors
     ///
-    /// Where there is no room.
+    /// [`WriteError::NoMessage`] where there is no such parameter: nobody could tell where the next one begins. Where a parameter's
+    /// values have another length, or there is no room.
     pub fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError> {
-        self.iter().try_for_each(|own| self.rule.write(&own, to))
+        self.iter().try_for_each(|own| match self.rule.takes(&own)? {
+            true => self.rule.write(&own, to),
+            false => Err(WriteError::NoMessage),
+        })
     }
 }
 
@@ -385,6 +390,12 @@ mod tests {
         assert_eq!(RULE.takes(&setting(0x105, &[1, 2])), Ok(true));
         assert_eq!(RULE.takes(&setting(0x10C, &[1, 2])), Err(LengthError::new(4, 2)));
         assert_eq!(RULE.takes(&setting(0x106, &[1, 2])), Ok(false));
+        // What the device would take for something else isn't sent.
+        let written = |own: &[Setting]| Settings::sent(own, RULE).write(&mut Writer::new(&mut [0; 16]));
+        assert_eq!(written(&[setting(0x106, &[1, 2])]), Err(WriteError::NoMessage));
+        assert_eq!(written(&[setting(0x10C, &[1, 2])]), Err(LengthError::new(4, 2).into()));
+        let alone = RULE.write(&setting(0x105, &[1]), &mut Writer::new(&mut [0; 16]));
+        assert_eq!(alone, Err(LengthError::new(2, 1).into()));
         let lengths = [0x104, 0x105, 0x106, 0x10D, 0x10E].map(|number| RULE.length(Parameter(number)));
         assert_eq!(lengths, [None, Some(2), None, Some(4), None]);
     }

@@ -188,6 +188,21 @@ impl<'b> Writer<'b> {
         self.bytes(request.get(first..end).ok_or(LengthError::new(end, request.len()))?)
     }
 
+    /// Whether the bytes from `at` on are `count` bytes of the request, from `first` on: a reply about another parameter is no reply
+    /// to it.
+    ///
+    /// # Errors
+    ///
+    /// [`OutOfRange`] where they differ, [`LengthError`] where the request is shorter.
+    pub fn same(&self, at: usize, request: &[u8], first: usize, count: usize) -> Result<(), WriteError> {
+        let end = first.saturating_add(count);
+        let expected = request.get(first..end).ok_or(LengthError::new(end, request.len()))?;
+        match self.written().get(at..at.saturating_add(count)) == Some(expected) {
+            true => Ok(()),
+            false => Err(OutOfRange.into()),
+        }
+    }
+
     /// Writes how many bytes there are from `first` on over the bytes from `at` on, in this order.
     ///
     /// # Errors
@@ -245,6 +260,17 @@ mod tests {
         assert_eq!(writer.echo(&[1, 2], 1, 2), Err(LengthError::new(3, 2).into()));
         assert_eq!(writer.padding(2), Ok(()));
         assert_eq!(writer.written(), [0, 0]);
+    }
+
+    #[test]
+    fn what_comes_back_is_held_against_the_request() {
+        let mut data = [0; 4];
+        let mut writer = Writer::new(&mut data);
+        writer.bytes(&[9, 1, 2]).unwrap();
+        assert_eq!(writer.same(1, &[0, 0, 1, 2], 2, 2), Ok(()));
+        assert_eq!(writer.same(1, &[0, 0, 1, 3], 2, 2), Err(OutOfRange.into()));
+        assert_eq!(writer.same(2, &[2, 0], 0, 2), Err(OutOfRange.into()));
+        assert_eq!(writer.same(1, &[0, 0, 1], 2, 2), Err(LengthError::new(4, 3).into()));
     }
 
     #[test]

@@ -28,8 +28,11 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
     let mut fields = fields.iter();
     // What is known only when all is written.
     let mut end = Vec::new();
+    // What is checked when the next step is written.
+    let mut next = None;
     for (at, step) in steps.iter().enumerate() {
         let tail = tail(steps.get(at + 1..).unwrap_or_default());
+        let due = next.take();
         match step {
             Step::Bytes(bytes) => {
                 for part in bytes.chunks(LINE) {
@@ -71,7 +74,9 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
                 own.read.push(format!("from.copy(request, {first}, {count})?;"));
             }
             Step::Same { first, count } => {
-                own.reads_request = true;
+                (own.writes_request, own.reads_request) = (true, true);
+                own.write.push("let same_at = to.len();".to_owned());
+                next = Some(format!("to.same(same_at, request, {first}, {count})?;"));
                 own.read.push(format!("from.clone().echo(request, {first}, {count})?;"));
             }
             Step::Station { bits, value } => {
@@ -106,6 +111,7 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
             }
             _ => value(&mut own, fields.next(), None, rules, tail),
         }
+        own.write.extend(due);
     }
     own.write.append(&mut end);
     own.read.push("from.end()?;".to_owned());
