@@ -100,6 +100,35 @@ fn documented<T>(name: &str, bindings: &[&str], read: impl FnOnce(&Path) -> T) -
         .ok_or_else(|| format!("{name} can't be documented:\n{}", text.lines().take(40).collect::<Vec<_>>().join("\n")))
 }
 
+/// Compiles `text` as a program that uses the runtime, and runs it.
+///
+/// # Errors
+///
+/// What the compiler, or the program, printed.
+#[allow(dead_code)]
+pub fn run(name: &str, text: &str) -> Result<(), String> {
+    let stem = stem();
+    let (root, program) = (stem.with_extension("rs"), stem.with_extension("program"));
+    std::fs::write(&root, text).expect("a temporary file");
+    let compiled = Command::new("rustc")
+        .args(["--edition", "2021", "--crate-name", "program", "-C", "debug-assertions", "--cap-lints", "allow", "-o"])
+        .arg(&program)
+        .arg("--extern")
+        .arg(format!("lexibus={}", library().display()))
+        .arg(&root)
+        .output()
+        .expect("rustc runs");
+    let ran = compiled.status.success().then(|| Command::new(&program).output().expect("the program runs"));
+    let _ = std::fs::remove_file(&root);
+    let _ = std::fs::remove_file(&program);
+    let output = ran.unwrap_or(compiled);
+    if output.status.success() {
+        return Ok(());
+    }
+    let text = String::from_utf8_lossy(&output.stderr);
+    Err(format!("{name}:\n{}", text.lines().take(40).collect::<Vec<_>>().join("\n")))
+}
+
 /// The start of a name for temporary files, which no other test has.
 fn stem() -> PathBuf {
     static NUMBER: AtomicUsize = AtomicUsize::new(0);
@@ -137,17 +166,25 @@ fn compiler() -> Command {
 /// The runtime's metadata, made once.
 fn runtime() -> &'static Path {
     static RUNTIME: OnceLock<PathBuf> = OnceLock::new();
-    RUNTIME.get_or_init(|| {
-        let path = folder().join(format!("liblexibus-{}.rmeta", std::process::id()));
-        let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src/lib.rs");
-        let status = Command::new("rustc")
-            .args(["--edition", "2021", "--crate-type", "lib", "--emit", "metadata", "--crate-name", "lexibus", "-o"])
-            .arg(&path)
-            .arg(&source)
-            .args(["--cap-lints", "allow"])
-            .status()
-            .expect("rustc runs");
-        assert!(status.success(), "the runtime doesn't compile");
-        path
-    })
+    RUNTIME.get_or_init(|| build_runtime("rmeta", "metadata"))
+}
+
+/// The runtime as a library that a program can be linked with, made once.
+fn library() -> &'static Path {
+    static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
+    LIBRARY.get_or_init(|| build_runtime("rlib", "link"))
+}
+
+fn build_runtime(extension: &str, emit: &str) -> PathBuf {
+    let path = folder().join(format!("liblexibus-{}.{extension}", std::process::id()));
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src/lib.rs");
+    let status = Command::new("rustc")
+        .args(["--edition", "2021", "--crate-type", "lib", "--emit", emit, "--crate-name", "lexibus", "-o"])
+        .arg(&path)
+        .arg(&source)
+        .args(["--cap-lints", "allow", "-C", "debug-assertions"])
+        .status()
+        .expect("rustc runs");
+    assert!(status.success(), "the runtime doesn't compile");
+    path
 }
