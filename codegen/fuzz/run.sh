@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# Fuzzes: codegen/fuzz/run.sh SECONDS [TARGET...]. Needs `cargo fuzz` and a nightly toolchain. What it finds lies in
+# codegen/fuzz/artifacts, one file a finding; what it learned stays in codegen/fuzz/corpus.
+set -euo pipefail
+cd "$(dirname "$0")"
+seconds=$1
+shift
+targets=("$@")
+if [[ ${#targets[@]} == 0 ]]; then targets=(eds xdd esi gsdml table import macro_input messages pdo ir); fi
+corpus=../../../shared/corpus
+
+# Files of a target to begin with: those of the repository, and real ones where they lie beside it. Long ones are left out: a
+# fuzzer that changes a byte a time gets nowhere in them.
+seeds() {
+    case $1 in
+    eds) find ../../dictionaries ../tests ../../tests "$corpus/eds" -name '*.eds' -o -name '*.dcf' ;;
+    xdd) find ../tests "$corpus/eds" -name '*.xdd' -o -name '*.xdc' ;;
+    esi) find ../tests ../../tests ../../benches "$corpus/esi" -name '*.xml' ;;
+    gsdml) find ../../tests "$corpus/gsdml" -name '*.xml' ;;
+    table) find ../../dictionaries ../tests ../../tests -name '*.toml' ;;
+    import) find ../tests ../../tests ../../dictionaries -name '*.csv' -o -name '*.tsv' ;;
+    macro_input) find seeds/macro_input -type f ;;
+    esac 2>/dev/null | while read -r file; do
+        if [[ $(stat -c %s "$file") -le 65536 ]]; then echo "$file"; fi
+    done
+}
+
+dictionary() {
+    case $1 in
+    eds) echo dictionaries/eds.dict ;;
+    xdd | esi | gsdml) echo dictionaries/xml.dict ;;
+    table) echo dictionaries/table.dict ;;
+    macro_input) echo dictionaries/macro.dict ;;
+    esac
+}
+
+for target in "${targets[@]}"; do
+    mkdir -p "corpus/$target"
+    seeds "$target" | while read -r file; do cp "$file" "corpus/$target/$(sha1sum "$file" | cut -c1-16)"; done
+    options=(-max_total_time="$seconds" -max_len=65536 -timeout=20 -rss_limit_mb=4096 -print_final_stats=1)
+    words=$(dictionary "$target")
+    if [[ -n $words ]]; then options+=(-dict="$words"); fi
+    echo "== $target"
+    # No code of this project is unsafe, so no sanitizer looks after memory: without one, three times as much is tried.
+    cargo +nightly fuzz run --sanitizer none "$target" -- "${options[@]}"
+done
