@@ -204,10 +204,99 @@ fn results_do_not_depend_on_the_number_of_jobs() {
     assert!(out(&one).lines().count() >= 20);
 }
 
+/// Files of every format that the repository has.
+const EXAMPLES: [&str; 8] = [
+    "dictionaries/demo-drive.eds",
+    "dictionaries/aec-vector-step.toml",
+    "dictionaries/kollmorgen-akd.toml",
+    "dictionaries/hsd-sm137-sm140.toml",
+    "dictionaries/eco.toml",
+    "tests/data/coupler.esi.xml",
+    "tests/data/drive.gsdml.xml",
+    "benches/instructions/axis.esi.xml",
+];
+
+fn examples() -> Vec<String> {
+    EXAMPLES.iter().map(|path| format!("{}/../{path}", env!("CARGO_MANIFEST_DIR"))).collect()
+}
+
+/// The macro is the third door: `macros/src/lib.rs` has its own test of this.
 #[test]
 fn the_command_line_and_the_build_script_give_the_same_bytes() {
-    let by_builder = lexibus_codegen::Builder::new().quiet().generate(DEMO).expect("bindings");
-    assert_eq!(out(&lexibus(&["generate", DEMO])), by_builder);
+    for path in examples() {
+        let by_builder = lexibus_codegen::Builder::new().quiet().generate(&path).expect("bindings");
+        assert_eq!(out(&lexibus(&["generate", &path, "-A", "warnings"])), by_builder, "{path}");
+    }
+}
+
+/// All files of a folder with their bytes.
+fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        match path.is_dir() {
+            true => files.extend(contents(&path)),
+            false => files.push((path.clone(), std::fs::read(&path).expect("a file"))),
+        }
+    }
+    files.sort();
+    files
+}
+
+#[test]
+fn output_depends_neither_on_the_order_of_files_nor_on_the_number_of_jobs() {
+    let folder = folder("order");
+    // Two files of one name, which are told apart by a number.
+    let twin = folder.join("in");
+    std::fs::create_dir_all(&twin).expect("a folder");
+    let mut files = examples();
+    files.push(file(&twin, "demo-drive.eds", QUIRKY));
+    for command in ["generate", "docs", "export"] {
+        let made = |order: &[String], jobs: &str| {
+            let out = folder.join("out");
+            let _ = std::fs::remove_dir_all(&out);
+            let out_path = out.to_string_lossy().into_owned();
+            let mut call = vec![command, "-A", "warnings", "--jobs", jobs, "--out", &out_path];
+            if command == "export" {
+                call.extend(["--format", "eds"]);
+            }
+            call.extend(order.iter().map(String::as_str));
+            let output = lexibus(&call);
+            (contents(&out), self::out(&output), err(&output))
+        };
+        let expected = made(&files, "1");
+        assert!(expected.0.len() >= 5, "{command}: {}", expected.2);
+        let mut order = files.clone();
+        for jobs in ["1", "2", "7"] {
+            order.rotate_left(2);
+            order.swap(0, 3);
+            assert!(made(&order, jobs) == expected, "{command}: another output for {order:?} with {jobs} jobs");
+        }
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn links_and_pipes_in_a_folder() {
+    let folder = folder("links");
+    let deep = folder.join("a/b");
+    std::fs::create_dir_all(&deep).expect("a folder");
+    file(&deep, "drive.eds", QUIRKY);
+    // Twice to their own parent: 2^32 ways down, if each was gone.
+    for name in ["one", "other"] {
+        std::os::unix::fs::symlink(&folder, deep.join(name)).expect("a link");
+    }
+    let pipe = folder.join("pipe.eds");
+    assert!(Command::new("mkfifo").arg(&pipe).status().expect("mkfifo runs").success());
+    let found = lexibus(&["check", folder.to_str().expect("UTF-8"), "--message-format", "json"]);
+    assert_eq!(code(&found), 0, "{}", err(&found));
+    let places = out(&found).lines().filter(|line| line.contains("drive.eds")).count();
+    assert_eq!(
+        places,
+        out(&lexibus(&["check", &folder.join("a/b/drive.eds").to_string_lossy(), "--message-format", "json"]))
+            .lines()
+            .count()
+    );
 }
 
 #[test]

@@ -67,13 +67,20 @@ pub fn dictionary(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(&call).unwrap_or_else(|error| error.to_compile_error()).into()
 }
 
-fn expand(call: &Call) -> syn::Result<TokenStream> {
-    let fail = |message: String| syn::Error::new(call.path.span(), message);
+/// What a call describes, and the text of its module.
+fn compiled(call: &Call) -> syn::Result<(Compilation, String)> {
     let mut options = call.options.clone();
     options.overlays = call.overlays.iter().map(read).collect::<syn::Result<_>>()?;
     let compilation = compile::check(read(&call.path)?, &options);
-    let text = compilation.rust(&call.options.rust).ok_or_else(|| fail(errors(&compilation)))?;
-    let content: TokenStream = text.parse().map_err(|error| fail(format!("the generated code is no Rust: {error}")))?;
+    let text = compilation.rust(&options.rust);
+    let text = text.ok_or_else(|| syn::Error::new(call.path.span(), errors(&compilation)))?;
+    Ok((compilation, text))
+}
+
+fn expand(call: &Call) -> syn::Result<TokenStream> {
+    let (compilation, text) = compiled(call)?;
+    let fail = |error| syn::Error::new(call.path.span(), format!("the generated code is no Rust: {error}"));
+    let content: TokenStream = text.parse().map_err(fail)?;
     let warnings = warnings(&compilation, call.path.span());
     // Files that the description refers to go by their paths already, and overlays come behind them.
     let referred = compilation.sources.len().saturating_sub(call.overlays.len());
@@ -142,4 +149,57 @@ fn errors(compilation: &Compilation) -> String {
     let errors = compilation.diagnostics.list().iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
     let rendered = errors.take(MAX_SHOWN).map(|error| render::terminal::render(error, &compilation.sources, false));
     format!("the device description has errors\n\n{}", rendered.collect::<Vec<_>>().join("\n\n"))
+}
+
+#[cfg(test)]
+mod tests {
+    use lexibus_codegen::{Builder, Presence};
+
+    use super::*;
+
+    /// Paths are relative to the folder of this crate, as they are to a user's.
+    const DICTIONARIES: [&str; 7] = [
+        "../dictionaries/demo-drive.eds",
+        "../dictionaries/aec-vector-step.toml",
+        "../dictionaries/kollmorgen-akd.toml",
+        "../dictionaries/hsd-sm137-sm140.toml",
+        "../dictionaries/eco.toml",
+        "../tests/data/coupler.esi.xml",
+        "../tests/data/drive.gsdml.xml",
+    ];
+
+    /// The command line's are held against the build script's by `codegen/tests/cli.rs`.
+    #[test]
+    fn the_macro_and_the_build_script_give_the_same_bytes() {
+        for path in DICTIONARIES {
+            for (options, builder) in [
+                ("", Builder::new()),
+                (" { table: true, accessors: false }", Builder::new().table(Presence::Always).accessors(false)),
+            ] {
+                let end = if options.is_empty() { ";" } else { options };
+                let call: Call = syn::parse_str(&format!("pub mod drive = {path:?}{end}")).expect("a call");
+                let (_, text) = compiled(&call).expect("bindings");
+                assert!(text == builder.quiet().generate(path).expect("bindings"), "{path}{options}");
+                let tokens: TokenStream = text.parse().expect("Rust");
+                let expanded = expand(&call).expect("a module").to_string();
+                assert!(expanded.contains(&tokens.to_string()), "{path}{options}");
+            }
+        }
+    }
+
+    #[test]
+    fn wrong_calls_are_errors() {
+        for (text, expected) in [
+            ("mod drive = 5;", "expected string literal"),
+            ("mod drive = \"a.eds\"", "expected `;`"),
+            ("mod drive = \"a.eds\" { table: 1 }", "expected string literal"),
+            ("mod drive = \"a.eds\" { objects: \"6000..\" }", "6000.."),
+            ("mod drive = \"a.eds\" { deny: \"EDS999999\" }", "EDS999999"),
+            ("mod drive = \"a.eds\" { strict: true strict: true }", "expected `,`"),
+            ("mod drive = \"a.eds\" { option: \"x\" }", "NAME=CHOICE"),
+        ] {
+            let error = syn::parse_str::<Call>(text).err().map(|error| error.to_string()).unwrap_or_default();
+            assert!(error.contains(expected), "{text}: {error}");
+        }
+    }
 }

@@ -25,7 +25,7 @@ pub(super) fn run(docs: &Docs) -> Result<bool, Failure> {
             }
         }
     };
-    inputs::each(&docs.inputs, &options, |input, compilation| {
+    inputs::each_by_path(&docs.inputs, &options, |input, compilation| {
         reporter.report(&compilation)?;
         let stem = input.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         put(&site.add_compilation(&stem, &compilation), &mut reporter);

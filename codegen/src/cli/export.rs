@@ -75,7 +75,7 @@ pub(super) fn run(export: &Export) -> Result<bool, Failure> {
     options.no_profiles = true;
     let mut reporter = Reporter::new(&export.inputs, false);
     let mut target = Target::new(&export.inputs, export.out.as_deref(), export.check)?;
-    inputs::each(&export.inputs, &options, |input, compilation| {
+    inputs::each_by_path(&export.inputs, &options, |input, compilation| {
         reporter.report(&compilation)?;
         match compilation.catalog.as_ref().filter(|_| compilation.is_usable()) {
             Some(catalog) => write(&format, input, &compilation, catalog, &mut target, &mut reporter),

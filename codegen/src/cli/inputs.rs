@@ -1,5 +1,6 @@
 //! Reading many files at once.
 
+use std::collections::HashSet;
 use std::io::{IsTerminal, Read};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc;
@@ -16,16 +17,36 @@ use crate::source::{FileId, Source, Span};
 /// Endings of the files that a folder is searched for.
 const ENDINGS: [&str; 5] = ["eds", "dcf", "xdd", "xdc", "xpd"];
 
-/// Folders deeper than this are not searched, so that a link to its own parent ends.
+/// Folders deeper than this are not searched.
 const MAX_FOLDER_DEPTH: usize = 32;
 
 /// Compiles every input, several at a time, and hands the results to `use_it` in the order of the command line.
 pub(super) fn each(
     inputs: &Inputs,
     options: &Options,
+    use_it: impl FnMut(&Path, Compilation) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    compile_all(files(&inputs.paths)?, inputs, options, use_it)
+}
+
+/// The same in the order of the paths, each once: what is written to a folder doesn't depend on how its sources were named.
+pub(super) fn each_by_path(
+    inputs: &Inputs,
+    options: &Options,
+    use_it: impl FnMut(&Path, Compilation) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let mut files = files(&inputs.paths)?;
+    files.sort();
+    files.dedup();
+    compile_all(files, inputs, options, use_it)
+}
+
+fn compile_all(
+    files: Vec<PathBuf>,
+    inputs: &Inputs,
+    options: &Options,
     mut use_it: impl FnMut(&Path, Compilation) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    let files = files(&inputs.paths)?;
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads(inputs.jobs, files.len()))
         .build()
@@ -107,7 +128,7 @@ fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     for path in paths {
         if path.is_dir() {
             let before = files.len();
-            search(path, 0, &mut files);
+            search(path, 0, &mut HashSet::new(), &mut files);
             if files.len() == before {
                 return Err(Failure::Usage(format!("there is no device description in {}", path.display())));
             }
@@ -118,8 +139,10 @@ fn files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     Ok(files)
 }
 
-fn search(folder: &Path, depth: usize, files: &mut Vec<PathBuf>) {
-    if depth > MAX_FOLDER_DEPTH {
+/// Adds the device descriptions in `folder` and below. A folder that several links lead to is searched once: a link to its own
+/// parent would lead there again and again.
+fn search(folder: &Path, depth: usize, searched: &mut HashSet<PathBuf>, files: &mut Vec<PathBuf>) {
+    if depth > MAX_FOLDER_DEPTH || !folder.canonicalize().is_ok_and(|folder| searched.insert(folder)) {
         return;
     }
     let Ok(entries) = std::fs::read_dir(folder) else { return };
@@ -127,8 +150,9 @@ fn search(folder: &Path, depth: usize, files: &mut Vec<PathBuf>) {
     paths.sort();
     for path in paths {
         if path.is_dir() {
-            search(&path, depth + 1, files);
-        } else if is_description(&path) {
+            search(&path, depth + 1, searched, files);
+        } else if path.is_file() && is_description(&path) {
+            // Neither a pipe nor a device, which may never end.
             files.push(path);
         }
     }

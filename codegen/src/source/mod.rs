@@ -12,6 +12,7 @@ pub use references::{References, Refusal};
 pub use span::{FileId, Origin, Position, Span};
 
 use std::borrow::Cow;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
@@ -64,12 +65,19 @@ impl Source {
     ///
     /// What the operating system says, or `FileTooLarge` above [`MAX_INPUT_BYTES`].
     pub fn read(path: &Path) -> std::io::Result<Self> {
-        let bytes = std::fs::read(path)?;
+        Source::read_from(path, path)
+    }
+
+    /// Reads the file at `place`, which is called `path`.
+    fn read_from(place: &Path, path: &Path) -> std::io::Result<Self> {
+        let file = std::fs::File::open(place)?;
+        // Room for all of it at once; what tells no length, or a wrong one, is read piece by piece.
+        let length = file.metadata().map_or(0, |metadata| metadata.len()).min(MAX_INPUT_BYTES as u64);
+        let mut bytes = Vec::with_capacity(length as usize + 1);
+        file.take(MAX_INPUT_BYTES as u64 + 1).read_to_end(&mut bytes)?;
         if bytes.len() > MAX_INPUT_BYTES {
-            return Err(std::io::Error::new(
-                std::io::ErrorKind::FileTooLarge,
-                format!("the file has {} bytes; at most {MAX_INPUT_BYTES} are read", bytes.len()),
-            ));
+            let message = format!("the file has more than {MAX_INPUT_BYTES} bytes, which are the most that are read");
+            return Err(std::io::Error::new(std::io::ErrorKind::FileTooLarge, message));
         }
         let folder = path.parent().map(Path::to_owned).unwrap_or_default();
         Ok(Source::new(path.to_string_lossy(), bytes).in_folder(folder))

@@ -20,6 +20,8 @@ pub enum Refusal {
     NoFolder,
     /// The name leads out of the folder of the description, or to another computer.
     Outside,
+    /// It is a folder, a pipe or a device.
+    NoFile,
     /// Too many files are referred to.
     TooMany,
     /// The operating system can't read it.
@@ -31,6 +33,7 @@ impl fmt::Display for Refusal {
         match self {
             Refusal::NoFolder => f.write_str("the description wasn't read from a folder"),
             Refusal::Outside => f.write_str("it isn't in the folder of the description"),
+            Refusal::NoFile => f.write_str("it is no file"),
             Refusal::TooMany => write!(f, "more than {MAX_REFERENCES} files are referred to"),
             Refusal::Unreadable(error) => write!(f, "{error}"),
         }
@@ -71,7 +74,10 @@ impl<'a> References<'a> {
         if !real.starts_with(folder.canonicalize().map_err(Refusal::Unreadable)?) {
             return Err(Refusal::Outside);
         }
-        Source::read(&path).map_err(Refusal::Unreadable)
+        if !real.is_file() {
+            return Err(Refusal::NoFile);
+        }
+        Source::read_from(&real, &path).map_err(Refusal::Unreadable)
     }
 
     /// The number that the next file gets by [`References::add`].
@@ -111,10 +117,15 @@ mod tests {
             assert!(matches!(references.open(name), Err(Refusal::Outside)), "{name}");
         }
         assert!(matches!(references.open("none.xml"), Err(Refusal::Unreadable(_))));
+        assert!(matches!(references.open("Dicts"), Err(Refusal::NoFile)));
         #[cfg(unix)]
         {
             std::os::unix::fs::symlink(folder.join("secret.xml"), folder.join("own/link.xml")).unwrap();
             assert!(matches!(references.open("link.xml"), Err(Refusal::Outside)));
+            std::os::unix::fs::symlink(&folder, folder.join("own/up")).unwrap();
+            assert!(matches!(references.open("up/secret.xml"), Err(Refusal::Outside)));
+            std::os::unix::fs::symlink(folder.join("own/Dicts/a b.xml"), folder.join("own/within.xml")).unwrap();
+            assert_eq!(references.open("within.xml").unwrap().text(), "<x/>");
         }
         std::fs::remove_dir_all(folder).unwrap();
         let unplaced = Source::new("x", Vec::new());
