@@ -57,10 +57,16 @@ impl Types {
     pub(super) fn is_empty(&self) -> bool {
         self.enumerations.is_empty() && self.bit_fields.is_empty() && self.machines.is_empty()
     }
+
+    /// Whether their code needs the runtime's name: states and commands by themselves don't.
+    pub(super) fn names_runtime(&self) -> bool {
+        let has_values = !self.enumerations.is_empty() || !self.bit_fields.is_empty();
+        has_values || self.machines.iter().any(MachineModel::has_transitions)
+    }
 }
 
-/// Types of the prelude that generated code names, and traits that it derives.
-const RESERVED_TYPES: [&str; 4] = ["Self", "Option", "Result", "Unknown"];
+/// Names of the prelude that the code beside these types names, and those of which clippy would take a method for a constructor.
+const RESERVED_TYPES: [&str; 9] = ["Self", "Option", "Result", "Unknown", "Some", "None", "Default", "New", "FromRaw"];
 
 /// The types that items and PDO entries of `scope` have, and those of the fields of bit fields.
 pub(super) fn types(scope: &Scope<'_>, machines: &[StateMachine], options: &RustOptions) -> Types {
@@ -81,7 +87,11 @@ pub(super) fn types(scope: &Scope<'_>, machines: &[StateMachine], options: &Rust
         let own = definition(at);
         let same: Vec<&TypeDef> =
             positions.iter().map(|&other| definition(other)).filter(|o| o.name == own.name).collect();
-        Wish { name: &own.name, fallback: format!("{kind} {at}"), suffix: suffix(scope, own, &same, at) }
+        let own = Wish { name: &own.name, fallback: format!("{kind} {at}"), suffix: suffix(scope, own, &same, at) };
+        match same.len() == 1 && RESERVED_TYPES.contains(&pascal(&own).as_str()) {
+            true => Wish { suffix: "Type".to_owned(), ..own },
+            false => own,
+        }
     };
     let view_names: Vec<Vec<String>> = bit_fields
         .iter()
