@@ -9,6 +9,7 @@ pub(super) const UNRESOLVED: Problem = "a field names another that there isn't";
 pub(super) const UNALIGNED: Problem = "bytes begin, or the data end, within a byte";
 const UNKNOWN_LENGTH: Problem = "a value has no length of 1 to 64 bits, and is no text of fixed length";
 const SEVERAL_LENGTHS: Problem = "it has two parts whose length isn't known, or one in front of those that are counted";
+const SEVERAL_LISTS: Problem = "two parts of it are repeated";
 const LONE_VALUE: Problem = "the value of a parameter doesn't stand behind the parameter's number";
 const LONG_CODE: Problem = "the number of a parameter has more than 32 bits";
 const ECHO: Problem = "a field comes back whose place in the request isn't known, or isn't whole bytes";
@@ -234,12 +235,12 @@ impl<'a> Shaper<'a, '_> {
 
 /// Whether one part at most is as long as the data are, and the fields that are counted stand behind their number and in front of it.
 fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
+    if steps.iter().filter(|step| matches!(step, Step::List { .. })).count() > 1 {
+        return Err(SEVERAL_LISTS);
+    }
     let list = steps.iter().position(Step::is_counted_list);
     let open = steps.iter().position(Step::is_open);
-    if list != steps.iter().rposition(Step::is_counted_list)
-        || open != steps.iter().rposition(Step::is_open)
-        || open.zip(list).is_some_and(|(open, list)| open < list)
-    {
+    if open != steps.iter().rposition(Step::is_open) || open.zip(list).is_some_and(|(open, list)| open < list) {
         return Err(SEVERAL_LENGTHS);
     }
     match (steps.iter().position(|step| matches!(step, Step::Count { .. })), list) {
