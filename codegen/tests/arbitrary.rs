@@ -13,13 +13,13 @@ use lexibus_codegen::compile::{Compilation, Options};
 use lexibus_codegen::{Presence, RustOptions};
 
 /// How many catalogues are drawn where nobody asks for more.
-const DRAWN: u64 = 240;
+const DRAWN: u64 = 200;
 
 /// Of so many of them, all other outputs are made.
-const OUTPUTS: usize = 40;
+const OUTPUTS: usize = 30;
 
 /// So many of them are documented.
-const DOCUMENTED: usize = 40;
+const DOCUMENTED: usize = 30;
 
 /// Modules that are compiled together.
 const BATCH: usize = 60;

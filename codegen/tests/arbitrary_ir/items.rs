@@ -119,7 +119,7 @@ pub fn pdo_objects(b: &mut Bytes<'_>, dictionary: &[Group]) -> Vec<Group> {
     let mut numbers = b.list(4, |b| b.pick(&[0x1400, 0x1401, 0x1402, 0x15FF, 0x1800, 0x1801]));
     numbers.sort_unstable();
     numbers.dedup();
-    let communications = numbers.iter().map(|index| parameters(b, *index, |b, sub| communication(b, sub)));
+    let communications = numbers.iter().map(|index| parameters(b, *index, communication));
     let mut groups: Vec<Group> = communications.collect();
     groups.extend(numbers.iter().map(|index| parameters(b, *index + 0x200, |b, sub| mapping(b, sub, dictionary))));
     groups

@@ -149,7 +149,7 @@ pub fn image(b: &mut Bytes<'_>, name: CompactString, types: &[TypeDef], least: u
     let fields = b.list(9, |b| {
         let ty = types::any(b, types.len());
         let bits = types::base(types, ty).bits().filter(|_| !b.one_in(6)).unwrap_or_else(|| b.within(0..=70));
-        let padding = if bits % 8 == 0 { u32::next_multiple_of(next, 8) - next } else { 0 };
+        let padding = if bits.is_multiple_of(8) { u32::next_multiple_of(next, 8) - next } else { 0 };
         let bit_offset = if b.one_in(12) { b.within(0..=100) } else { next + padding };
         next = bit_offset.saturating_add(bits);
         let kind = if b.one_in(8) { PdoEntryKind::Padding } else { PdoEntryKind::Item };

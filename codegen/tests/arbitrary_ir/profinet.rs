@@ -195,7 +195,7 @@ fn record(b: &mut Bytes<'_>, types: &[TypeDef]) -> Group {
     let items: Vec<Item> = b.list(7, |b| {
         let mut item = item(b, &around, Binding::canopen(0, 0));
         let bits = types::base(types, item.ty).bits().filter(|_| !b.one_in(8)).unwrap_or_else(|| b.within(0..=70));
-        let padding = if bits % 8 == 0 { next.next_multiple_of(8) - next } else { 0 };
+        let padding = if bits.is_multiple_of(8) { next.next_multiple_of(8) - next } else { 0 };
         let bit_offset = if b.one_in(12) { b.within(0..=100) } else { next + padding };
         next = bit_offset + bits;
         item.bindings = [Binding::Record { index, bit_offset, bits }].into_iter().collect();

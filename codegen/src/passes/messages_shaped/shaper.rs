@@ -235,13 +235,17 @@ impl<'a> Shaper<'a, '_> {
 
 /// Whether one part at most is as long as the data are, and the fields that are counted stand behind their number and in front of it.
 fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
-    if steps.iter().filter(|step| matches!(step, Step::List { .. })).count() > 1 {
-        return Err(SEVERAL_LISTS);
-    }
     let list = steps.iter().position(Step::is_counted_list);
     let open = steps.iter().position(Step::is_open);
-    if open != steps.iter().rposition(Step::is_open) || open.zip(list).is_some_and(|(open, list)| open < list) {
+    if list != steps.iter().rposition(Step::is_counted_list)
+        || open != steps.iter().rposition(Step::is_open)
+        || open.zip(list).is_some_and(|(open, list)| open < list)
+    {
         return Err(SEVERAL_LENGTHS);
+    }
+    // The type of what is repeated goes by the name of the message.
+    if steps.iter().filter(|step| matches!(step, Step::List { .. })).count() > 1 {
+        return Err(SEVERAL_LISTS);
     }
     match (steps.iter().position(|step| matches!(step, Step::Count { .. })), list) {
         (None, None) => Ok(()),
