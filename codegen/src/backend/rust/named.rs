@@ -119,7 +119,11 @@ pub(super) fn types(scope: &Scope<'_>, machines: &[StateMachine], options: &Rust
     let view_names: Vec<Vec<String>> = conditions.iter().map(|views| views.iter().map(|_| next()).collect()).collect();
     let machine_names: Vec<[String; 2]> = machines.iter().map(|_| [next(), next()]).collect();
 
-    let machine_methods: Vec<String> = machine::methods(machines).into_iter().flatten().collect();
+    let mut machine_methods = Vec::new();
+    for [state, command] in machine::methods(machines) {
+        machine_methods.push(format!("with_{}", command.trim_start_matches('_')));
+        machine_methods.extend([state, command]);
+    }
     for ((&at, name), (views, view_names)) in bit_fields.iter().zip(own_names).zip(conditions.iter().zip(view_names)) {
         let views = (views.as_slice(), view_names);
         let model = bit_field::model(scope, at, name, views, &types.enumerations, &machine_methods, options);
