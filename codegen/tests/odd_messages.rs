@@ -192,6 +192,7 @@ fn what_has_no_code_is_reported() {
         message("After", "{ bytes = [12] }", "after = \"Long selector\"\n"),
         message("After that", "{ bytes = [13] }", "after = \"After\"\n"),
         message("Default", "{ bytes = [14] }", "default = true\nerror = \"Long refusal\"\n"),
+        message("Both", "{ bytes = [15] }, { field = \"n\", type = \"u8\" }, { repeat = { count = \"n\", fields = [{ field = \"v\", type = \"u8\" }] } }, { repeat = { fields = [{ field = \"w\", type = \"u8\" }] } }", ""),
         "[[messages]]\nname = \"Long refusal\"\nreply = [{ bytes = [0x80] }, { rest = true }]\n".to_owned(),
     ];
     insta::assert_snapshot!(said(&format!("{spaces}{}", messages.concat())));

@@ -53,13 +53,15 @@ impl<S> StateOutcomes<S> {
 #[derive(Clone, Copy, Debug)]
 pub struct Outcomes<S: 'static>(&'static [StateOutcomes<S>]);
 
-impl<S: PartialEq> Outcomes<S> {
+impl<S> Outcomes<S> {
     /// A row of the table of commands and states.
     #[must_use]
     pub const fn new(states: &'static [StateOutcomes<S>]) -> Self {
         Self(states)
     }
+}
 
+impl<S: PartialEq> Outcomes<S> {
     /// What happens in `state`: one of these. Nothing where the description doesn't say.
     #[must_use]
     pub fn of(&self, state: S) -> &'static [Outcome<S>] {

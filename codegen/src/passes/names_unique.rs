@@ -3,6 +3,7 @@
 //! Identifiers are the source's names in Rust's case. Of elements with equal names each gets its address as a suffix, so
 //! that neither the order of anything nor a further element with that name changes an identifier that had one before.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::collections::HashSet;
 
@@ -65,8 +66,9 @@ pub fn unique_up_to(wishes: &[Wish<'_>], reserved: &[&str], case: Case, length: 
             continue;
         }
         let mut candidate = name.clone();
+        let suffix = address(&wish.suffix);
         loop {
-            candidate = join(&candidate, &wish.suffix, case);
+            candidate = join(&candidate, &suffix, case);
             if !is_reserved(&candidate) && taken.insert(candidate.clone()) {
                 break;
             }
@@ -78,8 +80,9 @@ pub fn unique_up_to(wishes: &[Wish<'_>], reserved: &[&str], case: Case, length: 
 
 fn plain(wish: &Wish<'_>, case: Case, length: usize) -> String {
     let words = words(wish.name);
-    // A fallback is an address, which is no text to find words in.
-    let words = if words.is_empty() { wish.fallback.split(' ').map(str::to_ascii_lowercase).collect() } else { words };
+    // A fallback is an address, which is no text to find words in. Whoever has none wants no name then.
+    let parts = wish.fallback.split(' ').filter(|part| !part.is_empty());
+    let words = if words.is_empty() { parts.map(|part| address(part).to_ascii_lowercase()).collect() } else { words };
     let mut name = write(&words, case);
     if name.len() > length {
         // Whole words where one ends in the second half, so that the rest still reads as a name.
@@ -89,11 +92,27 @@ fn plain(wish: &Wish<'_>, case: Case, length: usize) -> String {
     name
 }
 
+/// An address as a part of an identifier: as it is, or where it names something else its words. It is never empty.
+fn address(text: &str) -> Cow<'_, str> {
+    let is_plain = text.chars().all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+    if is_plain && text.contains(|letter: char| letter != '_') {
+        return text.into();
+    }
+    let words = words(text);
+    if words.is_empty() {
+        "other".into()
+    } else {
+        words.join("_").into()
+    }
+}
+
 fn join(name: &str, suffix: &str, case: Case) -> String {
     match case {
         Case::Snake => format!("{}_{}", name.trim_end_matches('_'), suffix.to_ascii_lowercase()),
         Case::Pascal => {
-            let separator = if name.ends_with(|c: char| c.is_ascii_digit()) { "_" } else { "" };
+            let is_digit = |letter: char| letter.is_ascii_digit();
+            // Only between digits is it no camel case without.
+            let separator = if name.ends_with(is_digit) && suffix.starts_with(is_digit) { "_" } else { "" };
             format!("{name}{separator}{suffix}")
         }
     }
@@ -300,6 +319,14 @@ mod tests {
     fn a_suffixed_name_never_takes_one_that_is_there() {
         let got = names(&[("a 2000", "1000"), ("a", "2000"), ("a", "2001")]);
         assert_eq!(got, ["a_2000", "a_2000_2000", "a_2001"]);
+    }
+
+    #[test]
+    fn suffixes_of_any_text_are_parts_of_identifiers() {
+        let got = names(&[("a", "Chapter/Speed_64"), ("a", "\u{65e5}"), ("", "\u{df}_2"), ("new", "__"), ("new", "")]);
+        assert_eq!(got, ["a_chapter_speed_64", "a_other", "object_ss_2", "new_other", "new_other_other"]);
+        let wishes = [Wish::new("A 2", "object", "U64"), Wish::new("a2", "object", "7")];
+        assert_eq!(unique(&wishes, &[], Case::Pascal), ["A2U64", "A2_7"], "camel case has lines between digits only");
     }
 
     #[test]

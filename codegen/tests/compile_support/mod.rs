@@ -28,22 +28,57 @@ pub fn compile_in(edition: &str, name: &str, bindings: &str) -> Result<(), Strin
     std::fs::write(&module, bindings).expect("a temporary file");
     std::fs::write(&root, format!("{lints}pub mod device {{\n    include!({module:?});\n}}\n"))
         .expect("a temporary file");
-    let output = compiler()
+    let result = metadata(compiler(), edition, &stem, &root);
+    for path in [&module, &root, &stem.with_extension("rmeta")] {
+        let _ = std::fs::remove_file(path);
+    }
+    let first = |text: String| text.lines().take(40).collect::<Vec<_>>().join("\n");
+    result.map_err(|text| format!("{name} doesn't compile:\n{}", first(text)))
+}
+
+/// Compiles modules, each with its name, as those of one crate: that takes less time than a crate each. What their `cfg` ask for is
+/// the feature `optional`, which the crate hasn't got.
+///
+/// # Errors
+///
+/// What the compiler printed.
+#[allow(dead_code)]
+pub fn compile_modules(modules: &[(String, String)]) -> Result<(), String> {
+    let stem = stem();
+    let root = stem.with_extension("rs");
+    let mut text = String::from("#![no_std]\n#![deny(warnings, missing_docs, clippy::all)]\n//! Bindings.\n");
+    let mut files = vec![root.clone(), stem.with_extension("rmeta")];
+    for (name, bindings) in modules {
+        let module = stem.with_extension(format!("{name}.rs"));
+        std::fs::write(&module, bindings).expect("a temporary file");
+        text += &format!("/// One.\npub mod {name} {{\n    include!({module:?});\n}}\n");
+        files.push(module);
+    }
+    std::fs::write(&root, text).expect("a temporary file");
+    let mut command = compiler();
+    command.args(["--check-cfg", "cfg(feature, values(\"optional\"))"]);
+    let result = metadata(command, "2021", &stem, &root);
+    // What fails stays, to be looked at.
+    for path in files.iter().filter(|_| result.is_ok()) {
+        let _ = std::fs::remove_file(path);
+    }
+    result
+}
+
+/// Compiles a crate up to its metadata.
+fn metadata(mut command: Command, edition: &str, stem: &Path, root: &Path) -> Result<(), String> {
+    let output = command
         .args(["--edition", edition, "--crate-type", "lib", "--emit", "metadata", "--crate-name", "bindings", "-o"])
         .arg(stem.with_extension("rmeta"))
         .arg("--extern")
         .arg(format!("lexibus={}", runtime().display()))
-        .arg(&root)
+        .arg(root)
         .output()
         .expect("the compiler runs");
-    for path in [&module, &root, &stem.with_extension("rmeta")] {
-        let _ = std::fs::remove_file(path);
-    }
     if output.status.success() {
         return Ok(());
     }
-    let text = String::from_utf8_lossy(&output.stderr);
-    Err(format!("{name} doesn't compile:\n{}", text.lines().take(40).collect::<Vec<_>>().join("\n")))
+    Err(String::from_utf8_lossy(&output.stderr).into_owned())
 }
 
 /// Documents `bindings` as modules of modules of a crate; every warning of rustdoc is an error: above all a link that leads

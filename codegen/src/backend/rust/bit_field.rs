@@ -4,7 +4,7 @@ use super::doc_table;
 use super::docs;
 use super::enumeration::EnumerationModel;
 use super::ethercat::beside;
-use super::links::Here;
+use super::links::{self, Here};
 use super::literal;
 use super::manual;
 use super::method_names::method_allow;
@@ -90,8 +90,9 @@ pub(super) struct View {
     title: String,
 }
 
-/// Names that methods of a bit field itself have, and those that clippy takes for methods of traits.
-const RESERVED: [&str; 14] = [
+/// Names that methods of a bit field itself have, those that clippy takes for methods of traits, and those of methods that every type
+/// has, and which would be called instead.
+const RESERVED: [&str; 16] = [
     "self",
     "super",
     "crate",
@@ -103,7 +104,9 @@ const RESERVED: [&str; 14] = [
     "drop",
     "eq",
     "fmt",
+    "into",
     "into_iter",
+    "try_into",
     "neg",
     "not",
 ];
@@ -400,7 +403,7 @@ impl Context<'_, '_> {
         let title = format!("[`{name}`](Self::{name})");
         let (docs, Code { ty, get, set, is_named }) = (self.docs(entry), code);
         let mut meaning = vec![doc_table::meaning(&entry.name, name, entry.documentation.as_deref())];
-        meaning.extend(is_named.then(|| format!("Values: [`{ty}`].")));
+        meaning.extend(is_named.then(|| format!("Values: {}.", links::beside(&ty))));
         meaning.extend(marks(entry));
         meaning.retain(|part| !part.is_empty());
         let row = (entry.offset, [span(entry), link, meaning.join(" ")]);

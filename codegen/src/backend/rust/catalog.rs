@@ -9,8 +9,27 @@ use super::{docs, header, layout, render};
 use crate::ir::{Catalog, Device, FileInfo, Module, ModuleId};
 use crate::passes::names_unique::{self, Case, Wish};
 
-/// Names that a device's module can't have.
-const RESERVED: [&str; 5] = ["self", "super", "crate", "modules", "rt"];
+/// Names that a device's module can't have: within it are modules of the others.
+const RESERVED: [&str; 18] = [
+    "self",
+    "super",
+    "crate",
+    "modules",
+    "rt",
+    "types",
+    "codes",
+    "procedures",
+    "windows",
+    "objects",
+    "remappable",
+    "mappable",
+    "pdo",
+    "messages",
+    "machine",
+    "models",
+    "view",
+    "image",
+];
 
 pub(super) fn emit(catalog: &Catalog, file: &FileInfo, options: &RustOptions) -> Option<String> {
     let modules = reachable(catalog);

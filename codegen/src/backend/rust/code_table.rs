@@ -3,6 +3,7 @@
 use super::bus_facts;
 use super::code_type::{self, CodeTypeModel};
 use super::docs;
+use super::links::is_derive;
 use super::literal;
 use super::manual::{self, Manual};
 use super::options::RustOptions;
@@ -16,6 +17,8 @@ pub(super) struct CodeTableModel {
     pub link: String,
     pub docs: Vec<String>,
     pub rows: Vec<String>,
+    /// Whether a cell may resemble a mathematical constant, which clippy would point out.
+    pub has_real: bool,
     /// The type of its codes.
     pub ty: Option<CodeTypeModel>,
 }
@@ -46,7 +49,7 @@ fn model(table: &CodeTable, (name, ty): (String, String), manual: &Manual, optio
     let rows = table.rows.iter().filter_map(|own| row(own, table.columns.len())).collect();
     let ty = code_type::model(table, manual, options).map(|own| CodeTypeModel { name: ty, ..own });
     // Of one letter, both have the same name.
-    let link = |name: &str, kind: &str, other: &str| match name == other {
+    let link = |name: &str, kind: &str, other: &str| match name == other || is_derive(name) {
         true => format!("[`{name}`]({kind}@{name})"),
         false => format!("[`{name}`]"),
     };
@@ -54,7 +57,8 @@ fn model(table: &CodeTable, (name, ty): (String, String), manual: &Manual, optio
     if let Some(own) = &ty {
         docs.extend([String::new(), format!("As a type: {}.", link(&own.name, "enum", &name))]);
     }
-    CodeTableModel { name, link: static_link, docs, rows, ty }
+    let has_real = table.rows.iter().flat_map(|row| &row.cells).any(|cell| matches!(cell, Value::Real(_)));
+    CodeTableModel { name, link: static_link, docs, rows, has_real, ty }
 }
 
 /// `None` for a code beyond 64 bits.

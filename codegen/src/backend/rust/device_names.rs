@@ -4,8 +4,8 @@ use super::literal;
 use crate::ir::{Device, FileInfo};
 use crate::passes::names_unique::{self, Case, Wish};
 
-/// The generated module uses these names itself.
-const RESERVED: [&str; 6] = ["Self", "C", "S", "X", "Option", "Result"];
+/// The generated module uses these names itself, or has functions of which clippy would say that they are called like the type.
+const RESERVED: [&str; 8] = ["Self", "C", "S", "X", "Option", "Result", "New", "On"];
 
 /// Names that a file's module can't have.
 const RESERVED_FOR_FILE: [&str; 4] = ["self", "super", "crate", "rt"];

@@ -140,7 +140,8 @@ impl<'s> ItemType<'s> {
     /// Its name as a part of another one.
     fn word(&self) -> String {
         match (self.named, &self.quantity) {
-            (Some(name), _) => format!("Named{name}"),
+            // A name that begins with a digit has a `_` in front, which no name in camel case has within.
+            (Some(name), _) => format!("Named{}", name.trim_start_matches('_')),
             (None, Some(quantity)) => quantity.word.clone(),
             (None, None) => self.basic.word(),
         }

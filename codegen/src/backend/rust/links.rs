@@ -53,6 +53,7 @@ impl<'h> Here<'h> {
         let (kind, path) = path.split_once('@').map_or(("", path), |(kind, path)| (kind, path));
         let at = if kind.is_empty() { "" } else { "@" };
         match path.strip_prefix(self.module) {
+            Some(own) if kind.is_empty() && is_derive(own) => format!("type@{own}"),
             Some(own) => format!("{kind}{at}{own}"),
             None => format!("{kind}{at}{}{path}", self.outer),
         }
@@ -91,6 +92,20 @@ impl<'h> Here<'h> {
         }
         format!("[{text}]({own})")
     }
+}
+
+/// A link to a type that stands in the same module.
+pub(super) fn beside(name: &str) -> String {
+    match is_derive(name) {
+        true => format!("[`{name}`](type@{name})"),
+        false => format!("[`{name}`]"),
+    }
+}
+
+/// Whether a type of this name is called like a macro of the prelude, so that rustdoc has to be told which is meant.
+pub(super) fn is_derive(name: &str) -> bool {
+    const DERIVES: [&str; 9] = ["Clone", "Copy", "Debug", "Default", "Eq", "Hash", "Ord", "PartialEq", "PartialOrd"];
+    DERIVES.contains(&name)
 }
 
 /// The last name of a path.

@@ -79,7 +79,7 @@ impl Locations {
 
     /// The locations that the runtime has no name for: name, documentation and type.
     pub fn own(&self) -> Vec<(String, String, String)> {
-        let unnamed = self.each.iter().filter(|own| own.path().is_none() && !own.is_empty());
+        let unnamed = self.each.iter().filter(|own| own.path().is_none());
         let docs = |own: &Buses| format!("The location of what is found on {}.", own.titles());
         unnamed.map(|own| (own.word(), docs(own), own.written_out())).collect()
     }

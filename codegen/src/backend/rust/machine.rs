@@ -23,6 +23,11 @@ pub(super) struct MachineModel {
 }
 
 impl MachineModel {
+    /// Whether there is a list of transitions.
+    pub(super) fn has_transitions(&self) -> bool {
+        self.states.is_some() && self.commands.is_some() && self.transitions.is_some()
+    }
+
     /// The literal of the transitions, in a text that is moved so far to the right.
     pub(super) fn transitions(&self, nest: &usize) -> Option<String> {
         const INDENT: usize = 8;
@@ -61,6 +66,8 @@ pub(super) struct PatternModel {
     meaning: String,
     pub mask: String,
     pub value: String,
+    /// Whether the bits are all those of the number.
+    pub is_whole: bool,
 }
 
 /// What the types of states and of commands are to be called: simply so, where there is one machine and no other type of
@@ -100,7 +107,7 @@ pub(super) fn models(
         // The values of an enumeration have a type already.
         let own_states = if machine.state_type.is_some() { &[] } else { machine.states.as_slice() };
         let mut states = patterns(states, own_states, &machine.status_item, state);
-        let method = format!("with_{command}");
+        let method = format!("with_{}", command.trim_start_matches('_'));
         let mut commands = patterns(commands, &machine.commands, &machine.control_item, method);
         let transitions = states
             .as_ref()
@@ -288,7 +295,7 @@ fn patterns(
         let original = own.name.to_string();
         let meaning = doc_table::meaning(&own.name, &name, own.documentation.as_deref());
         let docs = format!("{title}: {value} of the bits {mask}.{text}");
-        PatternModel { docs, meaning, name, original, mask, value }
+        PatternModel { docs, meaning, name, original, mask, value, is_whole: u64::from(own.mask) == most }
     };
     Some(PatternsModel {
         patterns: list.iter().zip(names).map(pattern).collect(),

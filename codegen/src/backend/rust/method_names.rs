@@ -1,14 +1,17 @@
 //! Names of methods and modules of objects: those that are taken, and those that `clippy` reads a meaning into.
 
-/// Names that modules and methods of objects must not have: the device's own, and those that would hide a primitive
-/// type or the runtime.
-pub(super) const RESERVED: [&str; 28] = [
+/// Names that modules and methods of objects must not have: the device's own, those of methods that every type has by value, and those
+/// that would hide a primitive type or the runtime.
+pub(super) const RESERVED: [&str; 31] = [
     "types",
     "new",
     "axis",
     "client",
     "into_client",
+    "into",
+    "try_into",
     "objects",
+    "mappable",
     "pdo",
     "rt",
     "bool",

@@ -57,10 +57,16 @@ impl Types {
     pub(super) fn is_empty(&self) -> bool {
         self.enumerations.is_empty() && self.bit_fields.is_empty() && self.machines.is_empty()
     }
+
+    /// Whether their code needs the runtime's name: states and commands by themselves don't.
+    pub(super) fn names_runtime(&self) -> bool {
+        let has_values = !self.enumerations.is_empty() || !self.bit_fields.is_empty();
+        has_values || self.machines.iter().any(MachineModel::has_transitions)
+    }
 }
 
-/// Types of the prelude that generated code names, and traits that it derives.
-const RESERVED_TYPES: [&str; 4] = ["Self", "Option", "Result", "Unknown"];
+/// Names of the prelude that the code beside these types names, and those of which clippy would take a method for a constructor.
+const RESERVED_TYPES: [&str; 9] = ["Self", "Option", "Result", "Unknown", "Some", "None", "Default", "New", "FromRaw"];
 
 /// The types that items and PDO entries of `scope` have, and those of the fields of bit fields.
 pub(super) fn types(scope: &Scope<'_>, machines: &[StateMachine], options: &RustOptions) -> Types {
@@ -81,7 +87,11 @@ pub(super) fn types(scope: &Scope<'_>, machines: &[StateMachine], options: &Rust
         let own = definition(at);
         let same: Vec<&TypeDef> =
             positions.iter().map(|&other| definition(other)).filter(|o| o.name == own.name).collect();
-        Wish { name: &own.name, fallback: format!("{kind} {at}"), suffix: suffix(scope, own, &same, at) }
+        let own = Wish { name: &own.name, fallback: format!("{kind} {at}"), suffix: suffix(scope, own, &same, at) };
+        match same.len() == 1 && RESERVED_TYPES.contains(&pascal(&own).as_str()) {
+            true => Wish { suffix: "Type".to_owned(), ..own },
+            false => own,
+        }
     };
     let view_names: Vec<Vec<String>> = bit_fields
         .iter()
@@ -109,7 +119,11 @@ pub(super) fn types(scope: &Scope<'_>, machines: &[StateMachine], options: &Rust
     let view_names: Vec<Vec<String>> = conditions.iter().map(|views| views.iter().map(|_| next()).collect()).collect();
     let machine_names: Vec<[String; 2]> = machines.iter().map(|_| [next(), next()]).collect();
 
-    let machine_methods: Vec<String> = machine::methods(machines).into_iter().flatten().collect();
+    let mut machine_methods = Vec::new();
+    for [state, command] in machine::methods(machines) {
+        machine_methods.push(format!("with_{}", command.trim_start_matches('_')));
+        machine_methods.extend([state, command]);
+    }
     for ((&at, name), (views, view_names)) in bit_fields.iter().zip(own_names).zip(conditions.iter().zip(view_names)) {
         let views = (views.as_slice(), view_names);
         let model = bit_field::model(scope, at, name, views, &types.enumerations, &machine_methods, options);

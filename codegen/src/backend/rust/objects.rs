@@ -11,8 +11,9 @@ use super::scope::Scope;
 use crate::ir::{Group, Item, ObjectCode};
 use crate::passes::names_unique::{self, Case, Wish};
 
-/// Constants of an object have nothing to clash with.
-const RESERVED_IN_OBJECT: [&str; 4] = ["self", "super", "crate", "rt"];
+/// Constants of an object have nothing to clash with; its methods would be taken for a constructor, or couldn't be called because
+/// every type has one of that name.
+const RESERVED_IN_OBJECT: [&str; 7] = ["self", "super", "crate", "rt", "new", "into", "try_into"];
 
 /// An object: one value, or a module of several.
 pub(super) struct ObjectModel {

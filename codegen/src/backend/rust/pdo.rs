@@ -1,6 +1,6 @@
 //! PDO structs: fields, packing by whole-word shifts, and the sequence that configures the device.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use super::doc_table;
 use super::docs;
@@ -83,11 +83,27 @@ pub(super) fn models(scope: &Scope<'_>, options: &RustOptions) -> Vec<PdoModel> 
 pub(super) fn names(scope: &Scope<'_>) -> Vec<String> {
     let all_numbered = scope.pdos.iter().all(|pdo| pdo.communication.is_some());
     let by_number = |pdo: &Pdo| all_numbered || bus_of(scope, pdo) == ObjectBus::CanOpen;
-    let numbered = |pdo: &Pdo| format!("{}{}", prefix(pdo.direction), pdo.number);
-    let numbers: Vec<String> = scope.pdos.iter().filter(|pdo| by_number(pdo)).map(numbered).collect();
+    let numbers = numbered(scope.pdos.iter().filter(|pdo| by_number(pdo)));
     let mut named = names_by_source(scope, |pdo| !by_number(pdo), &numbers).into_iter();
-    let own = |pdo: &Pdo| if by_number(pdo) { Some(numbered(pdo)) } else { named.next() };
+    let mut numbers = numbers.into_iter();
+    let own = |pdo: &Pdo| if by_number(pdo) { numbers.next() } else { named.next() };
     scope.pdos.iter().filter_map(own).collect()
+}
+
+/// `RxPdo1`; of several with one number, as where a table and the dictionary describe one, the others are `RxPdo1_2`, ….
+fn numbered<'p>(pdos: impl Iterator<Item = &'p Pdo>) -> Vec<String> {
+    let mut seen: HashMap<String, usize> = HashMap::new();
+    let name = |pdo: &Pdo| {
+        let name = format!("{}{}", prefix(pdo.direction), pdo.number);
+        let count = seen.entry(name.clone()).or_default();
+        *count += 1;
+        if *count == 1 {
+            name
+        } else {
+            format!("{name}_{count}")
+        }
+    };
+    pdos.map(name).collect()
 }
 
 /// The bus of a PDO: that of the device, or the only one that the PDO is on.
@@ -298,10 +314,12 @@ fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry]) -> Vec<FieldModel> {
     let names = names_unique::unique_up_to(&wishes, &["self", "super", "crate"], Case::Snake, MAX_FIELD_NAME);
     let fields = mapped.iter().zip(&names).zip(&texts);
     let mut fields: Vec<FieldModel> = fields.map(|((entry, name), text)| field(scope, entry, name, text)).collect();
-    // Methods called `new` and `at` make the view, and a field may be called as the setter of another.
+    // Methods called `new` and `at` make the view, others are those of traits that every type may have, and a field may be called as the
+    // setter of another.
+    const TAKEN: [&str; 5] = ["new", "at", "clone", "into", "try_into"];
     for (field, name) in fields.iter_mut().zip(&names) {
-        let makes_view = name == "new" || name == "at";
-        field.getter = if makes_view { format!("{name}_") } else { field.name.clone() };
+        let is_taken = TAKEN.contains(&name.as_str());
+        field.getter = if is_taken { format!("{name}_") } else { field.name.clone() };
         // A name that starts with a digit has a line in front of it already.
         field.setter = beside(&names, format!("set_{}", name.trim_start_matches('_')));
     }

@@ -47,6 +47,11 @@ impl Rows {
             reader.report(&codes::TABLE_VALUE, reader.span(count), format!("`count` goes from 1 to {MAX_REPEAT}"));
             return Repeat::ONCE;
         };
+        let Some(left) = self.repeats_left.checked_sub(count as usize - 1) else {
+            self.too_many(reader, row);
+            return Repeat::ONCE;
+        };
+        self.repeats_left = left;
         let unit = self.unit(space);
         let bits = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).and_then(|named| {
             let bits = match named.ty {
@@ -58,6 +63,17 @@ impl Rows {
         });
         let of_type = || if row.reg.is_some() { bits.unwrap_or(unit).div_ceil(unit) } else { 1 };
         Repeat { count, step: row.stride.unwrap_or_else(of_type) }
+    }
+
+    /// Reports the first row that stands for more items than a table may have so.
+    fn too_many(&mut self, reader: &mut Reader<'_, '_>, row: &Row) {
+        if std::mem::take(&mut self.repeats_left) == 0 {
+            return;
+        }
+        let message = format!("more than {} items follow from `count`", limits::MAX_DERIVED_ITEMS);
+        let span = row.count.as_ref().map(|count| reader.span(count)).unwrap_or_default();
+        let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message);
+        reader.diagnostics.push(found.label("this row and those below it stand for one item each"));
     }
 
     /// Reports more defaults than a row has items, and several items of one name.

@@ -295,6 +295,7 @@ impl<'a> Table<'a> {
             numbered: Vec::new(),
             allowed: Vec::new(),
             summaries: Vec::new(),
+            repeats_left: limits::MAX_DERIVED_ITEMS,
         }
     }
 

@@ -9,6 +9,7 @@ pub(super) const UNRESOLVED: Problem = "a field names another that there isn't";
 pub(super) const UNALIGNED: Problem = "bytes begin, or the data end, within a byte";
 const UNKNOWN_LENGTH: Problem = "a value has no length of 1 to 64 bits, and is no text of fixed length";
 const SEVERAL_LENGTHS: Problem = "it has two parts whose length isn't known, or one in front of those that are counted";
+const SEVERAL_LISTS: Problem = "two parts of it are repeated";
 const LONE_VALUE: Problem = "the value of a parameter doesn't stand behind the parameter's number";
 const LONG_CODE: Problem = "the number of a parameter has more than 32 bits";
 const ECHO: Problem = "a field comes back whose place in the request isn't known, or isn't whole bytes";
@@ -241,6 +242,10 @@ fn orders(steps: &[Step<'_>]) -> Result<(), Problem> {
         || open.zip(list).is_some_and(|(open, list)| open < list)
     {
         return Err(SEVERAL_LENGTHS);
+    }
+    // The type of what is repeated goes by the name of the message.
+    if steps.iter().filter(|step| matches!(step, Step::List { .. })).count() > 1 {
+        return Err(SEVERAL_LISTS);
     }
     match (steps.iter().position(|step| matches!(step, Step::Count { .. })), list) {
         (None, None) => Ok(()),

@@ -81,8 +81,13 @@ fn compare(
         Some(bit) => bits(scope, value.item.ty, bit)?,
         None => (0, mask.unwrap_or(u64::MAX)),
     };
+    // Bits that no number has, or that aren't looked at, never tell it.
+    if mask == 0 || expected.is_some_and(|expected| expected & !mask != 0) {
+        return None;
+    }
+    let is_whole = matches!(base, Type::Unsigned(8 | 16 | 32 | 64)) && i128::from(mask) == greatest;
     let masked = match mask {
-        u64::MAX => own,
+        _ if mask == u64::MAX || is_whole => own,
         mask => format!("{own} & {}", number(mask.checked_shl(offset)?)?),
     };
     Some(match expected {

@@ -1,7 +1,9 @@
 //! The methods of a device that send messages.
 
+use super::field::Field;
 use super::rules::Rules;
 use super::{DataModel, MessageModel};
+use crate::backend::rust::ethercat::beside;
 use crate::backend::rust::links::Here;
 use crate::backend::rust::literal;
 use crate::ir::Message;
@@ -44,17 +46,15 @@ pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Ru
     let names = names_unique::unique(&wishes, taken, Case::Snake);
     let mut calls = Vec::new();
     for ((own, model, request), name) in with().zip(names) {
-        let fields: Vec<_> = request.fields.iter().map(|field| (field, field.argument(rules))).collect();
+        let names = arguments(&request.fields);
+        let fields = request.fields.iter().zip(&names).map(|(field, name)| field.argument(name, rules));
+        let (arguments, built): (Vec<String>, Vec<String>) = fields.unzip();
         let lifetime = if request.borrows { "<'a>" } else { "" };
         let ty = format!("messages::{}", request.name);
-        let (arguments, build) = if fields.is_empty() {
-            (Vec::new(), ty.clone())
-        } else if fields.len() > MAX_ARGUMENTS {
-            (vec![format!("message: {ty}{lifetime}")], "message".to_owned())
-        } else {
-            let arguments = fields.iter().map(|(field, (ty, _))| format!("{}: {ty}", field.name)).collect();
-            let own: Vec<String> = fields.into_iter().map(|(_, (_, own))| own).collect();
-            (arguments, super::literal(&ty, &own, 8))
+        let (arguments, build) = match arguments.len() {
+            0 => (Vec::new(), ty.clone()),
+            1..=MAX_ARGUMENTS => (arguments, super::literal(&ty, &built, 8)),
+            _ => (vec![format!("message: {ty}{lifetime}")], "message".to_owned()),
         };
         let after = own.message.after.as_ref();
         let selector = selector(shaped, messages, after.map(|own| own.as_str()));
@@ -71,6 +71,17 @@ pub(super) fn calls(shaped: &[Shaped<'_>], messages: &[MessageModel], rules: &Ru
         });
     }
     calls
+}
+
+/// What a method calls its arguments: as the fields, but for a number alone, which clippy takes for no name.
+fn arguments(fields: &[Field]) -> Vec<String> {
+    let mut names: Vec<String> = fields.iter().map(|field| field.name.clone()).collect();
+    for at in 0..names.len() {
+        if names[at].chars().all(|letter| letter == '_' || letter.is_ascii_digit()) {
+            names[at] = beside(&names, format!("value{}", names[at]));
+        }
+    }
+    names
 }
 
 /// The lines about a method: those about the message, and what it sends.

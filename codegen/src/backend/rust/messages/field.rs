@@ -115,21 +115,37 @@ fn typed(scope: &Scope<'_>, value: &MessageValue, bits: u32, name: String, posit
             let native = native(signed, bits);
             let width: u32 = native[1..].parse().unwrap_or(64);
             let sign = format!("(§ << {0}) as {native} >> {0}", width - bits);
-            let decode = if signed { sign } else { format!("§ as {native}") };
-            let encode = match signed {
-                true => format!("self.{name} as u{width} as u64"),
-                false => format!("self.{name} as u64"),
+            let decode = match (signed, native) {
+                (true, _) => sign,
+                (false, "u64") => "§".to_owned(),
+                (false, _) => format!("§ as {native}"),
+            };
+            let encode = match (signed, native) {
+                (false, "u64") => format!("self.{name}"),
+                (true, "i64") | (false, _) => format!("self.{name} as u64"),
+                (true, _) => format!("self.{name} as u{width} as u64"),
             };
             let check = narrow(item, base, native, format!("self.{name}"));
             (native.to_owned(), Kind::Value { bits, order: value.byte_order.clone(), encode, decode, check })
         }
         other => {
             let ty = other.path("super::");
+            // The bits of an integer with a sign are a number without one.
+            let base = match &other {
+                FieldType::Named(..) => scope.enumeration(item.ty).map_or(base, |named| named.ty),
+                _ => base,
+            };
             let check = match &other {
                 FieldType::Named(_, native) if other.cut(bits).is_some() => {
                     narrow(item, base, native, format!("self.{name}.raw()"))
                 }
-                FieldType::Named(..) => range(item, base, &name, Some(&ty)),
+                // A list of values stands in a function, where no call is a constant.
+                FieldType::Named(_, native) => match range(item, base, &name, Some(&ty)) {
+                    Some((.., range)) if range.contains("OneOf") => {
+                        narrow(item, base, native, format!("self.{name}.raw()"))
+                    }
+                    check => check,
+                },
                 _ => range(item, base, &name, None),
             };
             let encode = other.encode(&format!("self.{name}"), bits);
@@ -230,18 +246,19 @@ impl Field {
         }
     }
 
-    /// What a method takes for it, and how the field is made of that.
-    pub(super) fn argument(&self, rules: &Rules) -> (String, String) {
+    /// What a method takes for it under this name, and how the field is made of that.
+    pub(super) fn argument(&self, name: &str, rules: &Rules) -> (String, String) {
         match &self.kind {
             Kind::Settings { space, bits } => {
                 let rule = format!("messages::{}", rules.name(space, Some(*bits)));
-                let own = format!("{}: rt::message::Settings::sent(«{}¦ {rule}»)", self.name, self.name);
-                ("&'a [rt::message::Setting]".to_owned(), own)
+                let own = format!("{}: rt::message::Settings::sent(«{name}¦ {rule}»)", self.name);
+                (format!("{name}: &'a [rt::message::Setting]"), own)
             }
             // As seen from the device, which stands beside the modules.
             _ => {
                 let ty = self.ty.replace("super::types", "types").replace("<'a, ", "<'a, messages::");
-                (ty, self.name.clone())
+                let own = if name == self.name { self.name.clone() } else { format!("{}: {name}", self.name) };
+                (format!("{name}: {ty}"), own)
             }
         }
     }

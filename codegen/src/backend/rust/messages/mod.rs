@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::docs;
 use super::layout;
-use super::links::Here;
+use super::links::{self, Here};
 use super::manual;
 use super::named::Types;
 use super::options::RustOptions;
@@ -219,8 +219,8 @@ impl Maker<'_, '_> {
         let request = has_request.then(|| {
             let data = self.data(&own.request.steps, request_name, entry);
             let mut docs = self.documentation(message, Here::MESSAGES);
-            let reply = (!message.reply.is_empty()).then(|| format!("Answered by [`{reply_name}`]."));
-            let refused = refusal.map(|names| format!("Refused with [`{}`].", names[1]));
+            let reply = (!message.reply.is_empty()).then(|| format!("Answered by {}.", links::beside(reply_name)));
+            let refused = refusal.map(|names| format!("Refused with {}.", links::beside(&names[1])));
             let answers: Vec<String> = reply.into_iter().chain(refused).collect();
             if !answers.is_empty() {
                 docs.extend([String::new(), answers.join(" ")]);
@@ -230,7 +230,7 @@ impl Maker<'_, '_> {
         let reply = (!message.reply.is_empty()).then(|| {
             let data = self.data(&own.reply.steps, reply_name, reply_entry);
             let docs = match has_request {
-                true => vec![format!("What is answered to [`{request_name}`].")],
+                true => vec![format!("What is answered to {}.", links::beside(request_name))],
                 false => self.documentation(message, Here::MESSAGES),
             };
             let polled = || completion::expression(self.scope, self.device, message, (&own.reply.steps, &data.fields));
@@ -276,7 +276,7 @@ impl Maker<'_, '_> {
         code.read.pop();
         EntryModel {
             name: name.to_owned(),
-            title: format!("What is repeated in [`{owner}`]."),
+            title: format!("What is repeated in {}.", links::beside(owner)),
             derives: self.derives(fields.iter().any(Field::is_long)),
             length,
             fields,

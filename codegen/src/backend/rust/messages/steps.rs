@@ -52,12 +52,13 @@ pub(super) fn statements(steps: &[Step<'_>], fields: &[Field], rules: &Rules) ->
                 });
             }
             Step::Length { bits, order, from, .. } => {
-                own.write.push("let length_at = to.len();".to_owned());
+                let place = if end.is_empty() { "length_at".to_owned() } else { format!("length_at_{}", end.len()) };
+                own.write.push(format!("let {place} = to.len();"));
                 own.write.push(number(*bits, order, "0"));
                 own.read.push(format!("let length = from.{}?;", reading(*bits, order)));
                 own.read.push(format!("from.counted({from}, length)?;"));
                 let order = if order.is_empty() { (0..bits / 8).map(|at| at as u8).collect() } else { order.to_vec() };
-                end.push(format!("to.length(length_at, &{order:?}, {from})?;"));
+                end.push(format!("to.length({place}, &{order:?}, {from})?;"));
             }
             Step::Padding(count) => {
                 own.write.push(format!("to.padding({count})?;"));

@@ -60,12 +60,17 @@ impl Buses {
     /// Its name as a part of another one.
     pub fn word(self) -> String {
         let words: String = Net::ALL.iter().zip(self.0).map(|(net, kind)| kind.word(*net)).collect();
-        format!("On{words}")
+        format!("On{}", if words.is_empty() { "NoBus" } else { words.as_str() })
     }
 
     /// The buses, for a sentence.
     pub fn titles(self) -> String {
         let present = Net::ALL.iter().zip(self.0).filter(|(_, kind)| *kind != Kind::Absent);
-        present.map(|(net, _)| net.title()).collect::<Vec<_>>().join(", ")
+        let titles: Vec<&str> = present.map(|(net, _)| net.title()).collect();
+        if titles.is_empty() {
+            "no bus".to_owned()
+        } else {
+            titles.join(", ")
+        }
     }
 }

@@ -14,10 +14,11 @@ pub(in crate::backend::rust) struct Maker {
 impl Place<'_> {
     /// What the constructors of objects are called here, and the object, where the item is nothing else.
     pub fn only_object(&self) -> Option<(&'static str, u16, u8)> {
-        if !self.is_simple() {
+        let routed = self.routed();
+        if !routed.is_simple() {
             return None;
         }
-        match (self.canopen, self.coe, self.modbus, self.serial) {
+        match (routed.canopen, routed.coe, routed.modbus, routed.serial) {
             (Some((index, sub)), None, None, None) => Some(("object", index, sub)),
             (None, Some((index, sub)), None, None) => Some(("coe_object", index, sub)),
             (Some((index, sub)), Some(coe), None, None) if coe == (index, sub) => Some(("shared_object", index, sub)),
@@ -28,14 +29,29 @@ impl Place<'_> {
     /// The arguments that the constructors of registers begin with, where the item is a register, and at most one object
     /// beside.
     pub fn with_register(&self) -> Option<String> {
-        let register = self.register(self.modbus.filter(|_| self.serial.is_none() && self.is_simple())?);
-        match (self.canopen, self.coe) {
+        let routed = self.routed();
+        let register = self.register(routed.modbus.filter(|_| routed.serial.is_none() && routed.is_simple())?);
+        match (routed.canopen, routed.coe) {
             (None, None) => Some(register),
             (Some(canopen), Some(coe)) if canopen != coe => None,
             (canopen, coe) => {
                 let (index, sub) = canopen.or(coe)?;
                 Some(format!("0x{index:04X}¦ 0x{sub:02X}¦ {register}"))
             }
+        }
+    }
+
+    /// The place with nothing but addresses that a route leads to: some buses let an item be neither read nor written.
+    fn routed(&self) -> Self {
+        let is_routed = |net: Net| self.routes[net as usize].ways().next().is_some();
+        Place {
+            canopen: self.canopen.filter(|_| is_routed(Net::CanOpen)),
+            coe: self.coe.filter(|_| is_routed(Net::CoE)),
+            modbus: self.modbus.filter(|_| is_routed(Net::Modbus)),
+            serial: self.serial.filter(|_| is_routed(Net::Serial)),
+            image: self.image.filter(|_| is_routed(Net::Image)),
+            esc: self.esc.filter(|_| is_routed(Net::Esc)),
+            ..*self
         }
     }
 
@@ -48,10 +64,11 @@ impl Place<'_> {
     pub fn code(&self, scope: &Scope<'_>, windows: &str) -> String {
         let Some(path) = self.buses().path() else { return self.new_location(scope, windows) };
         let object = |(index, sub): (u16, u8)| format!("0x{index:04X}¦ 0x{sub:02X}");
-        let same = self.canopen.is_none() || self.coe.is_none() || self.canopen == self.coe;
-        match (self.canopen.or(self.coe), self.modbus, self.serial) {
+        let Place { canopen, coe, modbus, serial, image, esc, .. } = self.routed();
+        let same = canopen.is_none() || coe.is_none() || canopen == coe;
+        match (canopen.or(coe), modbus, serial) {
             (Some((index, sub)), None, None) if same => {
-                let method = match (self.canopen, self.coe) {
+                let method = match (canopen, coe) {
                     (Some(_), None) => "canopen",
                     (None, _) => "coe",
                     _ => "object",
@@ -63,7 +80,7 @@ impl Place<'_> {
             }
             (None, Some(register), None) => format!("{path}::modbus(«{}»)", self.register(register)),
             (None, None, Some(code)) => format!("{path}::serial({code})"),
-            (None, None, None) => match (self.image, self.esc) {
+            (None, None, None) => match (image, esc) {
                 (Some(field), _) => format!("{path}::field(«{}»)", field.code(self.is_bytes)),
                 (None, Some((address, length))) => format!("{path}::memory(0x{address:04X}, {length})"),
                 (None, None) => self.new_location(scope, windows),

@@ -42,11 +42,16 @@ impl Place<'_> {
 
     /// The buses on which the item is behind a window, and its number there.
     fn numbers(&self) -> Option<String> {
-        let window = |route: &Route<'_>| [route.read, route.write].iter().flatten().find_map(|way| way.window);
-        let (_, number) = self.routes.iter().find_map(window)?;
+        let number = self.number()?;
+        let window = |route: &Route<'_>| route.ways().find_map(|way| way.window);
         let on = Net::ALL.iter().zip(&self.routes).filter(|(_, route)| window(route).is_some());
         let on: Vec<&str> = on.map(|(net, _)| net.title()).collect();
         Some(format!("number 0x{number:04X} behind a window on {}", on.join(", ")))
+    }
+
+    /// Its number behind a window.
+    fn number(&self) -> Option<u32> {
+        self.routes.iter().flat_map(Route::ways).find_map(|way| way.window).map(|(_, number)| number)
     }
 
     /// What tells the item from others of its name.
@@ -70,7 +75,7 @@ impl Place<'_> {
             (None, None, None) => match (self.image, self.esc) {
                 (Some(field), _) => format!("{}_{}", field.image, field.first),
                 (None, Some((address, _))) => format!("{address:04X}"),
-                (None, None) => self.numbers().unwrap_or_else(|| "0".to_owned()),
+                (None, None) => self.number().map_or_else(|| "0".to_owned(), |number| format!("{number:04X}")),
             },
         }
     }

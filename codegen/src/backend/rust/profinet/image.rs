@@ -12,7 +12,7 @@ use crate::passes::names_unique::{self, Case, Wish};
 const MAX_FIELD_NAME: usize = 30;
 
 /// Names that no field may have.
-const RESERVED: [&str; 6] = ["self", "super", "crate", "new", "view", "clone"];
+const RESERVED: [&str; 8] = ["self", "super", "crate", "new", "view", "clone", "into", "try_into"];
 
 /// Traits of `serde` end at arrays of this length.
 const SERDE_ARRAY: u32 = 32;

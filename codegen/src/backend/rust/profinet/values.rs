@@ -14,8 +14,8 @@ use crate::passes::names_unique::{self, Case, Wish};
 /// What a variant must not be called: the type itself, and the variant for values that the description doesn't list.
 const RESERVED_VARIANTS: [&str; 2] = ["Self", "Unknown"];
 
-/// What an enumeration must not be called: generated code names these of the prelude.
-const RESERVED_TYPES: [&str; 7] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err"];
+/// What an enumeration must not be called: generated code names these of the prelude, and the last would have a constructor of its name.
+const RESERVED_TYPES: [&str; 8] = ["Self", "Option", "Result", "Some", "None", "Ok", "Err", "FromRaw"];
 
 /// The enumerations of a catalogue that something refers to.
 pub(super) struct Values<'a> {

@@ -3,7 +3,7 @@
 use super::Parameter;
 use crate::backend::rust::literal;
 use crate::backend::rust::profinet::field::Field;
-use crate::ir::{Limits, Value};
+use crate::ir::{Limits, Type, Value};
 
 /// First and last of each allowed range.
 pub(super) fn ranges(limits: &Limits) -> Vec<(Option<Value>, Option<Value>)> {
@@ -61,6 +61,11 @@ fn reals(allowed: &[(Option<Value>, Option<Value>)], bits: u32) -> Option<Vec<St
 
 fn integers(allowed: &[(Option<Value>, Option<Value>)], field: &Field<'_>) -> Option<Vec<String>> {
     let (low, high) = field.range()?;
+    // An enumeration may be one of fewer bits than the field has.
+    let (low, high) = match field.enumeration.and_then(|own| native_range(own.native)) {
+        Some((least, most)) => (low.max(least), high.min(most)),
+        None => (low, high),
+    };
     let bound = |value: &Option<Value>| match value {
         Some(Value::Real(value)) => Some(*value as i128),
         other => other.as_ref().and_then(Value::as_int),
@@ -78,4 +83,11 @@ fn integers(allowed: &[(Option<Value>, Option<Value>)], field: &Field<'_>) -> Op
         list = vec![(low, high)];
     }
     Some(list.iter().map(|(first, last)| format!("({first}, {last})")).collect())
+}
+
+/// Least and greatest number of an integer of Rust's own.
+fn native_range(name: &str) -> Option<(i128, i128)> {
+    let bits = name.get(1..)?.parse().ok()?;
+    let ty = if name.starts_with('i') { Type::Integer(bits) } else { Type::Unsigned(bits) };
+    ty.integer_range()
 }

@@ -1,0 +1,18 @@
+//! Any bytes, made into IR: no output of it may panic, and what has no errors emits Rust.
+#![no_main]
+
+use lexibus_codegen::compile::Options;
+use lexibus_codegen::RustOptions;
+
+#[path = "../../tests/arbitrary_ir/mod.rs"]
+mod arbitrary_ir;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    let compilation = arbitrary_ir::compilation(bytes, &Options::default());
+    arbitrary_ir::outputs::others(&compilation);
+    if let Some(text) = compilation.rust(&RustOptions::default()) {
+        if let Err(error) = syn::parse_file(&text) {
+            panic!("{error}\n{text}");
+        }
+    }
+});

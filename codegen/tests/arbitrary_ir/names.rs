@@ -1,0 +1,259 @@
+//! Names and texts: ordinary ones, and those that clash with Rust, with generated code or with one another.
+
+use lexibus_codegen::ir::{CompactString, Documentation, Doubt, Extension, LocalText, Texts};
+use lexibus_codegen::source::Origin;
+
+use super::bytes::Bytes;
+
+/// So few that elements often share one, and that what refers to another often finds it.
+const ORDINARY: [&str; 12] = [
+    "Speed",
+    "target position",
+    "Statusword",
+    "Controlword",
+    "Mode",
+    "Value",
+    "Number",
+    "Speed 2",
+    "Chapter/Speed",
+    "a name that goes on and on and on, and says nothing, nothing at all, for ever and ever",
+    "Velocity [m/s²]",
+    "Maximum of the torque, in 0.1 %",
+];
+
+/// Keywords, what the prelude and generated code name, methods, and what is no name at all.
+const ODD: [&str; 135] = [
+    "",
+    " ",
+    "_",
+    "__",
+    "?!",
+    "2nd",
+    "2",
+    "22 33",
+    "0x10",
+    "1.5",
+    "日本",
+    "ß",
+    "Größe",
+    "Ωµ°",
+    "\u{202e}x",
+    "a\nb",
+    "\r\n",
+    "\"",
+    "\\",
+    "'",
+    "*/",
+    "/*",
+    "//",
+    "{}",
+    "{0}",
+    "#[",
+    "]]",
+    "`",
+    "<b>",
+    "«x»",
+    "¦",
+    "¬",
+    "‡",
+    "»",
+    "«",
+    "type",
+    "self",
+    "Self",
+    "super",
+    "crate",
+    "fn",
+    "match",
+    "async",
+    "gen",
+    "union",
+    "true",
+    "dyn",
+    "box",
+    "static",
+    "Some",
+    "None",
+    "Ok",
+    "Err",
+    "Option",
+    "Result",
+    "Default",
+    "Debug",
+    "Clone",
+    "Copy",
+    "PartialEq",
+    "String",
+    "Box",
+    "Vec",
+    "From",
+    "Into",
+    "Iterator",
+    "Send",
+    "Sized",
+    "Drop",
+    "Fn",
+    "Unknown",
+    "Item",
+    "u8",
+    "u16",
+    "i64",
+    "u128",
+    "f32",
+    "bool",
+    "str",
+    "char",
+    "usize",
+    "rt",
+    "core",
+    "std",
+    "lexibus",
+    "types",
+    "objects",
+    "pdo",
+    "codes",
+    "windows",
+    "procedures",
+    "messages",
+    "machine",
+    "models",
+    "mappable",
+    "remappable",
+    "values",
+    "modules",
+    "new",
+    "New",
+    "from_raw",
+    "raw",
+    "get",
+    "read",
+    "write",
+    "clone",
+    "into",
+    "into_client",
+    "client",
+    "axis",
+    "on",
+    "next",
+    "drop",
+    "eq",
+    "not",
+    "default",
+    "fmt",
+    "From Raw",
+    "is_set",
+    "to_u8",
+    "as is",
+    "from here",
+    "with_speed",
+    "state",
+    "with_command",
+    "C",
+    "S",
+    "X",
+    "value",
+    "word",
+    "data",
+    "to",
+    "from",
+    "own",
+    "station",
+];
+
+/// Texts that would leave comments and strings, if they could.
+const TEXTS: [&str; 14] = [
+    "It turns.",
+    "",
+    "*/ } fn broken() {",
+    "\" } ; \\",
+    "{} {0} {{ %s",
+    "one\ntwo\n\nthree",
+    "\r\n/// [link](https://example.com) [Speed] [`Speed`]: `code",
+    "| a | table |\n|---|---|",
+    "<script>alert(1)</script> & \u{202e}reversed\u{0}",
+    "«¦» ¬ ‡",
+    "# Heading\n- list\n  1. more\n```\nunclosed",
+    "    indented",
+    "\\",
+    "日本 äöü Ω 100 %",
+];
+
+const LANGUAGES: [&str; 3] = ["de", "ja", "zh-\""];
+
+/// A name; often that of something else, too.
+pub fn name(b: &mut Bytes<'_>) -> CompactString {
+    match b.within(0..=9) {
+        0..=4 => b.pick(&ORDINARY).into(),
+        5..=8 => b.pick(&ODD).into(),
+        _ => CompactString::from(format!("{} {}", b.pick(&ODD), b.within(0..=3))),
+    }
+}
+
+/// A name of those that are given, or any.
+pub fn of(b: &mut Bytes<'_>, given: &[CompactString]) -> CompactString {
+    if given.is_empty() || b.one_in(12) {
+        name(b)
+    } else {
+        b.pick(given)
+    }
+}
+
+pub fn text(b: &mut Bytes<'_>) -> CompactString {
+    b.pick(&TEXTS).into()
+}
+
+/// A symbol of a unit.
+pub fn unit(b: &mut Bytes<'_>) -> CompactString {
+    b.pick(&["rpm", "mm/s²", "%", "", "0.1 A", "\"", "°C", "in use", "{}", "1"]).into()
+}
+
+/// An item of a window.
+pub fn of_window(b: &mut Bytes<'_>) -> CompactString {
+    if b.one_in(40) {
+        name(b)
+    } else {
+        b.pick(&["Window's number", "Window's value"]).into()
+    }
+}
+
+/// A version of firmware.
+pub fn version(b: &mut Bytes<'_>) -> CompactString {
+    b.pick(&["1.0", "2.10", "", "V3\"", "*/"]).into()
+}
+
+/// A model of a device.
+pub fn model(b: &mut Bytes<'_>) -> CompactString {
+    b.pick(&["A1", "B*", "*", "type", "", "Some"]).into()
+}
+
+/// Buses by their names in register tables.
+pub fn buses(b: &mut Bytes<'_>) -> Vec<CompactString> {
+    b.list(2, |b| b.pick(&["canopen", "ethercat", "modbus", "serial", "profinet", "odd"]).into())
+}
+
+pub fn texts(b: &mut Bytes<'_>) -> Texts {
+    b.few(6, 2, |b| LocalText { language: b.pick(&LANGUAGES).into(), text: text(b) }).into()
+}
+
+pub fn documentation(b: &mut Bytes<'_>) -> Option<Box<Documentation>> {
+    b.maybe(4, |b| {
+        let cite = b.maybe(2, text);
+        Box::new(Documentation { text: text(b).into(), translations: texts(b), cite })
+    })
+}
+
+pub fn doubts(b: &mut Bytes<'_>) -> Vec<Doubt> {
+    b.few(12, 2, |b| {
+        let [says, chosen, why] = [text(b), text(b), text(b)].map(String::from);
+        Doubt { says, chosen, why, origin: Origin::default(), cite: b.maybe(2, text) }
+    })
+}
+
+pub fn extensions(b: &mut Bytes<'_>) -> Vec<Extension> {
+    b.few(16, 2, |b| Extension { key: name(b), value: text(b), span: Default::default() })
+}
+
+/// Attributes as a source spells them.
+pub fn attributes(b: &mut Bytes<'_>) -> Vec<(CompactString, CompactString)> {
+    b.few(8, 2, |b| (name(b), text(b)))
+}
