@@ -84,6 +84,8 @@ mod chapters {
     mod diagnostics {}
     #[doc = include_str!("src/lints.md")]
     mod lints {}
+    #[doc = include_str!("src/limits.md")]
+    mod limits {}
     #[doc = include_str!("src/architecture.md")]
     mod architecture {}
     #[doc = include_str!("src/front-end.md")]

@@ -44,6 +44,7 @@
 //!     println!("{}: {}", finding.code.id, finding.message);
 //! }
 //! ```
+#![forbid(unsafe_code)]
 
 pub mod backend;
 pub mod builder;

@@ -3,9 +3,13 @@
 //! Reading takes time and memory in proportion to the input. Where a short line stands for many elements, these limits
 //! keep it so. They lie far above anything a real device has.
 
-pub use crate::source::MAX_INPUT_BYTES;
+pub use crate::source::{MAX_INPUT_BYTES, MAX_REFERENCES};
 
-/// Sub-indices that a file may declare through CompactSubObj, in total; and copies of named values that types of GSDML need.
+/// Items that one row of a register table may stand for.
+pub const MAX_REPEAT: u32 = 0x1_0000;
+
+/// Items that a file may declare without a line for each, in total: through CompactSubObj of an EDS, through arrays of an ESI,
+/// through `count` of a register table; and copies of named values that types of GSDML need.
 pub const MAX_DERIVED_ITEMS: usize = 200_000;
 
 /// Implicit PDOs that a file may declare through CompactPDO, per direction (CiA 301 knows 512).
@@ -13,6 +17,10 @@ pub const MAX_IMPLICIT_PDOS: u16 = 512;
 
 /// How many unknown keys of a section a further one is compared with to find a repeated one.
 pub const MAX_COMPARED_EXTENSIONS: usize = 64;
+
+/// Bytes of data types (ESI) or parameters (XDD) that may be copied into objects, for each byte of the file. One object a type
+/// is the rule.
+pub const MAX_COPIES_PER_BYTE: usize = 64;
 
 /// Depth to which XML elements may be nested.
 pub const MAX_XML_DEPTH: usize = 128;

@@ -22,6 +22,7 @@
 //! # }
 //! ```
 #![no_std]
+#![forbid(unsafe_code)]
 
 /// Kollmorgen AKD servo drives (`dictionaries/kollmorgen-akd.toml`).
 #[cfg(feature = "akd")]

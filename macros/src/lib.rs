@@ -10,6 +10,7 @@
 //!
 //! assert_eq!(drive::objects::TARGET_POSITION.name(), "Target position");
 //! ```
+#![forbid(unsafe_code)]
 
 mod call;
 

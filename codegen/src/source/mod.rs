@@ -8,7 +8,7 @@ mod references;
 mod span;
 
 pub use decode::Encoding;
-pub use references::{References, Refusal};
+pub use references::{References, Refusal, MAX_REFERENCES};
 pub use span::{FileId, Origin, Position, Span};
 
 use std::borrow::Cow;

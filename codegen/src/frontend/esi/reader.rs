@@ -33,13 +33,14 @@ pub(super) struct Budget {
     exceeded: bool,
 }
 
-/// How many bytes of data types may be copied into objects per byte of the file. One object a data type is the rule.
-const MAX_COPIES: usize = 64;
-
 impl Budget {
     /// For a file of so many bytes.
     pub fn new(length: usize) -> Self {
-        Budget { items: limits::MAX_DERIVED_ITEMS, bytes: length.saturating_mul(MAX_COPIES), exceeded: false }
+        Budget {
+            items: limits::MAX_DERIVED_ITEMS,
+            bytes: length.saturating_mul(limits::MAX_COPIES_PER_BYTE),
+            exceeded: false,
+        }
     }
 
     /// Whether the budget still has so many items and bytes.

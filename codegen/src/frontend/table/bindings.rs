@@ -12,10 +12,9 @@ use super::tree::Reader;
 use super::{lints, place, types};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{Binding, Item, ObjectBuses, RegisterSpace, Type};
+use crate::limits;
+use crate::source::Span;
 use crate::text::brief;
-
-/// The greatest number of items that one row may stand for.
-const MAX_REPEAT: u32 = 0x1_0000;
 
 /// How many items a row stands for, and how many numbers lie between two.
 #[derive(Clone, Copy, Debug)]
@@ -30,28 +29,31 @@ impl Repeat {
 
 impl Rows {
     pub(super) fn repetition(&mut self, reader: &mut Reader<'_, '_>, row: &Row, space: Option<usize>) -> Repeat {
-        let Some(count) = &row.count else { return Repeat::ONCE };
-        let given = match &count.value {
+        let Some(given) = &row.count else { return Repeat::ONCE };
+        let count = match &given.value {
             NumberOrText::Number(count) => u32::try_from(*count).ok(),
             NumberOrText::Text(item) => {
-                self.references.push((At { value: item.clone(), start: count.start, end: count.end }, ITEM));
+                self.references.push((At { value: item.clone(), start: given.start, end: given.end }, ITEM));
                 if row.max_count.is_none() {
                     let message = "an item holds how many are valid, and nothing says how many rows there are";
-                    let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(count), message);
+                    let found = Diagnostic::new(&codes::TABLE_VALUE, reader.span(given), message);
                     reader.diagnostics.push(found.help("say it with `max_count`"));
                 }
                 Some(row.max_count.unwrap_or(1))
             }
         };
-        let Some(count) = given.filter(|&number| (1..=MAX_REPEAT).contains(&number)) else {
-            reader.report(&codes::TABLE_VALUE, reader.span(count), format!("`count` goes from 1 to {MAX_REPEAT}"));
+        let Some(count) = count.filter(|&number| (1..=limits::MAX_REPEAT).contains(&number)) else {
+            reader.report(
+                &codes::TABLE_VALUE,
+                reader.span(given),
+                format!("`count` goes from 1 to {}", limits::MAX_REPEAT),
+            );
             return Repeat::ONCE;
         };
-        let Some(left) = self.repeats_left.checked_sub(count as usize - 1) else {
-            self.too_many(reader, row);
+        let span = reader.span(given);
+        if !self.may_repeat(reader, count, span) {
             return Repeat::ONCE;
-        };
-        self.repeats_left = left;
+        }
         let unit = self.unit(space);
         let bits = row.ty.as_ref().and_then(|ty| types::named(&ty.value)).and_then(|named| {
             let bits = match named.ty {
@@ -65,15 +67,16 @@ impl Rows {
         Repeat { count, step: row.stride.unwrap_or_else(of_type) }
     }
 
-    /// Reports the first row that stands for more items than a table may have so.
-    fn too_many(&mut self, reader: &mut Reader<'_, '_>, row: &Row) {
-        if std::mem::take(&mut self.repeats_left) == 0 {
-            return;
+    /// Whether a row may stand for `count` items. The first that may not is reported.
+    fn may_repeat(&mut self, reader: &mut Reader<'_, '_>, count: u32, span: Span) -> bool {
+        let left = self.repeats_left.and_then(|left| left.checked_sub(count as usize - 1));
+        if left.is_none() && self.repeats_left.is_some() && count > 1 {
+            let message = format!("more than {} items follow from `count`", limits::MAX_DERIVED_ITEMS);
+            let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message);
+            reader.diagnostics.push(found.label("this row and those below stand for one item each"));
         }
-        let message = format!("more than {} items follow from `count`", limits::MAX_DERIVED_ITEMS);
-        let span = row.count.as_ref().map(|count| reader.span(count)).unwrap_or_default();
-        let found = Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message);
-        reader.diagnostics.push(found.label("this row and those below it stand for one item each"));
+        self.repeats_left = left;
+        left.is_some() || count == 1
     }
 
     /// Reports more defaults than a row has items, and several items of one name.

@@ -68,6 +68,7 @@ use toml::de::DeValue;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{Catalog, Device, Group, GroupKind, ObjectCode};
+use crate::limits::MAX_DERIVED_ITEMS;
 use crate::source::{FileId, Source, Span};
 use at::{At, Entries};
 use definitions::Definitions;
@@ -295,7 +296,7 @@ impl<'a> Table<'a> {
             numbered: Vec::new(),
             allowed: Vec::new(),
             summaries: Vec::new(),
-            repeats_left: limits::MAX_DERIVED_ITEMS,
+            repeats_left: Some(MAX_DERIVED_ITEMS),
         }
     }
 

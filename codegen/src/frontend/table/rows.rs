@@ -53,8 +53,8 @@ pub(super) struct Rows {
     pub allowed: Vec<(Span, &'static Code)>,
     /// What is said elsewhere of objects that have sub-entries.
     pub summaries: Vec<(u16, super::summary::Summaries)>,
-    /// How many items further than one rows may still stand for.
-    pub repeats_left: usize,
+    /// How many items rows may still stand for beside their first; `None` once it was told that there are more.
+    pub repeats_left: Option<usize>,
 }
 
 /// The name of an item, its number among those of its row, and where the row stands.

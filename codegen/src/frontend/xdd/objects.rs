@@ -9,6 +9,7 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::deftype::defined_type;
 use crate::frontend::canopen::number;
 use crate::ir::{Category, Device, Extension, Group, GroupKind, ObjectCode, Shape, Type, TypeDef, TypeId};
+use crate::limits;
 use crate::source::{Origin, Span};
 use crate::syntax::xml::{Cursor, Tag};
 
@@ -45,10 +46,6 @@ fn missing_index(reader: &mut Reader<'_, '_>, tag: &Tag<'_>, message: &str) {
     reader.diagnostics.push(Diagnostic::new(&codes::MISSING_INDEX, tag.span, message).label("left out"));
 }
 
-/// How many bytes of parameters may be copied into objects per byte of the file. One parameter for one object is the
-/// rule; a reference is shorter than what it refers to.
-const MAX_COPIES: usize = 64;
-
 /// Reads the objects by index and adds them to `device`.
 pub(super) fn build<'a>(
     reader: &mut Reader<'a, '_>,
@@ -59,7 +56,7 @@ pub(super) fn build<'a>(
     let mut places = list.places;
     places.sort_by_key(|&(index, _)| index);
     let mut builder = Builder {
-        copies_left: reader.text.len().saturating_mul(MAX_COPIES),
+        copies_left: reader.text.len().saturating_mul(limits::MAX_COPIES_PER_BYTE),
         reader,
         application,
         types: std::mem::take(&mut device.types),

@@ -26,6 +26,7 @@ use super::tree::Reader;
 use super::Table;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{CompactString, Group, Item, ObjectCode, Type};
+use crate::limits::MAX_DERIVED_ITEMS;
 use crate::source::{FileId, Source, Span};
 use crate::text::brief;
 
@@ -112,6 +113,7 @@ impl Patch {
             numbered: Vec::new(),
             allowed: Vec::new(),
             summaries: Vec::new(),
+            repeats_left: Some(MAX_DERIVED_ITEMS),
         }
     }
 }

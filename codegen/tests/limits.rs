@@ -1,0 +1,66 @@
+//! A short line that stands for many elements stands for so many and no more, and the book says how many.
+
+use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::limits;
+use lexibus_codegen::source::Source;
+
+fn codes(compilation: &Compilation) -> Vec<&'static str> {
+    compilation.diagnostics.list().iter().map(|found| found.code.id).collect()
+}
+
+fn items(compilation: &Compilation) -> usize {
+    let devices = compilation.catalog.iter().flat_map(|catalog| &catalog.devices);
+    devices.flat_map(|device| &device.groups).map(|group| group.items.len()).sum()
+}
+
+/// A table of so many rows, each of as many parameters as a row may stand for, in spaces of their own.
+fn rows(count: u32) -> Compilation {
+    let mut table = "lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"serial\"]\n".to_owned();
+    for row in 0..count {
+        table += &format!("[spaces.s{row}]\nparameter = {{}}\n");
+    }
+    for row in 0..count {
+        table += &format!(
+            "[[chapters]]\nspace = \"s{row}\"\n[chapters.registers]\n\
+             \"a{row} {{n}}\" = {{ reg = 0, count = {}, type = \"u8\", access = \"ro\" }}\n",
+            limits::MAX_REPEAT
+        );
+    }
+    check(Source::new("rows.toml", table.into_bytes()), &Options::default())
+}
+
+#[test]
+fn rows_that_stand_for_many_items() {
+    let full = limits::MAX_DERIVED_ITEMS / limits::MAX_REPEAT as usize;
+    let compilation = rows(full as u32 + 50);
+    assert_eq!(codes(&compilation).iter().filter(|code| **code == "IO003").count(), 1);
+    assert_eq!(items(&compilation), full * limits::MAX_REPEAT as usize + 50);
+}
+
+/// The others have their tests at the quirks of their formats; here they are held against the book.
+#[test]
+fn the_book_has_each_limit() {
+    let chapter = include_str!("../../docs/src/limits.md");
+    let limits = [
+        limits::MAX_INPUT_BYTES,
+        limits::MAX_REFERENCES,
+        limits::MAX_REPEAT as usize,
+        limits::MAX_DERIVED_ITEMS,
+        limits::MAX_IMPLICIT_PDOS.into(),
+        limits::MAX_COPIES_PER_BYTE,
+        limits::MAX_XML_DEPTH,
+        limits::MAX_MODULE_USES,
+        limits::MAX_TEXT_COPIES_PER_BYTE,
+        limits::MIN_TEXT_COPIES,
+    ];
+    for limit in limits {
+        let digits = limit.to_string();
+        let groups: Vec<&str> =
+            digits.as_bytes().rchunks(3).rev().map(|group| std::str::from_utf8(group).expect("digits")).collect();
+        let written = groups.join(",");
+        let is_there = chapter.lines().filter(|line| line.starts_with('|')).any(|line| {
+            line.split(|letter: char| !letter.is_ascii_digit() && letter != ',').any(|number| number == written)
+        });
+        assert!(is_there, "{written} isn't in the table of docs/src/limits.md");
+    }
+}
