@@ -7,6 +7,12 @@ mod corpus_support;
 mod eds;
 #[path = "differential/eds_reasons.rs"]
 mod eds_reasons;
+#[path = "differential/esi.rs"]
+mod esi;
+#[path = "differential/esi_objects.rs"]
+mod esi_objects;
+#[path = "differential/esi_reasons.rs"]
+mod esi_reasons;
 #[path = "differential/facts.rs"]
 mod facts;
 #[path = "differential/peer.rs"]

@@ -45,6 +45,11 @@ pub fn put_some(facts: &mut Facts, name: &str, value: Option<impl ToString>) {
     }
 }
 
+/// A number of which 0 is the same as none.
+pub fn put_number(facts: &mut Facts, name: &str, number: impl Into<i64>) {
+    put_some(facts, name, Some(number.into()).filter(|&number| number != 0));
+}
+
 /// A flag: it is a fact where it is set.
 pub fn put_flag(facts: &mut Facts, name: &str, flag: bool) {
     put(facts, name, if flag { "yes" } else { "" });
