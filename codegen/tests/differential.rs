@@ -15,7 +15,15 @@ mod esi_objects;
 mod esi_reasons;
 #[path = "differential/facts.rs"]
 mod facts;
+#[path = "differential/gsdml.rs"]
+mod gsdml;
+#[path = "differential/gsdml_data.rs"]
+mod gsdml_data;
+#[path = "differential/gsdml_reasons.rs"]
+mod gsdml_reasons;
 #[path = "differential/peer.rs"]
 mod peer;
 #[path = "differential/tally.rs"]
 mod tally;
+#[path = "differential/values.rs"]
+mod values;

@@ -7,11 +7,12 @@ use lexibus_codegen::ir::{
 
 use super::corpus_support::round_trip::{options, source};
 use super::corpus_support::{files_of, folder_of};
-use super::esi_objects::{objects, type_name};
+use super::esi_objects::objects;
 use super::esi_reasons::{reason, rejection, Case, REASONS};
 use super::facts::{put, put_flag, put_number, put_some, Elements, Facts};
 use super::peer::{ask, python};
 use super::tally::Tally;
+use super::values::{hex, type_name};
 
 #[test]
 fn xpath_reads_the_same_facts_from_esi() {
@@ -214,9 +215,4 @@ fn pdo(own: &Pdo) -> Facts {
     put_flag(&mut facts, "by slot", own.depends_on_slot);
     put(&mut facts, "excludes", own.excludes.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "));
     facts
-}
-
-/// Octets in hexadecimal.
-pub fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -1,9 +1,9 @@
 //! Objects of ESI files as facts.
 
-use lexibus_codegen::ir::{Category, Group, GroupKind, Item, Mappable, Shape, Type, TypeDef, TypeId, Value};
+use lexibus_codegen::ir::{Category, Group, GroupKind, Item, Mappable, TypeDef};
 
-use super::esi::hex;
-use super::facts::{put, put_flag, put_some, real, Elements, Facts};
+use super::facts::{put, put_flag, put_some, Elements, Facts};
+use super::values::{type_name, value};
 
 pub fn objects(elements: &mut Elements, owner: &str, groups: &[Group], types: &[TypeDef]) {
     for group in groups {
@@ -47,46 +47,4 @@ fn item(own: &Item, types: &[TypeDef]) -> Facts {
     put_some(&mut facts, "low", own.limits.low.as_ref().map(value));
     put_some(&mut facts, "high", own.limits.high.as_ref().map(value));
     facts
-}
-
-/// A value as the script writes it.
-fn value(value: &Value) -> String {
-    match value {
-        Value::Bool(value) => u8::from(*value).to_string(),
-        Value::Int(value) => value.to_string(),
-        Value::Real(value) => real(*value),
-        Value::Text(text) => format!("'{text}'"),
-        Value::Bytes(bytes) => format!("x'{}'", hex(bytes)),
-        other => format!("{other:?}"),
-    }
-}
-
-/// A type as the script writes it: what values look like, whatever the type is called.
-pub fn type_name(ty: Type, types: &[TypeDef]) -> String {
-    let sized = |name: &str, length: Option<u32>| length.map_or(name.to_owned(), |length| format!("{name}({length})"));
-    match ty {
-        Type::Boolean => "bool".into(),
-        Type::Integer(bits) => format!("i{bits}"),
-        Type::Unsigned(bits) => format!("u{bits}"),
-        Type::Real32 => "f32".into(),
-        Type::Real64 => "f64".into(),
-        Type::VisibleString(length) => sized("str", length),
-        Type::OctetString(length) => sized("octets", length),
-        Type::UnicodeString(length) => sized("wide", length),
-        Type::TimeOfDay => "time of day".into(),
-        Type::TimeDifference => "time difference".into(),
-        Type::Domain => "domain".into(),
-        Type::Named(TypeId(at)) => match &types[at as usize].shape {
-            Shape::Alias(ty) => type_name(*ty, types),
-            Shape::Enumeration { base, .. } | Shape::BitField { base, .. } | Shape::Scaled { base, .. } => {
-                type_name(*base, types)
-            }
-            Shape::Record(_) => "record".into(),
-            Shape::Array { element, dimensions } => {
-                let count = dimensions.iter().fold(1, |count, (_, elements)| count * elements);
-                format!("{}[{count}]", type_name(*element, types))
-            }
-        },
-        Type::Opaque(_) | Type::Time(_) => String::new(),
-    }
 }
