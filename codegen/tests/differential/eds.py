@@ -1,15 +1,20 @@
 """Reads EDS and DCF files with the library `canopen` and prints the facts that it has of each: one JSON object a line.
 
 Called with the names of files. `elements` are facts by name, by element: `device`, `1018`, `1018:01`. What a file doesn't
-say is no fact. `error` is why the library rejects a file; one whose bytes are no UTF-8 is then read as Windows-1252.
+say is no fact. `errors` are why the library rejects a file; where it is plain what is meant, the text is then repaired, and
+loaded again.
 """
 
+import functools
+import io
 import json
 import logging
+import re
 import sys
+from configparser import DuplicateOptionError, DuplicateSectionError, RawConfigParser
 
 import canopen
-from canopen.objectdictionary import ODArray, ODRecord, ODVariable, datatypes
+from canopen.objectdictionary import ODArray, ODRecord, ODVariable, datatypes, eds
 
 logging.disable(logging.CRITICAL)
 
@@ -95,23 +100,63 @@ def elements(dictionary, node_id):
     return {name: {key: fact for key, fact in facts.items() if fact} for name, facts in found.items()}
 
 
-def load(path, encoding=None):
+def load(text, path, strict):
     """The dictionary, and the node-ID that the file gives."""
-    source = open(path, encoding=encoding) if encoding else path
-    if b"DeviceComissioning" in open(path, "rb").read():
-        dictionary = canopen.import_od(source)
+
+    def source():
+        file = io.StringIO(text)
+        file.name = path
+        return file
+
+    eds.RawConfigParser = functools.partial(RawConfigParser, strict=strict)
+    if "DeviceComissioning" in text:
+        dictionary = canopen.import_od(source())
         if dictionary.node_id is not None:
             return dictionary, dictionary.node_id
-        source = open(path, encoding=encoding) if encoding else path
-    return canopen.import_od(source, NODE_ID), None
+    return canopen.import_od(source(), NODE_ID), None
+
+
+def repaired(text, error):
+    """The text without what the library stumbled over; the same text where nobody can say what is missing."""
+    said = str(error)
+    if found := re.match(r"No option '((?:Dummy|Line)\d+)' in section: '(\w+)'", said):
+        value = "0" if found[1].startswith("Dummy") else ""
+        return text.replace(f"[{found[2]}]", f"[{found[2]}]\n{found[1]}={value}", 1)
+    if not (found := re.match(r"invalid literal for int\(\) with base 0: '(.*)'", said)):
+        return text
+    if not found[1]:
+        return re.sub(r"(?m)^(ObjectType|VendorNumber|ProductNumber|RevisionNumber)=[ \t]*$", "", text)
+    if " #" in found[1]:
+        return re.sub(r"(?m)^((?!ParameterName)\w+ *=[^#\n]*?)[ \t]+#.*$", r"\1", text)
+    return re.sub(rf"(?m)=0+({found[1].lstrip('0')})$", r"=\1", text)
+
+
+def answer(path):
+    """What the library says of a file: first of the file itself, then of its text, repaired as often as that helps."""
+    errors, text, strict = [], "", True
+    try:
+        if not path.lower().endswith((".eds", ".dcf")):
+            canopen.import_od(path)
+        text = open(path).read()
+    except Exception as error:  # Whatever goes wrong is the answer.
+        errors.append(error)
+        if not isinstance(error, UnicodeDecodeError):
+            return errors, None
+        text = open(path, encoding="cp1252").read()
+    while True:
+        try:
+            return errors, elements(*load(text, path, strict))
+        except Exception as error:
+            duplicate = isinstance(error, (DuplicateOptionError, DuplicateSectionError))
+            before, was_strict = text, strict
+            text, strict = repaired(text, error), strict and not duplicate
+            if not errors or str(errors[-1])[:30] != str(error)[:30]:
+                errors.append(error)
+            if (text, strict) == (before, was_strict):
+                return errors, None
 
 
 for path in sys.argv[1:]:
-    answer = {}
-    try:
-        answer["elements"] = elements(*load(path))
-    except Exception as error:  # Whatever goes wrong within the library is its answer.
-        answer["error"] = f"{type(error).__name__}: {error}".split("\n")[0].replace(path, "the file")
-        if isinstance(error, UnicodeDecodeError):
-            answer["elements"] = elements(*load(path, "cp1252"))
-    print(json.dumps(answer))
+    errors, found = answer(path)
+    errors = [f"{type(error).__name__}: {error}".split("\n")[0].replace(path, "the file") for error in errors]
+    print(json.dumps({"errors": errors, "elements": found}))

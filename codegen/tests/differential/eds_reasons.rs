@@ -14,6 +14,7 @@ const PEER: &[(&str, &str)] = &[
     ("limits that are no integers", "It reads every limit as an integer, and drops those of reals and texts."),
     ("limits with $NODEID", "It reads formulas in values, but not in limits, and drops them."),
     ("node-ID 255", "It takes any number for a node-ID; 255 is how LSS says that there is none, and Lexibus drops it."),
+    ("suffixes of C", "It drops `0x1234LL`; Lexibus reads the number, and says so."),
     (
         "times of two numbers",
         "It takes the blank out of `365 43200000`, and reads days and milliseconds as one number.",
@@ -22,8 +23,8 @@ const PEER: &[(&str, &str)] = &[
 
 pub const REASONS: Reasons = Reasons {
     quirks: &[
-        "E01", "E06", "E08", "E14", "E16", "E18", "E21", "E23", "E27", "E28", "E30", "E43", "E44", "E48", "E49", "E51",
-        "E54", "E56", "E58", "E59", "E64", "E66", "E70", "E78", "E82",
+        "E01", "E06", "E08", "E14", "E16", "E18", "E19", "E21", "E23", "E27", "E28", "E30", "E43", "E44", "E48", "E49",
+        "E51", "E54", "E56", "E58", "E59", "E64", "E66", "E70", "E78", "E82",
     ],
     peer: PEER,
 };
@@ -98,6 +99,7 @@ fn of_device(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static st
     let in_object = identity.and_then(|at| case.own.get(&format!("1018:{:02X}", at + 1))?.get("default"));
     match fact {
         "granularity" if peer == Some("1") && own.is_some_and(|bits| bits != "0") => Some("E82"),
+        "comments" if is_misspelt(&case.text, "Line5") && own?.starts_with(peer?) => Some("E59"),
         "node-ID" if own.is_none() && peer == Some("255") => Some("node-ID 255"),
         _ if peer.is_none_or(|peer| peer == "0") && own.is_some() && own == in_object.map(String::as_str) => {
             Some("identity of 1018")
@@ -144,7 +146,11 @@ fn of_value(
         "high" => "highlimit",
         // The library calls what it doesn't know a DOMAIN, and Lexibus what it is.
         "type" => return Some("E56").filter(|_| difference.peer == Some("15") && !(1..=0x1B).contains(&ty)),
-        "access" => return Some("E48").filter(|_| section.text("accesstype") == difference.peer),
+        "access" => {
+            return {
+                Some("E48").filter(|_| section.text("accesstype").map(str::to_lowercase).as_deref() == difference.peer)
+            }
+        }
         _ => return None,
     };
     let raw = section.get(key).map(|fact| fact.value.as_str())?;
@@ -177,7 +183,9 @@ fn of_text(raw: &str, ty: i128, difference: &Difference<'_>) -> Option<&'static 
         1..=0x1B if peer.is_none() => match number(raw) {
             _ if raw.starts_with('$') && kept => Some("E18"),
             Some(Number::NodeId(0)) if raw.eq_ignore_ascii_case("$NODEID") => Some("E16"),
-            _ => None,
+            Some(_) => None,
+            None if kept => Some("E19"),
+            None => with_suffix(raw, own),
         },
         1..=0x1B => {
             let (peer, own): (i128, i128) = (peer?.parse().ok()?, own.parse().ok()?);
@@ -186,6 +194,17 @@ fn of_text(raw: &str, ty: i128, difference: &Difference<'_>) -> Option<&'static 
         }
         _ => Some("E56").filter(|_| kept),
     }
+}
+
+/// A number with a suffix: `00h` is hexadecimal, `0x1ULL` is one of the language C.
+fn with_suffix(raw: &str, own: &str) -> Option<&'static str> {
+    let own: i128 = own.parse().ok()?;
+    let hexadecimal = raw.strip_suffix(['h', 'H']).and_then(|digits| i128::from_str_radix(digits, 16).ok());
+    if hexadecimal == Some(own) {
+        return Some("E19");
+    }
+    let bare = raw.trim_end_matches(['U', 'L', 'u', 'l']);
+    (number(bare) == Some(Number::Plain(own))).then_some("suffixes of C")
 }
 
 /// Keys whose value is a number to the library.

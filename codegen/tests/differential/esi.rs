@@ -22,7 +22,7 @@ fn xpath_reads_the_same_facts_from_esi() {
     let mut tally = Tally::new("ESI", REASONS);
     for (file, answer) in files.iter().zip(&answers) {
         let compilation = check(source(file), &options());
-        if let Some(error) = &answer.error {
+        for error in &answer.errors {
             tally.rejected(&file.name, error, rejection(error));
         }
         let Some(peer) = &answer.elements else { continue };
@@ -30,7 +30,7 @@ fn xpath_reads_the_same_facts_from_esi() {
         let case = Case::new(peer, &own);
         tally.file(&file.name, peer, &own, |difference| reason(&case, &difference));
     }
-    tally.finish(350_000);
+    tally.finish(358_000);
 }
 
 /// The facts that Lexibus has of a file.

@@ -89,8 +89,19 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
         }
         "type" => of_type(case, element, peer?, own),
         "default" | "low" | "high" => of_value(case, difference),
-        _ => None,
+        _ => of_text(peer?, own?),
     }
+}
+
+/// Why a text is another one, of what libxml2 recovered from a file that it rejects.
+fn of_text(peer: &str, own: &str) -> Option<&'static str> {
+    let rest = own.strip_prefix(peer);
+    if rest.is_some_and(|rest| rest.starts_with('&')) {
+        return Some("a bare &");
+    }
+    let same = |(peer, own): (char, char)| peer == own || peer == char::REPLACEMENT_CHARACTER;
+    let is_undecoded = peer.chars().count() == own.chars().count() && peer.chars().zip(own.chars()).all(same);
+    is_undecoded.then_some("X01")
 }
 
 /// What one of the two doesn't have at all.

@@ -1,8 +1,8 @@
 """Reads GSDML files with XPath and prints the facts that they have: one JSON object a line.
 
 Called with the names of files. `elements` are facts by name, by element: `device 0`, `submodule 3 record 0 ref 1`. What a
-file doesn't say is no fact. What this plain reading makes nothing of is kept as it is, behind a question mark. `error` is
-why the file isn't well-formed.
+file doesn't say is no fact. What this plain reading makes nothing of is kept as it is, behind a question mark. `errors`
+are why the file isn't well-formed.
 """
 
 import json
@@ -211,5 +211,5 @@ for path in sys.argv[1:]:
     try:
         answer = {"elements": elements(parse(path))}
     except etree.XMLSyntaxError as error:
-        answer = {"error": str(error).split(" (<string>")[0]}
+        answer = {"errors": [str(error).split(" (<string>")[0]]}
     print(json.dumps(answer))

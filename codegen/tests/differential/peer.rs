@@ -14,7 +14,8 @@ pub struct Answer {
     /// Its elements, where it reads the file.
     pub elements: Option<Elements>,
     /// Why it rejects the file, where it does.
-    pub error: Option<String>,
+    #[serde(default)]
+    pub errors: Vec<String>,
 }
 
 /// The Python that `tests/interop/setup.sh` made, or the one that `LEXIBUS_PYTHON` names; `None`, with a message, where it

@@ -18,9 +18,9 @@ def real(value):
     return f"{mantissa}e{int(exponent)}"
 
 
-def parse(path):
+def parse(path, recover=False):
     """The root of a file; blanks, comments and the encoding are libxml2's."""
-    return etree.fromstring(open(path, "rb").read(), etree.XMLParser(huge_tree=True))
+    return etree.fromstring(open(path, "rb").read(), etree.XMLParser(huge_tree=True, recover=recover))
 
 
 def told(elements):

@@ -1,6 +1,6 @@
 //! Counts, and what is left unexplained.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::facts::{compare, Difference, Elements};
 
@@ -17,7 +17,7 @@ pub struct Tally {
     format: &'static str,
     reasons: Reasons,
     files: usize,
-    rejected: usize,
+    rejected: BTreeSet<String>,
     facts: usize,
     agreed: usize,
     explained: BTreeMap<&'static str, usize>,
@@ -27,7 +27,7 @@ pub struct Tally {
 impl Tally {
     pub fn new(format: &'static str, reasons: Reasons) -> Self {
         let (explained, unexplained) = (BTreeMap::new(), Vec::new());
-        Tally { format, reasons, files: 0, rejected: 0, facts: 0, agreed: 0, explained, unexplained }
+        Tally { format, reasons, files: 0, rejected: BTreeSet::new(), facts: 0, agreed: 0, explained, unexplained }
     }
 
     /// Counts one file that both read.
@@ -48,9 +48,9 @@ impl Tally {
         self.agreed += facts - differences;
     }
 
-    /// Counts a file that the peer rejects.
+    /// Counts a reason for which the peer rejects a file.
     pub fn rejected(&mut self, name: &str, error: &str, reason: Option<&'static str>) {
-        self.rejected += 1;
+        self.rejected.insert(name.to_owned());
         self.count(reason, || format!("{name}: the peer rejects it: {error}"));
     }
 
@@ -64,8 +64,13 @@ impl Tally {
     /// Prints the counts. Fails where a difference is unexplained, an explanation explains nothing, or too little was compared.
     pub fn finish(self, least_facts: usize) {
         eprintln!(
-            "{}: {} files, {} rejected by the peer; {} facts, {} agree; explained: {:?}",
-            self.format, self.files, self.rejected, self.facts, self.agreed, self.explained
+            "{}: {} files, {} rejected by the peer at first or for good; {} facts, {} agree; explained: {:?}",
+            self.format,
+            self.files,
+            self.rejected.len(),
+            self.facts,
+            self.agreed,
+            self.explained
         );
         let shown = self.unexplained.iter().take(200).map(String::as_str).collect::<Vec<_>>().join("\n");
         assert!(self.unexplained.is_empty(), "{} differences are unexplained:\n{shown}", self.unexplained.len());
