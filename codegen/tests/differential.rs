@@ -1,0 +1,29 @@
+//! What Lexibus reads from the files of the corpus against what independent readers do: Python's `canopen` for EDS and DCF,
+//! and XPath by lxml for ESI and GSDML. Fact by fact, in both directions; every difference has a reason that is a row of the
+//! table of quirks, or something that the other reader is known not to do. See `differential/README.md`.
+
+mod corpus_support;
+#[path = "differential/eds.rs"]
+mod eds;
+#[path = "differential/eds_reasons.rs"]
+mod eds_reasons;
+#[path = "differential/esi.rs"]
+mod esi;
+#[path = "differential/esi_objects.rs"]
+mod esi_objects;
+#[path = "differential/esi_reasons.rs"]
+mod esi_reasons;
+#[path = "differential/facts.rs"]
+mod facts;
+#[path = "differential/gsdml.rs"]
+mod gsdml;
+#[path = "differential/gsdml_data.rs"]
+mod gsdml_data;
+#[path = "differential/gsdml_reasons.rs"]
+mod gsdml_reasons;
+#[path = "differential/peer.rs"]
+mod peer;
+#[path = "differential/tally.rs"]
+mod tally;
+#[path = "differential/values.rs"]
+mod values;

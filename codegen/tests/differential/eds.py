@@ -1,0 +1,162 @@
+"""Reads EDS and DCF files with the library `canopen` and prints the facts that it has of each: one JSON object a line.
+
+Called with the names of files. `elements` are facts by name, by element: `device`, `1018`, `1018:01`. What a file doesn't
+say is no fact. `errors` are why the library rejects a file; where it is plain what is meant, the text is then repaired, and
+loaded again.
+"""
+
+import functools
+import io
+import json
+import logging
+import re
+import sys
+from configparser import DuplicateOptionError, DuplicateSectionError, RawConfigParser
+
+import canopen
+from canopen.objectdictionary import ODArray, ODRecord, ODVariable, datatypes, eds
+
+logging.disable(logging.CRITICAL)
+
+# The node-ID where the file gives the device none.
+NODE_ID = 5
+
+
+def value(value, data_type):
+    """A value with its kind: a number, a 'text', or x'octets'."""
+    if isinstance(value, (bytes, bytearray)):
+        return f"x'{value.hex()}'" if value else None
+    if isinstance(value, str):
+        return f"'{value}'" if value else None
+    if value is not None and data_type in datatypes.FLOAT_TYPES:
+        mantissa, exponent = f"{float(value):.16e}".split("e")
+        return f"{mantissa}e{int(exponent)}"
+    return None if value is None else str(value)
+
+
+def variable(own):
+    return {
+        "name": own.name,
+        "type": str(own.data_type),
+        "access": own.access_type,
+        "mappable": "yes" if own.pdo_mappable else None,
+        "default": value(own.default, own.data_type),
+        "relative": "yes" if own.relative else None,
+        "value": value(own.value, own.data_type),
+        "low": value(own.min, own.data_type),
+        "high": value(own.max, own.data_type),
+        "unit": own.unit,
+        "factor": None if own.factor == 1 else value(own.factor, datatypes.REAL64),
+        "description": own.description,
+        "storage": own.storage_location,
+    }
+
+
+def device(dictionary):
+    own = dictionary.device_information
+    number = lambda value: None if value is None else str(value)
+    flag = lambda value: "yes" if value else None
+    return {
+        "vendor name": own.vendor_name,
+        "vendor number": number(own.vendor_number),
+        "product name": own.product_name,
+        "product number": number(own.product_number),
+        "revision number": number(own.revision_number),
+        "order code": own.order_code,
+        "boot-up master": flag(own.simple_boot_up_master),
+        "boot-up slave": flag(own.simple_boot_up_slave),
+        "granularity": number(None if own.granularity is None else int(own.granularity)),
+        "dynamic channels": flag(own.dynamic_channels_supported),
+        "group messaging": flag(own.group_messaging),
+        "RPDOs": number(own.nr_of_RXPDO),
+        "TPDOs": number(own.nr_of_TXPDO),
+        "LSS": flag(own.LSS_supported),
+        "bit rates": " ".join(str(rate // 1000) for rate in sorted(own.allowed_baudrates)),
+        "bit rate": number(dictionary.bitrate and dictionary.bitrate // 1000),
+        "comments": dictionary.comments.rstrip(),
+    }
+
+
+def elements(dictionary, node_id):
+    facts = device(dictionary)
+    facts["node-ID"] = None if node_id is None else str(node_id)
+    dummies = []
+    found = {"device": facts}
+    for index, thing in sorted(dictionary.indices.items()):
+        if isinstance(thing, ODVariable):
+            if thing.name == f"Dummy{index:04d}":
+                dummies.append(str(index))
+                continue
+            found[f"{index:04X}"] = {"kind": "value", "name": thing.name}
+            found[f"{index:04X}:00"] = variable(thing)
+            continue
+        kind = "array" if isinstance(thing, ODArray) else "record"
+        assert kind == "array" or isinstance(thing, ODRecord)
+        # An object has a storage location of its own here, its value one above.
+        found[f"{index:04X}"] = {"kind": kind, "name": thing.name, "storage": thing.storage_location}
+        for sub, own in thing.subindices.items():
+            found[f"{index:04X}:{sub:02X}"] = variable(own)
+    facts["dummies"] = " ".join(dummies)
+    return {name: {key: fact for key, fact in facts.items() if fact} for name, facts in found.items()}
+
+
+def load(text, path, strict):
+    """The dictionary, and the node-ID that the file gives."""
+
+    def source():
+        file = io.StringIO(text)
+        file.name = path
+        return file
+
+    eds.RawConfigParser = functools.partial(RawConfigParser, strict=strict)
+    if "DeviceComissioning" in text:
+        dictionary = canopen.import_od(source())
+        if dictionary.node_id is not None:
+            return dictionary, dictionary.node_id
+    return canopen.import_od(source(), NODE_ID), None
+
+
+def repaired(text, error):
+    """The text without what the library stumbled over; the same text where nobody can say what is missing."""
+    said = str(error)
+    if found := re.match(r"No option '((?:Dummy|Line)\d+)' in section: '(\w+)'", said):
+        value = "0" if found[1].startswith("Dummy") else ""
+        return text.replace(f"[{found[2]}]", f"[{found[2]}]\n{found[1]}={value}", 1)
+    if not (found := re.match(r"invalid literal for int\(\) with base 0: '(.*)'", said)):
+        return text
+    if not found[1]:
+        return re.sub(r"(?m)^(ObjectType|VendorNumber|ProductNumber|RevisionNumber)=[ \t]*$", "", text)
+    if " #" in found[1]:
+        return re.sub(r"(?m)^((?!ParameterName)\w+ *=[^#\n]*?)[ \t]+#.*$", r"\1", text)
+    return re.sub(rf"(?m)=0+({found[1].lstrip('0')})$", r"=\1", text)
+
+
+def answer(path):
+    """What the library says of a file: first of the file itself, then of its text, repaired as often as that helps."""
+    errors, text, strict = [], "", True
+    try:
+        if not path.lower().endswith((".eds", ".dcf")):
+            canopen.import_od(path)
+        text = open(path).read()
+    except Exception as error:  # Whatever goes wrong is the answer.
+        errors.append(error)
+        if not isinstance(error, UnicodeDecodeError):
+            return errors, None
+        text = open(path, encoding="cp1252").read()
+    while True:
+        try:
+            return errors, elements(*load(text, path, strict))
+        except Exception as error:
+            duplicate = isinstance(error, (DuplicateOptionError, DuplicateSectionError))
+            before, was_strict = text, strict
+            text, strict = repaired(text, error), strict and not duplicate
+            if not errors or str(errors[-1])[:30] != str(error)[:30]:
+                errors.append(error)
+            if (text, strict) == (before, was_strict):
+                return errors, None
+
+
+for path in sys.argv[1:]:
+    errors, found = answer(path)
+    errors = [f"{type(error).__name__}: {error}".split("\n")[0].replace(path, "the file") for error in errors]
+    print(json.dumps({"errors": errors, "elements": found}))

@@ -1,0 +1,153 @@
+//! EDS and DCF files: Python's `canopen` reads the same objects, values and facts of the device.
+
+use lexibus_codegen::compile::check;
+use lexibus_codegen::ir::{Access, Device, Extension, Group, Item, ObjectCode, Type, Value};
+
+use super::corpus_support::round_trip::{options, source};
+use super::corpus_support::{files_of, folder_of};
+use super::eds_reasons::{reason, rejection, Case, REASONS};
+use super::facts::{put, put_flag, put_some, real, Elements, Facts};
+use super::peer::{ask, python};
+use super::tally::Tally;
+
+/// The node-ID where the file gives the device none; the script has the same.
+const NODE_ID: u8 = 5;
+
+#[test]
+fn canopen_reads_the_same_facts() {
+    let (Some(python), Some(files), Some(folder)) = (python(), files_of("eds"), folder_of("eds")) else { return };
+    let paths: Vec<_> = files.iter().map(|file| folder.join(&file.name)).collect();
+    let answers = ask(python, "eds.py", &paths);
+    let mut tally = Tally::new("EDS", REASONS);
+    for (file, answer) in files.iter().zip(&answers) {
+        let compilation = check(source(file), &options());
+        for error in &answer.errors {
+            tally.rejected(&file.name, error, rejection(file, error));
+        }
+        let Some(peer) = &answer.elements else { continue };
+        let device = compilation.catalog.as_ref().map(|catalog| &catalog.devices[0]);
+        let own = device.map(elements).unwrap_or_default();
+        let case = Case::new(file, peer, &own);
+        tally.file(&file.name, peer, &own, |difference| reason(&case, &difference));
+    }
+    tally.finish(395_000);
+}
+
+/// The facts that Lexibus has of a device.
+fn elements(device: &Device) -> Elements {
+    let mut elements = Elements::from([("device".to_owned(), header(device))]);
+    let node_id = device.commissioning.as_ref().and_then(|own| own.node_id).unwrap_or(NODE_ID);
+    for group in &device.groups {
+        let Some(index) = group.index() else { continue };
+        elements.insert(format!("{index:04X}"), object(group));
+        for item in &group.items {
+            let Some((_, sub)) = item.object() else { continue };
+            let is_whole = kind(group) == "value";
+            let extensions = if is_whole { &group.extensions } else { &item.extensions };
+            elements.insert(format!("{index:04X}:{sub:02X}"), self::item(item, extensions, node_id));
+        }
+    }
+    elements
+}
+
+fn header(device: &Device) -> Facts {
+    let mut facts = Facts::new();
+    let identity = &device.identity;
+    put(&mut facts, "vendor name", identity.vendor_name.as_str());
+    put_some(&mut facts, "vendor number", identity.vendor_id);
+    put(&mut facts, "product name", identity.product_name.as_str());
+    put_some(&mut facts, "product number", identity.product_code);
+    put_some(&mut facts, "revision number", identity.revision_number);
+    put(&mut facts, "order code", identity.order_code.as_str());
+    put(&mut facts, "comments", device.header.comments.join("\n").trim_end());
+    if let Some(own) = &device.commissioning {
+        put_some(&mut facts, "node-ID", own.node_id);
+        put_some(&mut facts, "bit rate", own.bit_rate.filter(|&rate| rate != 0));
+    }
+    let Some(canopen) = &device.canopen else { return facts };
+    put_flag(&mut facts, "boot-up master", canopen.boot_up_master);
+    put_flag(&mut facts, "boot-up slave", canopen.boot_up_slave);
+    put_some(&mut facts, "granularity", canopen.granularity);
+    put_flag(&mut facts, "dynamic channels", canopen.dynamic_channels_supported != 0);
+    put_flag(&mut facts, "group messaging", canopen.group_messaging);
+    put_some(&mut facts, "RPDOs", canopen.rx_pdos);
+    put_some(&mut facts, "TPDOs", canopen.tx_pdos);
+    put_flag(&mut facts, "LSS", canopen.lss);
+    let words = |numbers: Vec<String>| numbers.join(" ");
+    put(&mut facts, "bit rates", words(canopen.bit_rates.iter().map(ToString::to_string).collect()));
+    // The library knows those of the types 1 to 7.
+    let dummies = canopen.dummies.iter().filter(|code| (1..8).contains(*code));
+    put(&mut facts, "dummies", words(dummies.map(ToString::to_string).collect()));
+    facts
+}
+
+/// What the object is, as the library tells them apart.
+fn kind(group: &Group) -> &'static str {
+    match group.object_code() {
+        Some(ObjectCode::Var | ObjectCode::Domain) => "value",
+        Some(ObjectCode::Array) => "array",
+        Some(ObjectCode::Record) => "record",
+        Some(other) => other.name(),
+        None => "no object",
+    }
+}
+
+fn object(group: &Group) -> Facts {
+    let mut facts = Facts::new();
+    let kind = kind(group);
+    put(&mut facts, "kind", kind);
+    put(&mut facts, "name", group.name.as_str());
+    if kind != "value" {
+        put_some(&mut facts, "storage", extension(&group.extensions, "StorageLocation"));
+    }
+    facts
+}
+
+fn item(item: &Item, extensions: &[Extension], node_id: u8) -> Facts {
+    let mut facts = Facts::new();
+    let value = |value: Option<&Value>| value.and_then(|own| self::value(own, item.ty, node_id));
+    put(&mut facts, "name", item.name.as_str());
+    put(&mut facts, "type", code(item.ty));
+    put(&mut facts, "access", Access::name(item.access));
+    put_flag(&mut facts, "mappable", item.mappable.any());
+    put_some(&mut facts, "default", value(item.default.as_ref()));
+    put_flag(&mut facts, "relative", matches!(item.default, Some(Value::NodeId(_))));
+    put_some(&mut facts, "value", value(item.configured.as_ref().and_then(|own| own.value.as_ref())));
+    put_some(&mut facts, "low", value(item.limits.low.as_ref()));
+    put_some(&mut facts, "high", value(item.limits.high.as_ref()));
+    put_some(&mut facts, "unit", extension(extensions, "Unit"));
+    put_some(&mut facts, "description", extension(extensions, "Description"));
+    put_some(&mut facts, "storage", extension(extensions, "StorageLocation"));
+    let factor = extension(extensions, "Factor").and_then(|text| text.parse::<f64>().ok());
+    put_some(&mut facts, "factor", factor.filter(|&factor| factor != 1.0).map(real));
+    facts
+}
+
+fn extension<'e>(extensions: &'e [Extension], key: &str) -> Option<&'e str> {
+    extensions.iter().rev().find(|own| own.key == key).map(|own| own.value.as_str())
+}
+
+/// The number of a type.
+fn code(ty: Type) -> String {
+    let basic = (0..=0x1B).find(|&code| Type::from_cia301(code) == Some(ty));
+    match (basic, ty) {
+        (Some(code), _) | (None, Type::Opaque(Some(code))) => code.to_string(),
+        _ => format!("{ty:?}"),
+    }
+}
+
+/// A value as the script writes it.
+fn value(value: &Value, ty: Type, node_id: u8) -> Option<String> {
+    Some(match value.resolved(node_id) {
+        Value::Bool(value) => i32::from(value).to_string(),
+        Value::Int(value) if matches!(ty, Type::Real32 | Type::Real64) => real(value as f64),
+        Value::Int(value) => value.to_string(),
+        Value::Real(value) => real(value),
+        Value::Text(text) if text.is_empty() => return None,
+        Value::Text(text) => format!("'{text}'"),
+        Value::Bytes(bytes) => format!("x'{}'", bytes.iter().map(|byte| format!("{byte:02x}")).collect::<String>()),
+        Value::Time { milliseconds, days } => (u64::from(days) << 32 | u64::from(milliseconds)).to_string(),
+        Value::NodeId(_) => unreachable!("it is resolved"),
+        Value::Raw(text) => format!("raw {text}"),
+    })
+}

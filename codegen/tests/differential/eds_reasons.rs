@@ -1,0 +1,241 @@
+//! Why `canopen` and Lexibus may differ: each reason looks at the text of the file, read without either of them.
+
+use super::corpus_support::number::{hex_digits, number, Number};
+use super::corpus_support::reading::{Part, Reading, Section};
+use super::corpus_support::{entry, header, lines, File};
+use super::facts::{Difference, Elements};
+use super::tally::Reasons;
+
+/// What the library does in a way of its own, with a sentence each.
+const PEER: &[(&str, &str)] = &[
+    ("files by ending", "It takes files whose names end with .eds and .dcf, and no XML."),
+    ("files without sections", "A file without a section of CiA 306 is an empty dictionary to it, and no error."),
+    ("identity of 1018", "It has the identity of [DeviceInfo] only, also where that is 0 and object 0x1018 isn't."),
+    ("limits that are no integers", "It reads every limit as an integer, and drops those of reals and texts."),
+    ("limits with $NODEID", "It reads formulas in values, but not in limits, and drops them."),
+    ("node-ID 255", "It takes any number for a node-ID; 255 is how LSS says that there is none, and Lexibus drops it."),
+    ("suffixes of C", "It drops `0x1234LL`; Lexibus reads the number, and says so."),
+    (
+        "times of two numbers",
+        "It takes the blank out of `365 43200000`, and reads days and milliseconds as one number.",
+    ),
+];
+
+pub const REASONS: Reasons = Reasons {
+    quirks: &[
+        "E01", "E06", "E08", "E14", "E16", "E18", "E19", "E21", "E23", "E27", "E28", "E30", "E43", "E44", "E48", "E49",
+        "E51", "E54", "E56", "E58", "E59", "E64", "E66", "E70", "E78", "E82",
+    ],
+    peer: PEER,
+};
+
+/// A file, and what both read from it.
+pub struct Case<'a> {
+    pub text: String,
+    pub reading: Reading,
+    pub peer: &'a Elements,
+    pub own: &'a Elements,
+}
+
+impl Case<'_> {
+    pub fn new<'a>(file: &File, peer: &'a Elements, own: &'a Elements) -> Case<'a> {
+        let text = file.text();
+        Case { reading: Reading::of(&text), text, peer, own }
+    }
+
+    /// The section of an element, and what it is: `1018` and `1018:01`.
+    fn section(&self, element: &str) -> Option<&Section> {
+        let (index, sub) = address(element)?;
+        match sub {
+            Some(sub) => self.reading.get(index, Part::Sub(sub)).or_else(|| self.reading.get(index, Part::Object)),
+            None => self.reading.get(index, Part::Object),
+        }
+    }
+}
+
+fn address(element: &str) -> Option<(u16, Option<u8>)> {
+    let (index, sub) = element.split_once(':').map_or((element, None), |(index, sub)| (index, Some(sub)));
+    let sub = sub.map(|sub| u8::from_str_radix(sub, 16).expect("a sub-index"));
+    Some((u16::from_str_radix(index, 16).ok()?, sub))
+}
+
+pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static str> {
+    if difference.element == "device" {
+        return of_device(case, difference);
+    }
+    let (index, sub) = address(difference.element)?;
+    match difference.fact {
+        None => missing(case, index, sub, difference.own.is_some()),
+        Some(fact) => of_value(case, index, sub, fact, difference),
+    }
+}
+
+/// What one of the two doesn't have at all.
+fn missing(case: &Case<'_>, index: u16, sub: Option<u8>, is_own: bool) -> Option<&'static str> {
+    let compact = case.reading.get(index, Part::Object).and_then(|object| object.number("compactsubobj"));
+    let is_pdo = (0x1400..0x1C00).contains(&index) && case.reading.get(index, Part::Object).is_none();
+    match sub {
+        _ if !is_own => None,
+        Some(sub) if compact.is_some_and(|count| i128::from(sub) <= count) => Some("E43"),
+        _ => Some("E70").filter(|_| is_pdo && has_key(&case.text, "CompactPDO")),
+    }
+}
+
+fn of_device(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static str> {
+    let Some(fact) = difference.fact else {
+        let is_nothing = case.own.is_empty() && case.peer.values().all(|facts| facts.is_empty());
+        return is_nothing.then_some("files without sections");
+    };
+    let (peer, own) = (difference.peer, difference.own);
+    let keys: &[&str] = match fact {
+        "vendor name" => &["VendorName"],
+        "RPDOs" => &["NrOfRXPDO"],
+        "TPDOs" => &["NrOfTXPDO"],
+        "bit rate" => &["Baudrate"],
+        "bit rates" => &["BaudRate_1000", "BaudRate_500", "BaudRate_250", "BaudRate_125"],
+        _ => &[],
+    };
+    let identity = ["vendor number", "product number", "revision number"].iter().position(|name| *name == fact);
+    let in_object = identity.and_then(|at| case.own.get(&format!("1018:{:02X}", at + 1))?.get("default"));
+    match fact {
+        "granularity" if peer == Some("1") && own.is_some_and(|bits| bits != "0") => Some("E82"),
+        "comments" if is_misspelt(&case.text, "Line5") && own?.starts_with(peer?) => Some("E59"),
+        "node-ID" if own.is_none() && peer == Some("255") => Some("node-ID 255"),
+        _ if peer.is_none_or(|peer| peer == "0") && own.is_some() && own == in_object.map(String::as_str) => {
+            Some("identity of 1018")
+        }
+        _ if own.is_none() && peer == Some("\"\"") => Some("E23"),
+        _ if peer.is_none() && keys.iter().any(|key| is_misspelt(&case.text, key)) => Some("E66"),
+        _ => None,
+    }
+}
+
+/// Whether a file has `key`, in any letters.
+fn has_key(text: &str, key: &str) -> bool {
+    lines(text).iter().any(|(_, line)| entry(line).is_some_and(|(own, _)| own.eq_ignore_ascii_case(key)))
+}
+
+/// Whether a file has `key`, but in other letters only.
+fn is_misspelt(text: &str, key: &str) -> bool {
+    has_key(text, key) && !lines(text).iter().any(|(_, line)| entry(line).is_some_and(|(own, _)| own == key))
+}
+
+fn of_value(
+    case: &Case<'_>,
+    index: u16,
+    sub: Option<u8>,
+    fact: &str,
+    difference: &Difference<'_>,
+) -> Option<&'static str> {
+    let object = case.reading.get(index, Part::Object)?;
+    let is_compact = object.number("compactsubobj").is_some_and(|count| count > 0);
+    if is_compact && sub.is_some_and(|sub| case.reading.get(index, Part::Sub(sub)).is_none()) {
+        if fact == "value" && difference.peer.is_none() {
+            return Some("E44").filter(|_| case.reading.get(index, Part::Value).is_some());
+        }
+        if sub == Some(0) && matches!(fact, "name" | "access" | "default") || sub == Some(1) && fact == "name" {
+            return Some("E43");
+        }
+    }
+    let section = case.section(difference.element)?;
+    let ty = section.number("datatype").unwrap_or(0);
+    let key = match fact {
+        "default" | "relative" => "defaultvalue",
+        "value" => "parametervalue",
+        "low" => "lowlimit",
+        "high" => "highlimit",
+        // The library calls what it doesn't know a DOMAIN, and Lexibus what it is.
+        "type" => return Some("E56").filter(|_| difference.peer == Some("15") && !(1..=0x1B).contains(&ty)),
+        "access" => {
+            return {
+                Some("E48").filter(|_| section.text("accesstype").map(str::to_lowercase).as_deref() == difference.peer)
+            }
+        }
+        _ => return None,
+    };
+    let raw = section.get(key).map(|fact| fact.value.as_str())?;
+    match fact {
+        "relative" => Some("E14").filter(|_| !raw.contains("$NODEID") && raw.to_uppercase().contains("$NODEID")),
+        "low" | "high" => of_limit(raw, ty, difference),
+        _ => of_text(raw, ty, difference),
+    }
+}
+
+fn of_limit(raw: &str, ty: i128, difference: &Difference<'_>) -> Option<&'static str> {
+    match number(raw) {
+        _ if !(1..=0x1B).contains(&ty) => Some("E56").filter(|_| difference.own == Some(&format!("raw {raw}"))),
+        Some(Number::NodeId(_)) if difference.peer.is_none() => Some("limits with $NODEID"),
+        None if difference.peer.is_none() => Some("limits that are no integers"),
+        _ => None,
+    }
+}
+
+/// Why a default or a configured value is another one: by its text, and the number of its type.
+fn of_text(raw: &str, ty: i128, difference: &Difference<'_>) -> Option<&'static str> {
+    let (peer, own) = (difference.peer, difference.own?);
+    let bare = raw.trim_matches('"');
+    let kept = own == format!("raw {raw}");
+    match ty {
+        0x09 | 0x0B => Some("E23").filter(|_| own == format!("'{bare}'") && raw.len() == bare.len() + 2),
+        0x0F => Some("E54").filter(|_| kept && peer.is_none()),
+        0x08 | 0x11 => Some("E51").filter(|_| peer.is_none() && hex_digits(raw).is_some()),
+        0x0C | 0x0D => Some("times of two numbers").filter(|_| kept && raw.split(' ').count() == 2),
+        1..=0x1B if peer.is_none() => match number(raw) {
+            _ if raw.starts_with('$') && kept => Some("E18"),
+            Some(Number::NodeId(0)) if raw.eq_ignore_ascii_case("$NODEID") => Some("E16"),
+            Some(_) => None,
+            None if kept => Some("E19"),
+            None => with_suffix(raw, own),
+        },
+        1..=0x1B => {
+            let (peer, own): (i128, i128) = (peer?.parse().ok()?, own.parse().ok()?);
+            let bits = [8, 16, 32, 64].into_iter().find(|&bits| peer - own == 1 << bits);
+            Some("E08").filter(|_| bits.is_some() && hex_digits(raw).is_some())
+        }
+        _ => Some("E56").filter(|_| kept),
+    }
+}
+
+/// A number with a suffix: `00h` is hexadecimal, `0x1ULL` is one of the language C.
+fn with_suffix(raw: &str, own: &str) -> Option<&'static str> {
+    let own: i128 = own.parse().ok()?;
+    let hexadecimal = raw.strip_suffix(['h', 'H']).and_then(|digits| i128::from_str_radix(digits, 16).ok());
+    if hexadecimal == Some(own) {
+        return Some("E19");
+    }
+    let bare = raw.trim_end_matches(['U', 'L', 'u', 'l']);
+    (number(bare) == Some(Number::Plain(own))).then_some("suffixes of C")
+}
+
+/// Keys whose value is a number to the library.
+const NUMBERS: [&str; 4] = ["ObjectType", "VendorNumber", "ProductNumber", "RevisionNumber"];
+
+/// Whether a file has `key` without a value.
+fn is_empty(text: &str, key: &str) -> bool {
+    lines(text).iter().any(|(_, line)| entry(line) == Some((key, "")))
+}
+
+/// Why the library can't load a file at all.
+pub fn rejection(file: &File, error: &str) -> Option<&'static str> {
+    let text = file.text();
+    let has_section = |name: &str| lines(&text).iter().any(|(_, line)| header(line).is_some_and(|own| own.0 == name));
+    let (kind, rest) = error.split_once(": ")?;
+    match kind {
+        "UnicodeDecodeError" => Some("E30"),
+        "DuplicateOptionError" => Some("E28"),
+        "DuplicateSectionError" => Some("E27"),
+        "MissingSectionHeaderError" if has_section("Device Classification") || has_section("File") => Some("E78"),
+        "MissingSectionHeaderError" if text.starts_with("../") => Some("E64"),
+        "NoOptionError" if rest.starts_with("No option 'DataType'") => Some("E49"),
+        "NoOptionError" if rest.starts_with("No option 'Dummy") => Some("E58"),
+        "NoOptionError" if rest.starts_with("No option 'Line") => Some("E59"),
+        "ValueError" if rest.starts_with("Cannot import from the '") => Some("files by ending"),
+        "ValueError" => match rest.strip_prefix("invalid literal for int() with base 0: ")?.trim_matches('\'') {
+            "" => Some("E06").filter(|_| NUMBERS.iter().any(|key| is_empty(&text, key))),
+            literal if literal.contains(" #") => Some("E21"),
+            literal if literal.starts_with('0') => Some("E01"),
+            _ => None,
+        },
+        _ => None,
+    }
+}

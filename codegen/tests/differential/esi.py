@@ -1,0 +1,168 @@
+"""Reads ESI files with XPath and prints the facts that they have: one JSON object a line.
+
+Called with the names of files. `elements` are facts by name, by element: `device 0`, `device 0 object 1018:01`. What a file
+doesn't say is no fact. What this plain reading of ETG.2000 makes nothing of is kept as it is, behind a question mark.
+`errors` are why the file isn't well-formed.
+"""
+
+import json
+import re
+import sys
+
+from lxml import etree
+
+from esi_objects import objects
+from esi_types import basic, flag, name, nonzero, number
+from reading import parse, text, told, xpath
+
+
+def pdos(found, owner, parent, types):
+    for kind in "RxPdo", "TxPdo":
+        for at, pdo in enumerate(xpath(kind)(parent)):
+            key = f"{owner} {kind} {at}"
+            found[key] = {
+                "index": nonzero(text(pdo, "Index")),
+                "name": name(pdo),
+                "Sm": number(text(pdo, "@Sm")),
+                "Su": number(text(pdo, "@Su")),
+                "fixed": flag(text(pdo, "@Fixed")),
+                "mandatory": flag(text(pdo, "@Mandatory")),
+                "virtual": flag(text(pdo, "@Virtual")),
+                "by slot": flag(text(pdo, "Index/@DependOnSlot")),
+                "excludes": " ".join(number(text(other)) for other in xpath("Exclude")(pdo)),
+            }
+            for place, entry in enumerate(xpath("Entry")(pdo)):
+                called = text(entry, "DataType")
+                found[f"{key} entry {place}"] = {
+                    "index": nonzero(text(entry, "Index")),
+                    "sub-index": nonzero(text(entry, "SubIndex")),
+                    "bits": number(text(entry, "BitLen")),
+                    "name": name(entry),
+                    "type": called and (types.resolve(called) if types else basic(called)),
+                    "fixed": flag(text(entry, "@Fixed")),
+                    "by slot": flag(text(entry, "Index/@DependOnSlot")),
+                }
+
+
+def commands(found, owner, parent):
+    for at, command in enumerate(xpath("Mailbox/CoE/InitCmd")(parent)):
+        found[f"{owner} command {at}"] = {
+            "transitions": " ".join(text(one) for one in xpath("Transition")(command)),
+            "index": number(text(command, "Index")),
+            "sub-index": nonzero(text(command, "SubIndex")),
+            "data": re.sub(r"\s", "", text(command, "Data")).lower(),
+            "complete": flag(text(command, "@CompleteAccess")),
+            "fixed": flag(text(command, "@Fixed")),
+            "comment": text(command, "Comment"),
+        }
+
+
+def clocks(found, owner, parent):
+    for at, mode in enumerate(xpath("Dc/OpMode")(parent)):
+        facts = {
+            "name": text(mode, "Name"),
+            "description": text(mode, "Desc"),
+            "assign": nonzero(text(mode, "AssignActivate")),
+        }
+        for time in "CycleTimeSync0", "ShiftTimeSync0", "CycleTimeSync1", "ShiftTimeSync1":
+            facts[time] = nonzero(text(mode, time))
+            facts[f"{time} factor"] = number(text(mode, f"{time}/@Factor"))
+        found[f"{owner} mode {at}"] = facts
+
+
+def slots(found, owner, parent):
+    increments = "SlotIndexIncrement", "SlotPdoIncrement", "SlotGroupIndexIncrement", "SlotGroupPdoIncrement"
+    for slots in xpath("Slots")(parent):
+        found[f"{owner} slots"] = {
+            "most": number(text(slots, "@MaxSlotCount")),
+            "groups": number(text(slots, "@MaxSlotGroupCount")),
+            "download": flag(text(slots, "@DownloadModuleIdentList")),
+        }
+    for at, slot in enumerate(xpath("Slots/Slot")(parent)):
+        least = number(text(slot, "@MinInstances")) or "0"
+        facts = {
+            "name": name(slot),
+            "least": least,
+            "most": number(text(slot, "@MaxInstances")) or str(max(int(least), 1)),
+            "group": number(text(slot, "@SlotGroup")),
+            "idents": " ".join(number(text(ident)) for ident in xpath("ModuleIdent")(slot)),
+            "classes": " / ".join(text(one) for one in xpath("ModuleClass/Class")(slot)),
+        }
+        for increment in increments:
+            facts[increment] = number(text(slot, f"@{increment}")) or number(text(slot, f"../@{increment}")) or "0"
+        found[f"{owner} slot {at}"] = facts
+
+
+def device(found, owner, parent, vendor):
+    found[owner] = {
+        "name": name(parent),
+        "type": text(parent, "Type"),
+        "product code": number(text(parent, "Type/@ProductCode")),
+        "revision": number(text(parent, "Type/@RevisionNo")),
+        "physics": text(parent, "@Physics"),
+        "group": text(parent, "GroupType"),
+        "EEPROM size": number(text(parent, "Eeprom/ByteSize")),
+        "EEPROM configuration": re.sub(r"\s", "", text(parent, "Eeprom/ConfigData")).lower(),
+        "EEPROM boot-strap": re.sub(r"\s", "", text(parent, "Eeprom/BootStrap")).lower(),
+        "CoE": " ".join(
+            key
+            for key in ("SdoInfo", "PdoAssign", "PdoConfig", "PdoUpload", "CompleteAccess", "SegmentedSdo")
+            if flag(text(parent, f"Mailbox/CoE/@{key}"))
+        ),
+        **vendor,
+    }
+    for at, fmmu in enumerate(xpath("Fmmu")(parent)):
+        found[f"{owner} FMMU {at}"] = {"purpose": text(fmmu), "Sm": number(text(fmmu, "@Sm"))}
+    for at, sm in enumerate(xpath("Sm")(parent)):
+        found[f"{owner} Sm {at}"] = {
+            "purpose": text(sm),
+            "address": nonzero(text(sm, "@StartAddress")),
+            "size": number(text(sm, "@DefaultSize")),
+            "least": number(text(sm, "@MinSize")),
+            "most": number(text(sm, "@MaxSize")),
+            "control": nonzero(text(sm, "@ControlByte")),
+            "enable": nonzero(text(sm, "@Enable")),
+        }
+    types = objects(found, owner, xpath("Profile/Dictionary")(parent))
+    pdos(found, owner, parent, types)
+    commands(found, owner, parent)
+    clocks(found, owner, parent)
+    slots(found, owner, parent)
+
+
+def module(found, owner, parent, vendor):
+    found[owner] = {
+        "name": name(parent),
+        "type": text(parent, "Type"),
+        "ident": number(text(parent, "Type/@ModuleIdent")),
+        "class": text(parent, "Type/@ModuleClass"),
+        **vendor,
+    }
+    types = objects(found, owner, xpath("Profile/Dictionary")(parent))
+    pdos(found, owner, parent, types)
+    commands(found, owner, parent)
+
+
+def elements(root):
+    found, devices, modules = {}, 0, 0
+    for info in xpath("self::EtherCATInfo | self::EtherCATModule | EtherCATInfo")(root):
+        vendor = {"vendor": name(info, "Vendor/Name"), "vendor number": number(text(info, "Vendor/Id"))}
+        for own in xpath("Descriptions/Devices/Device | Devices/Device")(info):
+            device(found, f"device {devices}", own, vendor)
+            devices += 1
+        for own in xpath("Descriptions/Modules/Module | Modules/Module")(info):
+            module(found, f"module {modules}", own, vendor)
+            modules += 1
+    if root.tag == "EtherCATDict":
+        found["device 0"] = {}
+        objects(found, "device 0", xpath("Dictionary")(root))
+    return told(found)
+
+
+for path in sys.argv[1:]:
+    try:
+        answer = {"elements": elements(parse(path))}
+    except etree.XMLSyntaxError as error:
+        # What libxml2 makes of it all the same is what there is to compare with.
+        answer = {"errors": [str(error).split(" (<string>")[0]], "elements": elements(parse(path, recover=True))}
+    print(json.dumps(answer))

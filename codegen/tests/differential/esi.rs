@@ -1,0 +1,218 @@
+//! ESI files: XPath by lxml reads the same devices, modules, PDOs and settings. Their objects are in `esi_objects`.
+
+use lexibus_codegen::compile::check;
+use lexibus_codegen::ir::{
+    Catalog, ClockMode, Device, Direction, EtherCatSettings, Fit, InitCommand, Module, Pdo, Slot, SyncManager, TypeDef,
+};
+
+use super::corpus_support::round_trip::{options, source};
+use super::corpus_support::{files_of, folder_of};
+use super::esi_objects::objects;
+use super::esi_reasons::{reason, rejection, Case, REASONS};
+use super::facts::{put, put_flag, put_number, put_some, Elements, Facts};
+use super::peer::{ask, python};
+use super::tally::Tally;
+use super::values::{hex, type_name};
+
+#[test]
+fn xpath_reads_the_same_facts_from_esi() {
+    let (Some(python), Some(files), Some(folder)) = (python(), files_of("esi"), folder_of("esi")) else { return };
+    let paths: Vec<_> = files.iter().map(|file| folder.join(&file.name)).collect();
+    let answers = ask(python, "esi.py", &paths);
+    let mut tally = Tally::new("ESI", REASONS);
+    for (file, answer) in files.iter().zip(&answers) {
+        let compilation = check(source(file), &options());
+        for error in &answer.errors {
+            tally.rejected(&file.name, error, rejection(error));
+        }
+        let Some(peer) = &answer.elements else { continue };
+        let own = compilation.catalog.as_ref().map(elements).unwrap_or_default();
+        let case = Case::new(peer, &own);
+        tally.file(&file.name, peer, &own, |difference| reason(&case, &difference));
+    }
+    tally.finish(358_000);
+}
+
+/// The facts that Lexibus has of a file.
+fn elements(catalog: &Catalog) -> Elements {
+    let mut elements = Elements::new();
+    for (at, own) in catalog.devices.iter().enumerate() {
+        device(&mut elements, &format!("device {at}"), own);
+    }
+    for (at, own) in catalog.modules.iter().enumerate() {
+        module(&mut elements, &format!("module {at}"), own);
+    }
+    elements
+}
+
+fn device(elements: &mut Elements, owner: &str, device: &Device) {
+    let default = EtherCatSettings::default();
+    let settings = device.ethercat.as_deref().unwrap_or(&default);
+    elements.insert(owner.to_owned(), header(device, settings));
+    for (at, fmmu) in settings.fmmus.iter().enumerate() {
+        let mut facts = Facts::new();
+        put(&mut facts, "purpose", fmmu.purpose.as_str());
+        put_some(&mut facts, "Sm", fmmu.sync_manager);
+        elements.insert(format!("{owner} FMMU {at}"), facts);
+    }
+    for (at, own) in device.process_data.sync_managers.iter().enumerate() {
+        elements.insert(format!("{owner} Sm {at}"), sync_manager(own));
+    }
+    for (at, own) in settings.clocks.iter().flat_map(|clocks| &clocks.modes).enumerate() {
+        elements.insert(format!("{owner} mode {at}"), mode(own));
+    }
+    if let Some(slots) = &settings.slots {
+        let mut facts = Facts::new();
+        put_some(&mut facts, "most", slots.max_slots);
+        put_some(&mut facts, "groups", slots.max_groups);
+        put_flag(&mut facts, "download", slots.download_idents);
+        elements.insert(format!("{owner} slots"), facts);
+    }
+    for (at, own) in device.slots.iter().enumerate() {
+        elements.insert(format!("{owner} slot {at}"), slot(own));
+    }
+    let coe = settings.mailbox.as_ref().and_then(|mailbox| mailbox.coe.as_ref());
+    commands(elements, owner, coe.map_or(&[], |coe| &coe.init_commands));
+    pdos(elements, owner, &device.process_data.pdos, &device.types);
+    objects(elements, owner, &device.groups, &device.types);
+}
+
+fn header(device: &Device, settings: &EtherCatSettings) -> Facts {
+    let mut facts = Facts::new();
+    put(&mut facts, "name", device.name.as_str());
+    put(&mut facts, "type", device.id.as_str());
+    put_some(&mut facts, "product code", device.identity.product_code);
+    put_some(&mut facts, "revision", device.identity.revision_number);
+    put(&mut facts, "vendor", device.identity.vendor_name.as_str());
+    put_some(&mut facts, "vendor number", device.identity.vendor_id);
+    put(&mut facts, "physics", settings.physics.as_str());
+    put(&mut facts, "group", settings.group.as_str());
+    if let Some(eeprom) = &settings.eeprom {
+        put_some(&mut facts, "EEPROM size", eeprom.byte_size);
+        put(&mut facts, "EEPROM configuration", hex(&eeprom.config_data));
+        put(&mut facts, "EEPROM boot-strap", hex(&eeprom.boot_strap));
+    }
+    if let Some(coe) = settings.mailbox.as_ref().and_then(|mailbox| mailbox.coe.as_ref()) {
+        let flags = [
+            ("SdoInfo", coe.sdo_info),
+            ("PdoAssign", coe.pdo_assign),
+            ("PdoConfig", coe.pdo_config),
+            ("PdoUpload", coe.pdo_upload),
+            ("CompleteAccess", coe.complete_access),
+            ("SegmentedSdo", coe.segmented_sdo),
+        ];
+        let set: Vec<&str> = flags.iter().filter(|(_, set)| *set).map(|(name, _)| *name).collect();
+        put(&mut facts, "CoE", set.join(" "));
+    }
+    facts
+}
+
+fn module(elements: &mut Elements, owner: &str, module: &Module) {
+    let mut facts = Facts::new();
+    put(&mut facts, "name", module.name.as_str());
+    put(&mut facts, "type", module.id.as_str());
+    put(&mut facts, "ident", module.number.to_string());
+    put(&mut facts, "class", module.class.as_str());
+    put(&mut facts, "vendor", module.identity.vendor_name.as_str());
+    put_some(&mut facts, "vendor number", module.identity.vendor_id);
+    elements.insert(owner.to_owned(), facts);
+    commands(elements, owner, &module.init_commands);
+    pdos(elements, owner, &module.process_data.pdos, &module.types);
+    objects(elements, owner, &module.groups, &module.types);
+}
+
+fn sync_manager(own: &SyncManager) -> Facts {
+    let mut facts = Facts::new();
+    put(&mut facts, "purpose", own.purpose.label());
+    put_number(&mut facts, "address", own.start_address);
+    put_some(&mut facts, "size", own.default_size);
+    put_some(&mut facts, "least", own.size_range.0);
+    put_some(&mut facts, "most", own.size_range.1);
+    put_number(&mut facts, "control", own.control);
+    put_number(&mut facts, "enable", u8::from(own.enable));
+    facts
+}
+
+fn mode(own: &ClockMode) -> Facts {
+    let mut facts = Facts::new();
+    put(&mut facts, "name", own.name.as_str());
+    put(&mut facts, "description", own.description.as_str());
+    put_number(&mut facts, "assign", own.assign_activate);
+    let times = [
+        ("CycleTimeSync0", own.cycle_sync0),
+        ("ShiftTimeSync0", own.shift_sync0),
+        ("CycleTimeSync1", own.cycle_sync1),
+        ("ShiftTimeSync1", own.shift_sync1),
+    ];
+    for (name, time) in times {
+        put_number(&mut facts, name, time.nanoseconds);
+        put_some(&mut facts, &format!("{name} factor"), time.factor);
+    }
+    facts
+}
+
+fn slot(own: &Slot) -> Facts {
+    let mut facts = Facts::new();
+    put(&mut facts, "name", own.name.as_str());
+    put(&mut facts, "least", own.instances.0.to_string());
+    put(&mut facts, "most", own.instances.1.to_string());
+    put_some(&mut facts, "group", own.group);
+    put(&mut facts, "SlotIndexIncrement", own.index_increment.to_string());
+    put(&mut facts, "SlotPdoIncrement", own.pdo_increment.to_string());
+    put(&mut facts, "SlotGroupIndexIncrement", own.group_index_increment.to_string());
+    put(&mut facts, "SlotGroupPdoIncrement", own.group_pdo_increment.to_string());
+    let idents = own.fits.iter().filter_map(|fit| if let Fit::Ident(ident) = fit { Some(ident) } else { None });
+    put(&mut facts, "idents", idents.map(ToString::to_string).collect::<Vec<_>>().join(" "));
+    let classes =
+        own.fits.iter().filter_map(|fit| if let Fit::Class(class) = fit { Some(class.as_str()) } else { None });
+    put(&mut facts, "classes", classes.collect::<Vec<_>>().join(" / "));
+    facts
+}
+
+fn commands(elements: &mut Elements, owner: &str, commands: &[InitCommand]) {
+    for (at, own) in commands.iter().enumerate() {
+        let mut facts = Facts::new();
+        put(&mut facts, "transitions", own.transitions.join(" "));
+        put(&mut facts, "index", own.index.to_string());
+        put_number(&mut facts, "sub-index", own.sub_index);
+        put(&mut facts, "data", hex(&own.data));
+        put_flag(&mut facts, "complete", own.complete_access);
+        put_flag(&mut facts, "fixed", own.fixed);
+        put(&mut facts, "comment", own.comment.as_str());
+        elements.insert(format!("{owner} command {at}"), facts);
+    }
+}
+
+fn pdos(elements: &mut Elements, owner: &str, pdos: &[Pdo], types: &[TypeDef]) {
+    for (kind, direction) in [("RxPdo", Direction::Receive), ("TxPdo", Direction::Transmit)] {
+        for (at, own) in pdos.iter().filter(|pdo| pdo.direction == direction).enumerate() {
+            let key = format!("{owner} {kind} {at}");
+            for (place, entry) in own.entries.iter().enumerate() {
+                let mut facts = Facts::new();
+                put_number(&mut facts, "index", entry.index);
+                put_number(&mut facts, "sub-index", entry.sub_index);
+                put(&mut facts, "bits", entry.bits.to_string());
+                put(&mut facts, "name", entry.name.as_str());
+                put(&mut facts, "type", type_name(entry.ty, types));
+                put_flag(&mut facts, "fixed", entry.fixed);
+                put_flag(&mut facts, "by slot", entry.depends_on_slot);
+                elements.insert(format!("{key} entry {place}"), facts);
+            }
+            elements.insert(key, pdo(own));
+        }
+    }
+}
+
+fn pdo(own: &Pdo) -> Facts {
+    let mut facts = Facts::new();
+    put_number(&mut facts, "index", own.mapping_index);
+    put(&mut facts, "name", own.name.as_str());
+    put_some(&mut facts, "Sm", own.sync_manager);
+    put_some(&mut facts, "Su", own.sync_unit);
+    put_flag(&mut facts, "fixed", own.fixed);
+    put_flag(&mut facts, "mandatory", own.mandatory);
+    put_flag(&mut facts, "virtual", own.is_virtual);
+    put_flag(&mut facts, "by slot", own.depends_on_slot);
+    put(&mut facts, "excludes", own.excludes.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "));
+    facts
+}

@@ -1,0 +1,78 @@
+"""The objects of a dictionary of ETG.2000."""
+
+from esi_types import Types, flag, name, number, values
+from reading import text, xpath
+
+
+def flags(own, above, sub):
+    """Access and mapping of a sub-item, or of its object where it says nothing."""
+    mapping = text((own or above or [None])[0], "PdoMapping") if own or (above and sub) else ""
+    access = next((found for flags in (own, above) if flags and (found := text(flags[0], "Access"))), "")
+    letters = mapping.upper()
+    return {"access": access, "mapping": letters if letters in ("R", "T", "RT", "TR", "") else "?" + mapping}
+
+
+def entries(types, fields):
+    """The sub-indices of a record: sub-index, type, field, number of the element."""
+    following = 0
+    for field in fields:
+        name = text(field, "Type")
+        own = number(text(field, "SubIdx"))
+        array = types.array(name)
+        if array and not own:
+            first = max(array[0], following)
+            for at in range(array[1]):
+                yield first + at, types.resolve(array[2]), field, at + 1
+            following = first + array[1]
+        else:
+            following = int(own) if own.isdigit() else following
+            yield following, types.resolve(name), field, None
+            following += 1
+
+
+def items(types, thing, fields):
+    """The sub-indices of an object: of each its type, and what the object and the type say of it."""
+    subs = xpath("Info/SubItem")(thing)
+    found = list(entries(types, fields))
+    above = xpath("Flags")(thing)
+    free = list(subs)
+    for at, (sub_index, ty, field, element) in enumerate(found):
+        own = text(field, "Name")
+        if len(subs) == len(found):
+            sub = subs[at]
+        else:
+            sub = next((sub for sub in free if text(sub, "Name") == own and element in (None, 1)), None)
+        if sub is not None and sub in free:
+            free.remove(sub)
+        called = (text(sub, "Name") if sub is not None else "") or (f"{own} {element}" if element else own)
+        infos = ([] if sub is None else xpath("Info")(sub) or [sub]) + [field]
+        facts = {"name": called, "type": ty, **flags(xpath("Flags")(field), above, sub_index)}
+        yield sub_index, facts | values(infos, ty)
+
+
+def objects(found, owner, dictionaries):
+    types = Types(dictionaries[0]) if dictionaries else None
+    for other in dictionaries[1:]:
+        types.add(Types(other))
+    for thing in (thing for own in dictionaries for thing in xpath("Objects/Object")(own)):
+        index = number(text(thing, "Index"))
+        index = f"{int(index):04X}" if index.isdigit() else index
+        key = f"{owner} object {index}"
+        if key in found:
+            found[f"{key} again"] = {"name": name(thing)}
+            continue
+        found[key] = {
+            "name": name(thing),
+            "category": text(thing, "Flags/Category").lower(),
+            "by slot": flag(text(thing, "Index/@DependOnSlot")),
+        }
+        fields = types.record(text(thing, "Type"))
+        if fields is None:
+            ty = types.resolve(text(thing, "Type"))
+            own = flags(xpath("Flags")(thing), None, 0)
+            found[f"{key}:00"] = {"name": name(thing), "type": ty, **own, **values(xpath("Info")(thing), ty)}
+            continue
+        for sub, facts in items(types, thing, fields):
+            where = f"{key}:{sub:02X}"
+            found[where if where not in found else f"{where} again"] = facts
+    return types

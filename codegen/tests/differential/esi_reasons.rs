@@ -1,0 +1,186 @@
+//! Why a plain reading with XPath and Lexibus may differ on ESI files. What the script makes nothing of it gives as it is,
+//! behind a question mark: reasons look at that text.
+
+use std::collections::HashSet;
+
+use super::facts::{Difference, Elements, Facts};
+use super::tally::Reasons;
+
+/// What the plain reading does in a way of its own, with a sentence each.
+const PEER: &[(&str, &str)] = &[
+    ("a bare &", "libxml2 rejects a file with a `&` that starts no reference; Lexibus reads it as what it is."),
+    ("objects twice", "It lists both objects of one index; Lexibus keeps the first, and says so."),
+    (
+        "the enable byte",
+        "It takes Enable as a number; Lexibus as the register of ETG.1000.4, whose lowest bit enables.",
+    ),
+    (
+        "types of mapped objects",
+        "It takes the type that an entry names; Lexibus the mapped object's of the same length.",
+    ),
+];
+
+pub const REASONS: Reasons =
+    Reasons { quirks: &["X01", "X02", "X11", "X13", "X14", "X15", "X16", "X17", "X19", "X21", "X22"], peer: PEER };
+
+/// What both read from a file.
+pub struct Case<'a> {
+    peer: &'a Elements,
+    own: &'a Elements,
+    /// The objects that PDOs map: owner, index and sub-index.
+    mapped: HashSet<(&'a str, u16, u8)>,
+    /// Devices and modules with a dictionary.
+    described: HashSet<&'a str>,
+}
+
+impl<'a> Case<'a> {
+    pub fn new(peer: &'a Elements, own: &'a Elements) -> Self {
+        let entries = peer.iter().filter_map(|(name, facts)| {
+            let (owner, _) = name.split_once("xPdo ").filter(|(_, rest)| rest.contains(" entry "))?;
+            let (index, sub) = address(facts)?;
+            Some((owner.trim_end_matches([' ', 'R', 'T']), index, sub))
+        });
+        let described = peer.keys().filter_map(|name| Some(name.split_once(" object ")?.0)).collect();
+        Case { peer, own, mapped: entries.collect(), described }
+    }
+
+    /// The type that Lexibus has for the object that an entry maps.
+    fn type_of_mapped(&self, entry: &str) -> Option<&str> {
+        let (index, sub) = address(self.own.get(entry)?)?;
+        let (owner, _) = entry.split_once("xPdo ")?;
+        let object = format!("{} object {index:04X}:{sub:02X}", owner.trim_end_matches([' ', 'R', 'T']));
+        self.own.get(&object)?.get("type").map(String::as_str)
+    }
+}
+
+/// The index and sub-index of an entry.
+fn address(facts: &Facts) -> Option<(u16, u8)> {
+    let number = |fact: &str| facts.get(fact).map_or(Some(0), |number| number.parse::<u16>().ok());
+    Some((number("index")?, u8::try_from(number("sub-index")?).ok()?))
+}
+
+/// `device 0 object 1018:01`, taken apart.
+fn object(element: &str) -> Option<(&str, u16, Option<u8>)> {
+    let (owner, object) = element.split_once(" object ")?;
+    let (index, sub) = object.split_once(':').map_or((object, None), |(index, sub)| (index, Some(sub)));
+    let sub = match sub {
+        Some(sub) => Some(u8::from_str_radix(sub, 16).ok()?),
+        None => None,
+    };
+    Some((owner, u16::from_str_radix(index, 16).ok()?, sub))
+}
+
+pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static str> {
+    let (element, peer, own) = (difference.element, difference.peer, difference.own);
+    let Some(fact) = difference.fact else { return missing(case, element, own.is_some()) };
+    match fact {
+        "purpose" if element.contains(" Sm ") => {
+            let usual = ["MBoxOut", "MBoxIn", "Outputs", "Inputs"];
+            Some("X19").filter(|_| !peer.is_some_and(|text| usual.contains(&text)))
+        }
+        "enable" => {
+            let byte: u8 = peer?.parse().ok()?;
+            Some("the enable byte").filter(|_| byte > 1 && own == Some("1").filter(|_| byte & 1 == 1))
+        }
+        "mapping" => Some("X17").filter(|_| (peer, own) == (Some("TR"), Some("RT"))),
+        "type" if long_array(case, element) => Some("X14"),
+        "name" if long_array(case, element) => {
+            Some("X14").filter(|_| own.zip(peer).is_some_and(|(own, peer)| peer == format!("{own} 1")))
+        }
+        "type" => of_type(case, element, peer?, own),
+        "default" | "low" | "high" => of_value(case, difference),
+        _ => of_text(peer?, own?),
+    }
+}
+
+/// Why a text is another one, of what libxml2 recovered from a file that it rejects.
+fn of_text(peer: &str, own: &str) -> Option<&'static str> {
+    let rest = own.strip_prefix(peer);
+    if rest.is_some_and(|rest| rest.starts_with('&')) {
+        return Some("a bare &");
+    }
+    let same = |(peer, own): (char, char)| peer == own || peer == char::REPLACEMENT_CHARACTER;
+    let is_undecoded = peer.chars().count() == own.chars().count() && peer.chars().zip(own.chars()).all(same);
+    is_undecoded.then_some("X01")
+}
+
+/// What one of the two doesn't have at all.
+fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str> {
+    if !is_own {
+        if element.ends_with(" again") {
+            return Some("objects twice");
+        }
+        return long_array(case, element).then_some("X14");
+    }
+    // A mapped object that nothing describes: Lexibus adds it, with what the entry says.
+    let (owner, index, sub) = object(element)?;
+    let is_mapped = case
+        .mapped
+        .iter()
+        .any(|&(other, own, entry)| other == owner && own == index && sub.is_none_or(|sub| sub == entry || sub == 0));
+    is_mapped.then_some(if case.described.contains(owner) { "X22" } else { "X21" })
+}
+
+/// Whether an element is one of an array of more elements than there are sub-indices, which Lexibus keeps as one value.
+fn long_array(case: &Case<'_>, element: &str) -> bool {
+    let Some((object, _)) = element.rsplit_once(':') else { return false };
+    let subs = case.own.range(format!("{object}:")..format!("{object};"));
+    let arrays = subs.filter(|(name, _)| name.as_str() <= element || name.len() < element.len());
+    let counts = arrays.filter_map(|(_, facts)| facts.get("type")?.strip_suffix(']')?.split_once('[')?.1.parse().ok());
+    counts.max().is_some_and(|count: u32| count >= 255)
+}
+
+/// Why a type is another one.
+fn of_type(case: &Case<'_>, element: &str, peer: &str, own: Option<&str>) -> Option<&'static str> {
+    if let Some(bits) = peer.strip_prefix("?enumeration of ").and_then(|rest| rest.strip_suffix(" bits")) {
+        return Some("X13").filter(|_| own == Some(&format!("u{bits}")));
+    }
+    match peer.strip_prefix('?') {
+        Some(name) => Some("X11").filter(|_| own == by_name(name).as_deref()),
+        None => Some("types of mapped objects").filter(|_| own == case.type_of_mapped(element)),
+    }
+}
+
+/// What a name outside the tables can only mean: `UINT16`, or `UDINT_hex`.
+fn by_name(name: &str) -> Option<String> {
+    const TABLE: [(&str, &str); 4] = [("USINT", "u8"), ("UINT", "u16"), ("UDINT", "u32"), ("INT", "i16")];
+    let start = name.split_once('_').map(|(start, _)| start);
+    if let Some((_, ty)) = start.and_then(|start| TABLE.iter().find(|(known, _)| *known == start)) {
+        return Some((*ty).to_owned());
+    }
+    let sized = |prefix: &str| name.strip_prefix(prefix)?.parse::<u8>().ok();
+    sized("UINT").map(|bits| format!("u{bits}")).or_else(|| sized("INT").map(|bits| format!("i{bits}")))
+}
+
+/// Why a default or a limit is another one.
+fn of_value(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static str> {
+    let (peer, own) = (difference.peer?, difference.own?);
+    let ty = case.peer.get(difference.element)?.get("type")?;
+    let bits: u32 = ty.get(1..)?.parse().ok()?;
+    let own: i128 = own.parse().ok()?;
+    if let Some(digits) = peer.strip_prefix('?') {
+        // Of bytes that are too many the zeros behind the value say nothing, and those that are missing are zeros.
+        let octet = |at: usize| u8::from_str_radix(digits.get(at..at + 2)?, 16).ok();
+        let octets: Vec<u8> = (0..digits.len()).step_by(2).filter_map(octet).collect();
+        let value =
+            octets.iter().rev().try_fold(0i128, |value, &octet| value.checked_mul(256)?.checked_add(octet.into()));
+        return Some("X15").filter(|_| value == Some(own) && octets.len() != bits.div_ceil(8) as usize);
+    }
+    let peer: i128 = peer.parse().ok()?;
+    let modulus = 1i128 << bits;
+    Some("X16").filter(|_| match ty.as_bytes()[0] {
+        b'i' => peer - own == modulus,
+        b'u' => peer == -1 && own == modulus - 1,
+        _ => false,
+    })
+}
+
+/// Why libxml2 rejects a file.
+pub fn rejection(error: &str) -> Option<&'static str> {
+    match error {
+        _ if error.starts_with("Extra content at the end of the document") => Some("X02"),
+        _ if error.starts_with("Invalid bytes in character encoding") => Some("X01"),
+        _ if error.starts_with("EntityRef: expecting ';'") => Some("a bare &"),
+        _ => None,
+    }
+}

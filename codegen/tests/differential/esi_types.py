@@ -1,0 +1,166 @@
+"""Numbers, names, data types and values of ETG.2000, as its text has them.
+
+What a plain reading makes nothing of is kept as it is, behind a question mark.
+"""
+
+import re
+import struct
+
+from reading import real, text, xpath
+
+BASIC = {
+    "BOOL": "bool", "BIT": "bool", "SINT": "i8", "INT": "i16", "DINT": "i32", "LINT": "i64",
+    "USINT": "u8", "BYTE": "u8", "UINT": "u16", "WORD": "u16", "UDINT": "u32", "DWORD": "u32", "ULINT": "u64",
+    "INT24": "i24", "INT40": "i40", "INT48": "i48", "INT56": "i56",
+    "UINT24": "u24", "UINT40": "u40", "UINT48": "u48", "UINT56": "u56",
+    "REAL": "f32", "LREAL": "f64", "STRING": "str", "OCTET_STRING": "octets", "UNICODE_STRING": "wide",
+    "WSTRING": "wide", "TIME_OF_DAY": "time of day", "TIME_DIFFERENCE": "time difference", "DOMAIN": "domain",
+    "GUID": "octets(16)",
+}
+MAX_DEPTH = 12
+
+
+def number(text):
+    """A HexDecValue of ETG.2000."""
+    if re.fullmatch(r"[+-]?[0-9]+", text):
+        return str(int(text))
+    if re.fullmatch(r"#x[0-9A-Fa-f]+", text):
+        return str(int(text[2:], 16))
+    return text and "?" + text
+
+
+def nonzero(text):
+    """A number where 0 is the same as none."""
+    found = number(text)
+    return "" if found == "0" else found
+
+
+def flag(text):
+    return {"": "", "0": "", "false": "", "1": "yes", "true": "yes"}.get(text, "?" + text)
+
+
+def name(element, path="Name"):
+    """The name in English, or the one without a language, or the first."""
+    for found in (f"{path}[@LcId='1033'][normalize-space()]", f"{path}[not(@LcId)][normalize-space()]", path):
+        if xpath(found)(element):
+            return text(element, found)
+    return ""
+
+
+def basic(name):
+    """The type that a name of ETG.1000.6 stands for."""
+    if name in BASIC:
+        return BASIC[name]
+    if found := re.fullmatch(r"BITARR(8|16|32)", name) or re.fullmatch(r"BIT([1-9]|1[0-6])", name):
+        return f"u{found[1]}"
+    if found := re.fullmatch(r"(STRING|OCTET_STRING|WSTRING|UNICODE_STRING)\((\d+)\)", name):
+        return f"{BASIC[found[1]]}({found[2]})"
+    if found := re.fullmatch(r"ARRAY \[(\d+)\.\.(\d+)\] OF (\w+)", name):
+        count = int(found[2]) - int(found[1]) + 1
+        element = BASIC.get(found[3], "?")
+        return f"octets({count})" if found[3] == "BYTE" else f"{element}[{count}]"
+    return "?" + name
+
+
+class Types:
+    """The data types of one device or module."""
+
+    def __init__(self, owner):
+        self.by_name = {}
+        for element in xpath("DataTypes/DataType")(owner):
+            self.by_name.setdefault(text(element, "Name"), element)
+
+    def add(self, other):
+        for name, element in other.by_name.items():
+            self.by_name.setdefault(name, element)
+
+    def record(self, name, depth=0):
+        """The sub-items of a type, where it is a record."""
+        own = self.by_name.get(name)
+        if own is None or depth > MAX_DEPTH:
+            return None
+        fields = xpath("SubItem")(own)
+        base = text(own, "BaseType")
+        return fields or (self.record(base, depth + 1) if base and base != name else None)
+
+    def array(self, name):
+        """Lower bound, number of elements and type of an element, where the type is an array."""
+        own = self.by_name.get(name)
+        bounds = xpath("ArrayInfo")(own) if own is not None else []
+        if not bounds or xpath("SubItem")(own):
+            return None
+        low, count = number(text(bounds[0], "LBound")), 1
+        for bound in bounds:
+            elements = number(text(bound, "Elements"))
+            count *= int(elements) if elements.isdigit() else 0
+        return int(low) if low.isdigit() else 0, count, text(own, "BaseType")
+
+    def resolve(self, name, depth=0):
+        own = self.by_name.get(name)
+        if own is None or depth > MAX_DEPTH:
+            return basic(name)
+        base = text(own, "BaseType")
+        if xpath("SubItem")(own):
+            return "record"
+        if array := self.array(name):
+            return f"{self.resolve(array[2], depth + 1)}[{array[1]}]"
+        bits = text(own, "BitSize")
+        if not base and xpath("EnumInfo")(own):
+            return f"?enumeration of {bits} bits"
+        found = self.resolve(base, depth + 1) if base and base != name else basic(name)
+        if re.fullmatch(r"[iu][0-9]+", found) and bits.isdigit() and 0 < int(bits) <= 64:
+            return found[0] + bits
+        if found in ("str", "octets", "wide") and bits.isdigit() and int(bits) % 8 == 0 and bits != "0":
+            found += f"({int(bits) // (16 if found == 'wide' else 8)})"
+        return found
+
+
+def data(raw, ty):
+    """Bytes in the order of memory."""
+    try:
+        octets = bytes.fromhex(raw)
+    except ValueError:
+        return "?" + raw
+    kind, bits = ty[0], ty[1:]
+    if ty == "bool" and len(octets) == 1:
+        return str(int(octets[0] != 0))
+    if ty in ("f32", "f64") and len(octets) * 8 == int(bits):
+        return real(struct.unpack("<f" if ty == "f32" else "<d", octets)[0])
+    if kind in "iu" and bits.isdigit():
+        if len(octets) != (int(bits) + 7) // 8:
+            return "?" + raw
+        return str(int.from_bytes(octets, "little", signed=kind == "i"))
+    if re.fullmatch(r"str(\(\d+\))?", ty):
+        octets = octets.rstrip(b"\0")
+        try:
+            return f"'{octets.decode()}'"
+        except UnicodeDecodeError:
+            return f"'{octets.decode('latin-1')}'"
+    if re.fullmatch(r"wide(\(\d+\))?", ty):
+        decoded = octets.decode("utf-16-le", "replace").rstrip("\0")
+        return f"'{decoded}'"
+    return "?" + raw if ty in ("bool", "f32", "f64") else f"x'{octets.hex()}'"
+
+
+def value(info, what, ty):
+    """A default or a limit of an Info, or of a sub-item of a type."""
+    if raw := text(info, f"{what}Data"):
+        return data(raw, ty)
+    if raw := text(info, f"{what}Value"):
+        if ty in ("f32", "f64"):
+            try:
+                return real(float(raw))
+            except ValueError:
+                return "?" + raw
+        return number(raw)
+    if raw := text(info, f"{what}String"):
+        return f"'{raw}'" if ty.startswith(("str", "wide")) else "?" + raw
+    return ""
+
+
+def values(infos, ty):
+    """Default and limits: what stands nearer counts."""
+    facts = {}
+    for key, what in ("default", "Default"), ("low", "Min"), ("high", "Max"):
+        facts[key] = next((found for info in infos if (found := value(info, what, ty))), "")
+    return facts

@@ -1,0 +1,233 @@
+//! GSDML files: XPath by lxml reads the same device access points, modules and submodules. Their data are in `gsdml_data`.
+
+use lexibus_codegen::compile::check;
+use lexibus_codegen::ir::{
+    Catalog, CodeTable, CompactString, Device, Documentation, Module, Places, ProfinetSettings, Shape, Submodule,
+    SubmoduleKind, SubmoduleUse, SubslotName, TypeDef, UnitDiagnosis, Value,
+};
+
+use super::corpus_support::round_trip::{options, source};
+use super::corpus_support::{files_of, folder_of};
+use super::facts::{put, put_some, Elements, Facts};
+use super::gsdml_data::{body, io_data, menus, records};
+use super::gsdml_reasons::{reason, rejection, Case, REASONS};
+use super::peer::{ask, python};
+use super::tally::Tally;
+use super::values::{numbers, put_names, type_name};
+
+#[test]
+fn xpath_reads_the_same_facts_from_gsdml() {
+    let (Some(python), Some(files), Some(folder)) = (python(), files_of("gsdml"), folder_of("gsdml")) else { return };
+    let paths: Vec<_> = files.iter().map(|file| folder.join(&file.name)).collect();
+    let answers = ask(python, "gsdml.py", &paths);
+    let mut tally = Tally::new("GSDML", REASONS);
+    for (file, answer) in files.iter().zip(&answers) {
+        let compilation = check(source(file), &options());
+        for error in &answer.errors {
+            tally.rejected(&file.name, error, rejection(&compilation));
+        }
+        let Some(peer) = &answer.elements else { continue };
+        let own = compilation.catalog.as_ref().map(elements).unwrap_or_default();
+        let case = Case { text: file.text(), peer };
+        tally.file(&file.name, peer, &own, |difference| reason(&case, &difference));
+    }
+    tally.finish(112_000);
+}
+
+/// The facts that Lexibus has of a file.
+fn elements(catalog: &Catalog) -> Elements {
+    let mut elements = Elements::new();
+    for (at, own) in catalog.devices.iter().enumerate() {
+        device(&mut elements, &format!("device {at}"), own, catalog);
+    }
+    for (at, own) in catalog.modules.iter().enumerate() {
+        module(&mut elements, &format!("module {at}"), own);
+    }
+    for (at, own) in catalog.submodules.iter().enumerate() {
+        submodule(&mut elements, &format!("submodule {at}"), own, &catalog.types);
+    }
+    catalog.code_tables.iter().for_each(|own| code_table(&mut elements, own));
+    for (at, own) in catalog.unit_diagnoses.iter().enumerate() {
+        unit_diagnosis(&mut elements, &format!("unit {at}"), own, &catalog.types);
+    }
+    catalog.types.iter().for_each(|own| value_list(&mut elements, own));
+    for own in &catalog.families {
+        let mut facts = Facts::new();
+        put_names(&mut facts, "name", &own.name, &own.names);
+        elements.insert(format!("category {}", own.id), facts);
+    }
+    for own in &catalog.graphics {
+        elements.insert(format!("graphic {}", own.id), Facts::from([("file".to_owned(), own.file.to_string())]));
+    }
+    elements
+}
+
+fn device(elements: &mut Elements, owner: &str, device: &Device, catalog: &Catalog) {
+    let Some(settings) = device.profinet.as_deref() else { return };
+    let mut facts = self::settings(settings);
+    put(&mut facts, "id", device.id.as_str());
+    put_names(&mut facts, "name", &device.name, &device.names);
+    put_documentation(&mut facts, "info", device.documentation.as_deref());
+    put(&mut facts, "order number", device.identity.order_code.as_str());
+    put_some(&mut facts, "vendor number", device.identity.vendor_id);
+    put_some(&mut facts, "device number", device.identity.product_code);
+    put(&mut facts, "vendor", device.identity.vendor_name.as_str());
+    elements.insert(owner.to_owned(), facts);
+    for own in &device.modules {
+        let id = &catalog.modules[own.module.0 as usize].id;
+        elements.insert(format!("{owner} takes {id}"), places(&own.places));
+    }
+    for own in &device.slots {
+        let mut facts = Facts::new();
+        put_names(&mut facts, "name", &own.name, &own.names);
+        elements.insert(format!("{owner} slot {}", own.number), facts);
+    }
+    for (at, own) in settings.vendor_blocks.iter().enumerate() {
+        let key = format!("{owner} request {at}");
+        let mut facts = body(elements, &key, &own.record, &catalog.types);
+        put(&mut facts, "index", own.identifier.to_string());
+        put(&mut facts, "api", own.api.to_string());
+        elements.insert(key, facts);
+    }
+    held(elements, owner, &device.submodules, &settings.subslot_names);
+}
+
+/// What stands on the device access point itself.
+fn settings(own: &ProfinetSettings) -> Facts {
+    let mut facts = Facts::new();
+    let words = |list: &[CompactString]| list.iter().map(CompactString::as_str).collect::<Vec<_>>().join(" ");
+    put(&mut facts, "ident", own.ident.to_string());
+    put(&mut facts, "version", own.pnio_version.as_str());
+    put(&mut facts, "DNS name", own.dns_name.as_str());
+    put_some(&mut facts, "interval", own.min_device_interval);
+    put(&mut facts, "record size", own.max_record_size.to_string());
+    put(&mut facts, "slots", numbers(&own.slots));
+    facts.append(&mut places(&own.places));
+    put_some(&mut facts, "most input", own.max_lengths.input);
+    put_some(&mut facts, "most output", own.max_lengths.output);
+    put_some(&mut facts, "most data", own.max_lengths.data);
+    put(&mut facts, "start-up", words(&own.startup_modes));
+    put(&mut facts, "relations", own.relations.to_string());
+    put(&mut facts, "clocks", numbers(&own.send_clocks));
+    put(&mut facts, "ratios", numbers(&own.reduction_ratios));
+    put(&mut facts, "main family", own.family.0.as_str());
+    put(&mut facts, "product family", own.family.1.as_str());
+    facts
+}
+
+fn places(own: &Places) -> Facts {
+    let mut facts = Facts::new();
+    put(&mut facts, "allowed", numbers(&own.allowed));
+    put(&mut facts, "fixed", numbers(&own.fixed));
+    put(&mut facts, "used", numbers(&own.used));
+    facts
+}
+
+/// Submodules that are built in, and those that can be plugged in.
+fn held(elements: &mut Elements, owner: &str, uses: &[SubmoduleUse], subslots: &[SubslotName]) {
+    for own in uses {
+        elements.insert(format!("{owner} holds {}", own.submodule.0), places(&own.places));
+    }
+    for own in subslots {
+        let mut facts = Facts::new();
+        put_names(&mut facts, "name", &own.name, &own.names);
+        elements.insert(format!("{owner} subslot {}", own.number), facts);
+    }
+}
+
+fn module(elements: &mut Elements, owner: &str, module: &Module) {
+    let mut facts = Facts::new();
+    put(&mut facts, "id", module.id.as_str());
+    put(&mut facts, "ident", module.number.to_string());
+    put(&mut facts, "subslots", numbers(&module.subslots));
+    put(&mut facts, "hardware", module.revision.as_str());
+    put(&mut facts, "software", module.version.as_str());
+    put_names(&mut facts, "name", &module.name, &module.names);
+    put_documentation(&mut facts, "info", module.documentation.as_deref());
+    put(&mut facts, "order number", module.identity.order_code.as_str());
+    elements.insert(owner.to_owned(), facts);
+    held(elements, owner, &module.submodules, &module.subslot_names);
+}
+
+fn submodule(elements: &mut Elements, owner: &str, submodule: &Submodule, types: &[TypeDef]) {
+    let mut facts = Facts::new();
+    let kind = match submodule.kind {
+        SubmoduleKind::Virtual => "VirtualSubmoduleItem",
+        SubmoduleKind::Pluggable => "SubmoduleItem",
+        SubmoduleKind::Interface => "InterfaceSubmoduleItem",
+        SubmoduleKind::Port => "PortSubmoduleItem",
+    };
+    put(&mut facts, "id", submodule.id.as_str());
+    put(&mut facts, "kind", kind);
+    put(&mut facts, "ident", submodule.ident.to_string());
+    put(&mut facts, "api", submodule.api.to_string());
+    put(&mut facts, "provider", submodule.status_lengths.0.to_string());
+    put(&mut facts, "consumer", submodule.status_lengths.1.to_string());
+    put_names(&mut facts, "name", &submodule.name, &submodule.names);
+    put_documentation(&mut facts, "info", submodule.documentation.as_deref());
+    put(&mut facts, "order number", submodule.identity.order_code.as_str());
+    elements.insert(owner.to_owned(), facts);
+    for (direction, own) in [("Input", &submodule.input), ("Output", &submodule.output)] {
+        if let Some(own) = own {
+            io_data(elements, &format!("{owner} {direction}"), own, types);
+        }
+    }
+    records(elements, owner, submodule, types);
+    menus(elements, owner, &submodule.menus);
+}
+
+/// Channel diagnosis and process alarms; a code of an extended list has that of its parent in front.
+fn code_table(elements: &mut Elements, table: &CodeTable) {
+    if table.name == "log_book" {
+        return;
+    }
+    for (at, row) in table.rows.iter().enumerate() {
+        let mut facts = Facts::new();
+        let (parent, rest) = match row.cells.first() {
+            Some(Value::Int(parent)) => (Some(parent), &row.cells[1..]),
+            _ => (None, &row.cells[..]),
+        };
+        put(&mut facts, "code", row.code.to_string());
+        put_some(&mut facts, "of", parent);
+        if let [Value::Text(state), Value::Int(api), ..] = rest {
+            put(&mut facts, "state", state.as_str());
+            put(&mut facts, "api", api.to_string());
+        }
+        put_names(&mut facts, "name", &row.name, &row.names);
+        put_documentation(&mut facts, "help", row.documentation.as_deref());
+        elements.insert(format!("{} {at}", table.name), facts);
+    }
+}
+
+fn unit_diagnosis(elements: &mut Elements, key: &str, own: &UnitDiagnosis, types: &[TypeDef]) {
+    let mut facts = Facts::new();
+    put(&mut facts, "api", own.api.to_string());
+    put(&mut facts, "identifier", own.identifier.to_string());
+    put_names(&mut facts, "name", &own.name, &own.names);
+    elements.insert(key.to_owned(), facts);
+    for (place, field) in own.fields.iter().enumerate() {
+        let mut facts = Facts::new();
+        put(&mut facts, "type", type_name(field.ty, types));
+        put(&mut facts, "offset", field.bit_offset.to_string());
+        put(&mut facts, "bits", field.bits.to_string());
+        put_names(&mut facts, "name", &field.name, &field.names);
+        elements.insert(format!("{key} field {place}"), facts);
+    }
+}
+
+fn value_list(elements: &mut Elements, own: &TypeDef) {
+    let Shape::Enumeration { values, .. } = &own.shape else { return };
+    let mut facts = Facts::new();
+    for value in values {
+        let content = value.last.map_or(value.value.to_string(), |last| format!("{}..{last}", value.value));
+        put_names(&mut facts, &content, &value.name, &value.names);
+    }
+    elements.insert(format!("values {}", own.name), facts);
+}
+
+/// A description in all languages.
+fn put_documentation(facts: &mut Facts, fact: &str, own: Option<&Documentation>) {
+    if let Some(own) = own {
+        put_names(facts, fact, &own.text, &own.translations);
+    }
+}

@@ -1,0 +1,107 @@
+"""The data of a submodule in GSDML: cyclic data, parameter records, F-parameters, menus."""
+
+import gsdml_types as types
+from reading import text, xpath
+
+# What the schema takes for granted where an F-parameter doesn't say it: default, allowed values, changeable, visible.
+F_SCHEMA = {
+    "F_Check_iPar": ("NoCheck", "Check NoCheck", False, False),
+    "F_SIL": ("SIL3", "SIL1 SIL2 SIL3 NoSIL", True, True),
+    "F_CRC_Length": ("3-Byte-CRC", "3-Byte-CRC", False, False),
+    "F_CRC_Seed": ("CRC-Seed24/32", "CRC-Seed24/32", False, True),
+    "F_Passivation": ("Device/Module", "Device/Module", False, True),
+    "F_Block_ID": ("0", "0..7", False, True),
+    "F_Par_Version": ("1", "1", False, True),
+    "F_Source_Add": ("1", "1..65534", True, True),
+    "F_Dest_Add": ("1", "1..65534", True, True),
+    "F_WD_Time": ("150", "1..65535", True, True),
+    "F_Par_CRC": ("53356", "0..65535", True, True),
+    "F_iPar_CRC": ("0", "0..4294967295", True, True),
+}
+
+
+def io_data(found, owner, submodule, texts):
+    for direction in "Input", "Output":
+        for data in xpath(f"IOData/{direction}")(submodule):
+            key, at, trailer = f"{owner} {direction}", 0, 0
+            for place, item in enumerate(xpath("DataItem")(data)):
+                name, (ty, bits) = text(item, "@DataType"), types.of_element(item)
+                named, subordinate = xpath("BitDataItem")(item), types.flag(text(item, "@Subordinate"))
+                facts = {"offset": str(at), "bits": str(bits), "subordinate": subordinate, **texts.names(item)}
+                is_one = not (named or subordinate or name in types.PAIRS or name in ("OctetString_S",))
+                trailer += bits // 8 if name.startswith("F_MessageTrailer") else 0
+                facts["type" if is_one and not name.startswith("F_MessageTrailer") else "spelt"] = ty if is_one else name
+                if "spelt" in facts:
+                    facts["spelt"] = name
+                found[f"{key} item {place}"] = facts
+                for bit in named:
+                    offset = int(types.number(text(bit, "@BitOffset")))
+                    # Numbers are big-endian: bit 0 is in their last byte.
+                    where = (bits // 8 - 1 - offset // 8) * 8 + offset % 8 if ty[0] in "iu" else offset
+                    found[f"{key} item {place} bit {at + where}"] = texts.names(bit)
+                at += bits
+            found[key] = {
+                "length": str(at // 8),
+                "trailer": str(trailer) if trailer else "",
+                "consistent": "yes" if text(data, "@Consistency") == "All items consistency" else "",
+            }
+
+
+def body(found, key, record, texts):
+    """What a record, or a block of a vendor, consists of."""
+    for place, ref in enumerate(xpath("Ref")(record)):
+        ty, bits = types.of_element(ref)
+        bit = types.number(text(ref, "@BitOffset")) if text(ref, "@DataType") in ("Bit", "BitArea") else ""
+        offset = 8 * int(types.number(text(ref, "@ByteOffset")) or 0) + int(bit or 0)
+        base = "bool" if text(ref, "@DataType") == "Bit" else ty
+        raw = ref.get("DefaultValue")
+        found[f"{key} ref {place}"] = {
+            "type": ty,
+            "offset": str(offset),
+            "bits": str(bits),
+            "default": "" if raw is None else types.default(raw, base),
+            "allowed": types.allowed(text(ref, "@AllowedValues"), base),
+            "changeable": types.flag(text(ref, "@Changeable"), True),
+            "visible": types.flag(text(ref, "@Visible"), True),
+            "values": text(ref, "@ValueItemTarget"),
+            **texts.names(ref),
+        }
+    constants = []
+    for constant in xpath("Const")(record):
+        octets = types.default(text(constant, "@Data"), "octets")
+        constants.append(f"{types.number(text(constant, '@ByteOffset')) or '0'}:{octets}")
+    return {"constants": " ".join(constants), "name": "", **texts.names(record, "Name/@TextId")}
+
+
+def records(found, owner, submodule, texts):
+    order = lambda record: int(types.number(text(record, "@TransferSequence")) or 0) or 0x10000
+    for place, record in enumerate(sorted(xpath("RecordDataList/ParameterRecordDataItem")(submodule), key=order)):
+        key = f"{owner} record {place}"
+        sequence = types.number(text(record, "@TransferSequence"))
+        found[key] = {
+            "index": types.number(text(record, "@Index")),
+            "length": types.number(text(record, "@Length")),
+            "sequence": "" if sequence == "0" else sequence,
+            "bump": types.flag(text(record, "@ChangeableWithBump")),
+            **body(found, key, record, texts),
+        }
+    for record in xpath("RecordDataList/F_ParameterRecordDataItem")(submodule):
+        found[f"{owner} F"] = {
+            "index": types.number(text(record, "@Index")),
+            "CRC": types.number(text(record, "@F_ParamDescCRC")),
+        }
+        for own in record:
+            default, allowed, changeable, visible = F_SCHEMA.get(own.tag, ("", "", False, True))
+            found[f"{owner} F {own.tag}"] = {
+                "default": text(own, "@DefaultValue") or default,
+                "allowed": text(own, "@AllowedValues") or allowed,
+                "changeable": types.flag(text(own, "@Changeable"), changeable),
+                "visible": types.flag(text(own, "@Visible"), visible),
+            }
+
+
+def menus(found, owner, submodule, texts):
+    for place, menu in enumerate(xpath("RecordDataList/*/MenuList/MenuItem")(submodule)):
+        targets = [text(own, "@ParameterTarget | @MenuTarget") for own in xpath("ParameterRef | MenuRef")(menu)]
+        names = texts.names(menu, "Name/@TextId")
+        found[f"{owner} menu {place}"] = {"id": text(menu, "@ID"), "targets": " ".join(targets), **names}

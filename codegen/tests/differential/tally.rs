@@ -1,0 +1,85 @@
+//! Counts, and what is left unexplained.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::facts::{compare, Difference, Elements};
+
+/// Why two readers may differ: rows of the table of quirks, and what the independent reader does wrong or not at all, with a
+/// sentence each.
+#[derive(Clone, Copy)]
+pub struct Reasons {
+    pub quirks: &'static [&'static str],
+    pub peer: &'static [(&'static str, &'static str)],
+}
+
+/// The outcome for all files of one format.
+pub struct Tally {
+    format: &'static str,
+    reasons: Reasons,
+    files: usize,
+    rejected: BTreeSet<String>,
+    facts: usize,
+    agreed: usize,
+    explained: BTreeMap<&'static str, usize>,
+    unexplained: Vec<String>,
+}
+
+impl Tally {
+    pub fn new(format: &'static str, reasons: Reasons) -> Self {
+        let (explained, unexplained) = (BTreeMap::new(), Vec::new());
+        Tally { format, reasons, files: 0, rejected: BTreeSet::new(), facts: 0, agreed: 0, explained, unexplained }
+    }
+
+    /// Counts one file that both read.
+    pub fn file<'a>(
+        &mut self,
+        name: &str,
+        peer: &'a Elements,
+        own: &'a Elements,
+        reason: impl Fn(Difference<'a>) -> Option<&'static str>,
+    ) {
+        self.files += 1;
+        let mut differences = 0;
+        let facts = compare(peer, own, |difference| {
+            differences += 1;
+            self.count(reason(difference), || format!("{name}: {difference}"));
+        });
+        self.facts += facts;
+        self.agreed += facts - differences;
+    }
+
+    /// Counts a reason for which the peer rejects a file.
+    pub fn rejected(&mut self, name: &str, error: &str, reason: Option<&'static str>) {
+        self.rejected.insert(name.to_owned());
+        self.count(reason, || format!("{name}: the peer rejects it: {error}"));
+    }
+
+    fn count(&mut self, reason: Option<&'static str>, what: impl Fn() -> String) {
+        match reason {
+            Some(reason) => *self.explained.entry(reason).or_default() += 1,
+            None => self.unexplained.push(what()),
+        }
+    }
+
+    /// Prints the counts. Fails where a difference is unexplained, an explanation explains nothing, or too little was compared.
+    pub fn finish(self, least_facts: usize) {
+        eprintln!(
+            "{}: {} files, {} rejected by the peer at first or for good; {} facts, {} agree; explained: {:?}",
+            self.format,
+            self.files,
+            self.rejected.len(),
+            self.facts,
+            self.agreed,
+            self.explained
+        );
+        let shown = self.unexplained.iter().take(200).map(String::as_str).collect::<Vec<_>>().join("\n");
+        assert!(self.unexplained.is_empty(), "{} differences are unexplained:\n{shown}", self.unexplained.len());
+        let peer = self.reasons.peer.iter().map(|(name, _)| *name);
+        let known: Vec<&str> = self.reasons.quirks.iter().copied().chain(peer).collect();
+        let dead: Vec<&&str> = known.iter().filter(|reason| !self.explained.contains_key(**reason)).collect();
+        assert!(dead.is_empty(), "these explain nothing any more: {dead:?}");
+        let unlisted: Vec<&&str> = self.explained.keys().filter(|reason| !known.contains(reason)).collect();
+        assert!(unlisted.is_empty(), "these aren't in the lists: {unlisted:?}");
+        assert!(self.facts >= least_facts, "only {} facts were compared", self.facts);
+    }
+}
