@@ -18,10 +18,10 @@ use quick_xml::Reader;
 #[path = "inputs/esi.rs"]
 mod inputs;
 
-use inputs::esi;
+use inputs::{esi, DRIVE};
 
 fn main() {
-    let one = esi(DEVICES).into_bytes();
+    let one = esi(DEVICES, DRIVE).into_bytes();
     ratio(&format!("{DEVICES} devices with dictionaries"), &[one]);
     match corpus() {
         Some(files) => ratio(&format!("{} files of the corpus", files.len()), &files),
@@ -97,20 +97,20 @@ fn corpus() -> Option<Vec<Vec<u8>>> {
 
 #[divan::bench(args = [1, DEVICES])]
 fn bare_events(bencher: Bencher<'_, '_>, devices: usize) {
-    let text = esi(devices);
+    let text = esi(devices, DRIVE);
     bencher.counter(BytesCount::new(text.len())).bench(|| events(divan::black_box(text.as_bytes())));
 }
 
 /// All of reading: bytes to checked IR.
 #[divan::bench(args = [1, DEVICES])]
 fn bytes_to_checked_ir(bencher: Bencher<'_, '_>, devices: usize) {
-    let text = esi(devices);
+    let text = esi(devices, DRIVE);
     bencher.counter(BytesCount::new(text.len())).with_inputs(|| text.clone().into_bytes()).bench_values(check);
 }
 
 #[divan::bench(args = [DEVICES])]
 fn passes(bencher: Bencher<'_, '_>, devices: usize) {
-    let source = Source::new("bench.xml", esi(devices).into_bytes());
+    let source = Source::new("bench.xml", esi(devices, DRIVE).into_bytes());
     let catalog = compile::read(source, &Options::default()).catalog.expect("a catalogue");
     bencher.with_inputs(|| catalog.clone()).bench_values(|mut catalog| {
         passes::check(&mut catalog, &mut Diagnostics::default());

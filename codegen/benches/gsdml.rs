@@ -19,7 +19,7 @@ use quick_xml::Reader;
 #[path = "inputs/gsdml.rs"]
 mod inputs;
 
-use inputs::gsdml;
+use inputs::{gsdml, DRIVE};
 
 /// Tells how much each measurement has allocated at most.
 #[global_allocator]
@@ -29,7 +29,7 @@ static ALLOCATOR: AllocProfiler = AllocProfiler::system();
 const SUBMODULES: usize = 100;
 
 fn main() {
-    let text = gsdml(SUBMODULES);
+    let text = gsdml(SUBMODULES, DRIVE);
     report("made by the bench", std::slice::from_ref(&text));
     if let Some(files) = corpus() {
         report("corpus", &files);
@@ -116,14 +116,14 @@ fn corpus() -> Option<Vec<Vec<u8>>> {
 
 #[divan::bench]
 fn events_with_positions(bencher: Bencher<'_, '_>) {
-    let text = gsdml(SUBMODULES);
+    let text = gsdml(SUBMODULES, DRIVE);
     bencher.counter(BytesCount::new(text.len())).bench(|| events(divan::black_box(&text)));
 }
 
 /// Bytes to IR, as the source has it.
 #[divan::bench]
 fn read(bencher: Bencher<'_, '_>) {
-    let text = gsdml(SUBMODULES);
+    let text = gsdml(SUBMODULES, DRIVE);
     bencher
         .counter(BytesCount::new(text.len()))
         .with_inputs(|| text.clone())
@@ -133,13 +133,13 @@ fn read(bencher: Bencher<'_, '_>) {
 /// Bytes to checked IR.
 #[divan::bench]
 fn read_and_check(bencher: Bencher<'_, '_>) {
-    let text = gsdml(SUBMODULES);
+    let text = gsdml(SUBMODULES, DRIVE);
     bencher.counter(BytesCount::new(text.len())).with_inputs(|| text.clone()).bench_values(check);
 }
 
 /// A copy of the IR and of nothing else.
 #[divan::bench]
 fn ir(bencher: Bencher<'_, '_>) {
-    let compilation = check(gsdml(SUBMODULES));
+    let compilation = check(gsdml(SUBMODULES, DRIVE));
     bencher.bench(|| compilation.catalog.clone());
 }

@@ -2,8 +2,18 @@
 
 use std::fmt::Write;
 
+/// What each device of a file has: records of nine entries, and single values.
+#[derive(Clone, Copy)]
+pub struct Shape {
+    pub records: usize,
+    pub single: usize,
+}
+
+/// The dictionary of a drive, of 256 entries.
+pub const DRIVE: Shape = Shape { records: 24, single: 40 };
+
 /// A file of so many devices, in the words and with the proportions of real ones.
-pub fn esi(devices: usize) -> String {
+pub fn esi(devices: usize, shape: Shape) -> String {
     let mut text = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<EtherCATInfo xmlns:xsi=\"http://www.w3.org/2001/XMLSchema-instance\" \
          Version=\"1.6\">\n  <Vendor>\n    <Id>#x00000001</Id>\n    <Name>Bench</Name>\n  </Vendor>\n  <Descriptions>\n    \
@@ -11,17 +21,13 @@ pub fn esi(devices: usize) -> String {
          </Groups>\n    <Devices>\n",
     );
     for number in 0..devices {
-        device(&mut text, number);
+        device(&mut text, number, shape);
     }
     text += "    </Devices>\n  </Descriptions>\n</EtherCATInfo>\n";
     text
 }
 
-/// Records and single values of a dictionary.
-const RECORDS: usize = 24;
-const SINGLE: usize = 40;
-
-fn device(text: &mut String, number: usize) {
+fn device(text: &mut String, number: usize, shape: Shape) {
     let _ = writeln!(
         text,
         "      <Device Physics=\"YY\">\n        <Type ProductCode=\"#x{number:08x}\" RevisionNo=\"#x00010000\">D{number}</Type>\n        \
@@ -36,18 +42,18 @@ fn device(text: &mut String, number: usize) {
              </DataType>"
         );
     }
-    for record in 0..RECORDS {
+    for record in 0..shape.records {
         data_type(text, 0x2000 + record);
     }
     *text += "            </DataTypes>\n            <Objects>\n";
-    for single in 0..SINGLE {
+    for single in 0..shape.single {
         object(text, 0x6000 + single);
     }
-    for record in 0..RECORDS {
+    for record in 0..shape.records {
         record_object(text, 0x2000 + record);
     }
     *text += "            </Objects>\n          </Dictionary>\n        </Profile>\n";
-    process_data(text);
+    process_data(text, shape);
     *text += "      </Device>\n";
 }
 
@@ -101,7 +107,8 @@ fn object(text: &mut String, index: usize) {
     );
 }
 
-fn process_data(text: &mut String) {
+/// Sync managers, and PDOs of ten single values each.
+fn process_data(text: &mut String, shape: Shape) {
     for (name, address, control) in
         [("MBoxOut", 0x1000, 0x26), ("MBoxIn", 0x1080, 0x22), ("Outputs", 0x1100, 0x64), ("Inputs", 0x1400, 0x20)]
     {
@@ -110,7 +117,7 @@ fn process_data(text: &mut String) {
             "        <Sm DefaultSize=\"128\" StartAddress=\"#x{address:x}\" ControlByte=\"#x{control:x}\" Enable=\"1\">{name}</Sm>"
         );
     }
-    for pdo in 0..4 {
+    for pdo in 0..(shape.single / 10).min(4) {
         let _ = writeln!(
             text,
             "        <TxPdo Fixed=\"1\" Sm=\"3\">\n          <Index>#x1a{pdo:02x}</Index>\n          <Name>Inputs {pdo}</Name>"

@@ -5,18 +5,34 @@ use std::fmt::Write;
 /// Parameters of a record.
 const OF_A_RECORD: usize = 20;
 
-/// Records of a submodule.
-const RECORDS: usize = 25;
+/// Records of a submodule of a drive.
+pub const DRIVE: usize = 25;
 
 const LANGUAGES: [&str; 5] = ["de", "fr", "it", "es", "zh"];
 
-/// Texts of parameters; several parameters share one.
-const TEXTS: usize = 12_000;
+/// How much of it there is.
+#[derive(Clone, Copy)]
+struct Size {
+    submodules: usize,
+    /// Of each submodule.
+    records: usize,
+}
 
-const VALUE_ITEMS: usize = 400;
+impl Size {
+    /// Texts of parameters; several parameters share one.
+    fn texts(self) -> usize {
+        (self.submodules * self.records * 24 / 5).max(64)
+    }
 
-/// The description of a drive with so many submodules, in the words and with the proportions of real ones.
-pub fn gsdml(submodules: usize) -> Vec<u8> {
+    fn value_items(self) -> usize {
+        (self.submodules * self.records * 4 / 25).max(1)
+    }
+}
+
+/// The description of a drive with so many submodules, and records in each of them, in the words and with the proportions of
+/// real ones.
+pub fn gsdml(submodules: usize, records: usize) -> Vec<u8> {
+    let size = Size { submodules, records };
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"utf-8\"?>\n");
     text += "<ISO15745Profile xmlns=\"http://www.profibus.com/GSDML/2003/11/DeviceProfile\">\n  <ProfileBody>\n";
     text += "    <DeviceIdentity VendorID=\"0x0FFF\" DeviceID=\"0x0001\">\n      <InfoText TextId=\"TXT_0\"/>\n";
@@ -24,16 +40,16 @@ pub fn gsdml(submodules: usize) -> Vec<u8> {
     device(&mut text, submodules);
     text += "      <ModuleList>\n";
     for number in 0..submodules {
-        module(&mut text, number);
+        module(&mut text, number, size);
     }
     text += "      </ModuleList>\n      <ValueList>\n";
-    for number in 0..VALUE_ITEMS {
+    for number in 0..size.value_items() {
         value_item(&mut text, number);
     }
     text += "      </ValueList>\n      <ExternalTextList>\n";
-    texts(&mut text, "PrimaryLanguage", "");
+    texts(&mut text, "PrimaryLanguage", "", size);
     for language in LANGUAGES {
-        texts(&mut text, "Language", language);
+        texts(&mut text, "Language", language, size);
     }
     text += "      </ExternalTextList>\n    </ApplicationProcess>\n  </ProfileBody>\n</ISO15745Profile>\n";
     text.into_bytes()
@@ -56,7 +72,7 @@ fn device(text: &mut String, submodules: usize) {
     text.push_str("          </UseableModules>\n        </DeviceAccessPointItem>\n      </DeviceAccessPointList>\n");
 }
 
-fn module(text: &mut String, number: usize) {
+fn module(text: &mut String, number: usize, size: Size) {
     let _ = writeln!(text, "        <ModuleItem ID=\"MOD_{number}\" ModuleIdentNumber=\"0x{:08X}\">", 0x100 + number);
     let _ = writeln!(text, "          <ModuleInfo>\n            <Name TextId=\"TXT_{number}\"/>");
     text.push_str(
@@ -81,20 +97,20 @@ fn module(text: &mut String, number: usize) {
         let _ = writeln!(text, "                </{direction}>");
     }
     text.push_str("              </IOData>\n              <RecordDataList>\n");
-    for record in 0..RECORDS {
-        parameters(text, number * RECORDS + record, record);
+    for record in 0..size.records {
+        parameters(text, number * size.records + record, record, size);
     }
     text.push_str("              </RecordDataList>\n            </VirtualSubmoduleItem>\n");
     text.push_str("          </VirtualSubmoduleList>\n        </ModuleItem>\n");
 }
 
-fn parameters(text: &mut String, record: usize, index: usize) {
+fn parameters(text: &mut String, record: usize, index: usize, size: Size) {
     let length = OF_A_RECORD * 4;
     let _ = writeln!(text, "                <ParameterRecordDataItem Index=\"{index}\" Length=\"{length}\">");
-    let _ = writeln!(text, "                  <Name TextId=\"TXT_{}\"/>", record % TEXTS);
+    let _ = writeln!(text, "                  <Name TextId=\"TXT_{}\"/>", record % size.texts());
     for position in 0..OF_A_RECORD {
         let number = record * OF_A_RECORD + position;
-        let (name, offset, value) = (number % TEXTS, position * 4, number % VALUE_ITEMS);
+        let (name, offset, value) = (number % size.texts(), position * 4, number % size.value_items());
         let _ = write!(text, "                  <Ref ID=\"P{number}\" ByteOffset=\"{offset}\" TextId=\"TXT_{name}\" ");
         let rest = match position % 5 {
             0 => format!(
@@ -118,10 +134,10 @@ fn value_item(text: &mut String, number: usize) {
     text.push_str("          </Assignments>\n        </ValueItem>\n");
 }
 
-fn texts(text: &mut String, element: &str, language: &str) {
+fn texts(text: &mut String, element: &str, language: &str, size: Size) {
     let attribute = if language.is_empty() { String::new() } else { format!(" xml:lang=\"{language}\"") };
     let _ = writeln!(text, "        <{element}{attribute}>");
-    for number in 0..TEXTS {
+    for number in 0..size.texts() {
         let name = format!("Speed controller: limit {number} of the set-point {language}");
         let _ = writeln!(text, "          <Text TextId=\"TXT_{number}\" Value=\"{name}\"/>");
     }

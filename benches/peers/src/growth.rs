@@ -1,0 +1,129 @@
+//! How time and memory grow with the input, from 1 to 1,000 times the size.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use lexibus_codegen::compile::{self, Compilation, Options};
+use lexibus_codegen::source::Source;
+use lexibus_codegen::RustOptions;
+use serde_json::{json, Value};
+
+use crate::input::{growing, growing_device, Kind};
+use crate::memory;
+use crate::read::check;
+
+const SIZES: [usize; 4] = [1, 10, 100, 1_000];
+
+/// What grows: a name, what its file is called, and how it is made.
+type Way = (&'static str, &'static str, fn(usize) -> Vec<u8>);
+
+const WAYS: [Way; 5] = [
+    ("EDS, records", "bench.eds", |size| growing(Kind::Eds, size)),
+    ("ESI, devices", "bench.xml", |size| growing(Kind::Esi, size)),
+    ("ESI, objects of one device", "bench.xml", growing_device),
+    ("GSDML, modules and records", "bench.xml", |size| growing(Kind::Gsdml, size)),
+    ("table, registers", "bench.toml", |size| growing(Kind::Table, size)),
+];
+
+/// Nanoseconds a byte of input, and bytes of memory a byte of input.
+struct Cost {
+    bytes: usize,
+    read: f64,
+    check: f64,
+    emit: Option<f64>,
+    peak: f64,
+    left: f64,
+}
+
+/// Prints a table for each way to grow, and gives the same as JSON.
+pub fn report(print: bool) -> Vec<Value> {
+    WAYS.iter().map(|way| one(way, print)).collect()
+}
+
+fn one(&(title, name, make): &Way, print: bool) -> Value {
+    let costs: Vec<_> = SIZES.iter().map(|&size| cost(name, &make(size))).collect();
+    if print {
+        println!("\nGrowth: {title}\n");
+        println!("| size | MB | read, ns a byte | check | emit | most memory, times the input | what is left |");
+        println!("|---|---|---|---|---|---|---|");
+    }
+    // The smallest has what every file costs, however short.
+    let usual = &costs[1];
+    let mut rows = Vec::new();
+    for (size, cost) in SIZES.iter().zip(&costs) {
+        let grows = [cost.read > 2.0 * usual.read, cost.check > 2.0 * usual.check];
+        let emit = cost.emit.map(|emit| format!("{emit:.1}")).unwrap_or_default();
+        if print {
+            println!(
+                "| {size} | {:.3} | {:.2}{} | {:.2}{} | {emit} | {:.2}{} | {:.2} |",
+                cost.bytes as f64 / 1e6,
+                cost.read,
+                mark(grows[0] && *size > 1),
+                cost.check,
+                mark(grows[1] && *size > 1),
+                cost.peak,
+                mark(cost.peak > 4.0),
+                cost.left,
+            );
+        }
+        rows.push(json!({
+            "size": size, "bytes": cost.bytes, "read_ns": cost.read, "check_ns": cost.check, "emit_ns": cost.emit,
+            "peak": cost.peak, "left": cost.left,
+        }));
+    }
+    json!({ "title": title, "sizes": rows })
+}
+
+/// What isn't as it should be is bold.
+fn mark(bad: bool) -> &'static str {
+    if bad {
+        " **!**"
+    } else {
+        ""
+    }
+}
+
+fn cost(name: &str, bytes: &[u8]) -> Cost {
+    let length = bytes.len() as f64;
+    let options = Options::default();
+    let read = |bytes: Vec<u8>| compile::read(Source::new(name, bytes), &options);
+    let whole = |bytes: Vec<u8>| check(name.to_owned(), bytes);
+    let compilation = whole(bytes.to_vec());
+    let (most, left) = memory::peak(|| whole(bytes.to_vec()));
+    let (mut best_read, mut best_check) = (Duration::MAX, Duration::MAX);
+    for _ in 0..rounds(bytes.len()) {
+        best_read = best_read.min(time(bytes, read));
+        best_check = best_check.min(time(bytes, whole));
+    }
+    Cost {
+        bytes: bytes.len(),
+        read: best_read.as_nanos() as f64 / length,
+        check: best_check.as_nanos() as f64 / length,
+        emit: emit(&compilation).map(|time| time.as_nanos() as f64 / length),
+        peak: most as f64 / length,
+        left: left as f64 / length,
+    }
+}
+
+fn rounds(bytes: usize) -> usize {
+    (20_000_000 / bytes).clamp(4, 50)
+}
+
+fn time(bytes: &[u8], work: impl Fn(Vec<u8>) -> Compilation) -> Duration {
+    let bytes = bytes.to_vec();
+    let start = Instant::now();
+    let made = black_box(work(bytes));
+    let elapsed = start.elapsed();
+    drop(made);
+    elapsed
+}
+
+/// IR to Rust, where there is no error: the best of three.
+fn emit(compilation: &Compilation) -> Option<Duration> {
+    let once = || {
+        let start = Instant::now();
+        black_box(compilation.rust(&RustOptions::default())?);
+        Some(start.elapsed())
+    };
+    (0..3).map(|_| once()).min().flatten()
+}

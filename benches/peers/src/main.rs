@@ -1,0 +1,105 @@
+//! Lexibus beside what one would take instead, in one run: `benches/README.md` says how and what came out.
+
+mod compile;
+mod generate;
+mod growth;
+mod input;
+mod lexer;
+mod measure;
+mod memory;
+mod python;
+mod read;
+mod registers;
+mod report;
+
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
+
+use report::Table;
+use serde_json::{json, Value};
+
+const USAGE: &str = "usage: lexibus-peers [read] [generate] [compile] [growth] [--json] [FILE...]
+
+Without a stage, all of them. With files, these are read instead of the inputs that are made.";
+
+const STAGES: [&str; 4] = ["read", "generate", "compile", "growth"];
+
+/// What is asked for.
+#[derive(Default)]
+struct Wish {
+    stages: Vec<String>,
+    files: Vec<PathBuf>,
+    json: bool,
+}
+
+impl Wish {
+    fn of_arguments() -> Option<Self> {
+        let mut wish = Wish::default();
+        for argument in std::env::args().skip(1) {
+            match argument.as_str() {
+                "--json" => wish.json = true,
+                stage if STAGES.contains(&stage) => wish.stages.push(argument),
+                option if option.starts_with('-') => return None,
+                _ => wish.files.push(argument.into()),
+            }
+        }
+        if wish.stages.is_empty() {
+            let stages = if wish.files.is_empty() { &STAGES[..] } else { &STAGES[..1] };
+            wish.stages = stages.iter().map(|stage| (*stage).to_owned()).collect();
+        }
+        Some(wish)
+    }
+
+    fn has(&self, stage: &str) -> bool {
+        self.stages.iter().any(|wanted| wanted == stage)
+    }
+}
+
+fn main() {
+    let Some(wish) = Wish::of_arguments() else {
+        eprintln!("{USAGE}");
+        std::process::exit(2);
+    };
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/inputs");
+    std::fs::create_dir_all(&folder).expect("a folder for inputs");
+    let mut tables = Tables { json: wish.json, made: Vec::new() };
+    if wish.has("read") {
+        read(&wish.files, &folder, &mut tables);
+    }
+    if wish.has("generate") {
+        generate::compare().into_iter().for_each(|table| tables.add(&table));
+    }
+    if wish.has("compile") {
+        tables.add(&compile::compare(&folder));
+    }
+    let growth = if wish.has("growth") { growth::report(!wish.json) } else { Vec::new() };
+    if wish.json {
+        println!("{:#}", json!({ "tables": tables.made, "growth": growth }));
+    }
+}
+
+fn read(files: &[PathBuf], folder: &Path, tables: &mut Tables) {
+    let inputs = match files {
+        [] => input::of_three_sizes(folder),
+        files => files.iter().filter_map(|path| input::Input::of_file(path)).collect(),
+    };
+    let python = RefCell::new(python::Python::start());
+    for input in &inputs {
+        tables.add(&read::compare(input, &python));
+    }
+}
+
+/// Prints tables as they come, or keeps them.
+struct Tables {
+    json: bool,
+    made: Vec<Value>,
+}
+
+impl Tables {
+    fn add(&mut self, table: &Table) {
+        match self.json {
+            true => self.made.push(table.json()),
+            false => table.print(),
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! How much memory something takes at most, counted where it is allocated.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::sync::atomic::{AtomicBool, AtomicIsize, Ordering::Relaxed};
+
+/// The system's allocator, which counts while it is asked to.
+pub struct Counting;
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+static ON: AtomicBool = AtomicBool::new(false);
+static NOW: AtomicIsize = AtomicIsize::new(0);
+static MOST: AtomicIsize = AtomicIsize::new(0);
+
+fn count(change: isize) {
+    if ON.load(Relaxed) {
+        let now = NOW.fetch_add(change, Relaxed) + change;
+        MOST.fetch_max(now, Relaxed);
+    }
+}
+
+// SAFETY: every call is passed on as it is.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count(layout.size() as isize);
+        System.alloc(layout)
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        count(layout.size() as isize);
+        System.alloc_zeroed(layout)
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        count(-(layout.size() as isize));
+        System.dealloc(pointer, layout);
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count(size as isize - layout.size() as isize);
+        System.realloc(pointer, layout, size)
+    }
+}
+
+/// Bytes that `work` has allocated at most, and those that what it made still has.
+pub fn peak<T>(work: impl FnOnce() -> T) -> (usize, usize) {
+    NOW.store(0, Relaxed);
+    MOST.store(0, Relaxed);
+    ON.store(true, Relaxed);
+    let made = work();
+    ON.store(false, Relaxed);
+    let numbers = (MOST.load(Relaxed).max(0) as usize, NOW.load(Relaxed).max(0) as usize);
+    drop(made);
+    numbers
+}
+
+#[test]
+fn counts_the_most_and_what_is_left() {
+    let (most, left) = peak(|| {
+        drop(vec![0_u8; 3_000_000]);
+        vec![0_u8; 1_000_000]
+    });
+    // Other tests of the program may run beside this one.
+    assert!((3_000_000..3_100_000).contains(&most), "{most}");
+    assert!((1_000_000..1_100_000).contains(&left), "{left}");
+}

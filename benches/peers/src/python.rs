@@ -1,0 +1,47 @@
+//! Peers in Python: one process that reads files on demand and takes its own time.
+
+use std::io::{BufRead, BufReader, Write};
+use std::path::Path;
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::time::Duration;
+
+pub struct Python {
+    child: Child,
+    requests: ChildStdin,
+    replies: BufReader<ChildStdout>,
+}
+
+impl Python {
+    /// `None` where `setup.sh` hasn't run.
+    pub fn start() -> Option<Self> {
+        let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let python = here.join("target/python/bin/python");
+        if !python.exists() {
+            eprintln!("benches/peers/setup.sh hasn't run: nothing in Python is measured");
+            return None;
+        }
+        let mut command = Command::new(python);
+        command.arg(here.join("read.py")).stdin(Stdio::piped()).stdout(Stdio::piped());
+        let mut child = command.spawn().expect("Python");
+        let requests = child.stdin.take().expect("a pipe");
+        let replies = BufReader::new(child.stdout.take().expect("a pipe"));
+        Some(Python { child, requests, replies })
+    }
+
+    /// How long `reader`, a function of `read.py`, takes for so many readings of `path`.
+    pub fn time(&mut self, reader: &str, path: &Path, repetitions: u32) -> Result<Duration, String> {
+        let broken = |error: std::io::Error| format!("Python is gone: {error}");
+        writeln!(self.requests, "{reader}\t{repetitions}\t{}", path.display()).map_err(broken)?;
+        let mut reply = String::new();
+        self.replies.read_line(&mut reply).map_err(broken)?;
+        reply.trim().parse().map(Duration::from_secs_f64).map_err(|_| reply.trim().to_owned())
+    }
+}
+
+impl Drop for Python {
+    fn drop(&mut self) {
+        // It ends with its input, of which nothing is left to write; an error says that it has ended already.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}

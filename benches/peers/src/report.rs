@@ -1,0 +1,93 @@
+//! What is printed: a table an input, or all of them as JSON.
+
+use serde_json::{json, Value};
+
+use crate::measure::Sample;
+
+/// One contestant's times for one input.
+pub struct Line {
+    pub name: String,
+    pub outcome: Result<Sample, String>,
+    /// How many times as fast as this one Lexibus has to be.
+    pub target: Option<f64>,
+}
+
+/// All contestants for one input; the first is Lexibus.
+pub struct Table {
+    pub title: String,
+    /// What speed is counted in: bytes of input, or nothing where the times themselves say it.
+    pub bytes: Option<usize>,
+    pub lines: Vec<Line>,
+}
+
+impl Table {
+    /// How many times as fast as `line` the first line is.
+    fn ratio(&self, line: &Line) -> Option<f64> {
+        let own = self.lines[0].outcome.as_ref().ok()?.least.as_secs_f64();
+        Some(line.outcome.as_ref().ok()?.least.as_secs_f64() / own)
+    }
+
+    pub fn print(&self) {
+        println!("\n{}\n", self.title);
+        println!("| who | {} | runs | Lexibus is so many times as fast | target |", self.unit());
+        println!("|---|---|---|---|---|");
+        for (number, line) in self.lines.iter().enumerate() {
+            let (name, sample) = match &line.outcome {
+                Ok(sample) => (&line.name, sample),
+                Err(error) => {
+                    println!("| {} | rejects it: {} | | | |", line.name, shortened(error));
+                    continue;
+                }
+            };
+            let ratio = self.ratio(line).filter(|_| number > 0);
+            let verdict = match (line.target, ratio) {
+                (Some(target), Some(ratio)) if ratio >= target => format!("{target}, met"),
+                (Some(target), _) => format!("{target}, missed"),
+                (None, _) => String::new(),
+            };
+            let ratio = ratio.map(|ratio| format!("{ratio:.2}")).unwrap_or_default();
+            println!("| {name} | {} | {} | {ratio} | {verdict} |", self.figures(sample), sample.runs);
+        }
+    }
+
+    fn unit(&self) -> &'static str {
+        match self.bytes {
+            Some(_) => "MB/s, best (median)",
+            None => "ms, best (median)",
+        }
+    }
+
+    fn figures(&self, sample: &Sample) -> String {
+        let figure = |time: std::time::Duration| match self.bytes {
+            Some(bytes) => bytes as f64 / time.as_secs_f64() / 1e6,
+            None => time.as_secs_f64() * 1e3,
+        };
+        let (best, median) = (figure(sample.least), figure(sample.median));
+        if best < 20.0 {
+            format!("{best:.2} ({median:.2})")
+        } else {
+            format!("{best:.0} ({median:.0})")
+        }
+    }
+
+    pub fn json(&self) -> Value {
+        let line = |line: &Line| match &line.outcome {
+            Ok(sample) => json!({
+                "name": line.name,
+                "best_s": sample.least.as_secs_f64(),
+                "median_s": sample.median.as_secs_f64(),
+                "runs": sample.runs,
+                "ratio": self.ratio(line),
+                "target": line.target,
+            }),
+            Err(error) => json!({ "name": line.name, "error": error }),
+        };
+        json!({ "title": self.title, "bytes": self.bytes, "lines": self.lines.iter().map(line).collect::<Vec<_>>() })
+    }
+}
+
+/// The first line of a message, at most as long as a table bears.
+fn shortened(message: &str) -> String {
+    let line = message.lines().next().unwrap_or_default();
+    line.chars().take(100).collect::<String>().replace('|', "/")
+}
