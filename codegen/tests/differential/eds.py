@@ -77,8 +77,17 @@ def device(dictionary):
     }
 
 
+# The keys of [FileInfo] that CiA 306 has.
+FILE_INFO = (
+    "FileName FileVersion FileRevision EDSVersion Description CreationTime CreationDate CreatedBy ModificationTime "
+    "ModificationDate ModifiedBy LastEDS"
+).split()
+
+
 def elements(dictionary, node_id):
     facts = device(dictionary)
+    header = getattr(dictionary, "__edsFileInfo", {})
+    facts |= {key: header.get(key) for key in FILE_INFO}
     facts["node-ID"] = None if node_id is None else str(node_id)
     dummies = []
     found = {"device": facts}

@@ -50,10 +50,29 @@ def items(types, thing, fields):
         yield sub_index, facts | values(infos, ty)
 
 
+def data_types(found, owner, dictionaries, types):
+    """The types as they are defined, in their order."""
+    for at, own in enumerate(own for one in dictionaries for own in xpath("DataTypes/DataType")(one)):
+        facts = {"name": text(own, "Name"), "bits": number(text(own, "BitSize"))}
+        if xpath("ArrayInfo")(own) and types.by_name.get(facts["name"]) is own:
+            facts["array"] = types.resolve(facts["name"])
+        for value in xpath("EnumInfo")(own):
+            facts["value " + number(text(value, "Enum"))] = name(value, "Text")
+        found[f"{owner} type {at}"] = facts
+        for place, field in enumerate(xpath("SubItem")(own)):
+            found[f"{owner} type {at} field {place}"] = {
+                "name": text(field, "Name"),
+                "sub-index": number(text(field, "SubIdx")),
+                "bits": number(text(field, "BitSize")),
+                "offset": number(text(field, "BitOffs")),
+            }
+
+
 def objects(found, owner, dictionaries):
     types = Types(dictionaries[0]) if dictionaries else None
     for other in dictionaries[1:]:
         types.add(Types(other))
+    data_types(found, owner, dictionaries, types)
     for thing in (thing for own in dictionaries for thing in xpath("Objects/Object")(own)):
         index = number(text(thing, "Index"))
         index = f"{int(index):04X}" if index.isdigit() else index
@@ -70,7 +89,8 @@ def objects(found, owner, dictionaries):
         if fields is None:
             ty = types.resolve(text(thing, "Type"))
             own = flags(xpath("Flags")(thing), None, 0)
-            found[f"{key}:00"] = {"name": name(thing), "type": ty, **own, **values(xpath("Info")(thing), ty)}
+            facts = {"name": name(thing), "type": ty, "bits": number(text(thing, "BitSize")), **own}
+            found[f"{key}:00"] = facts | values(xpath("Info")(thing), ty)
             continue
         for sub, facts in items(types, thing, fields):
             where = f"{key}:{sub:02X}"

@@ -88,6 +88,11 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
             Some("X14").filter(|_| own.zip(peer).is_some_and(|(own, peer)| peer == format!("{own} 1")))
         }
         "type" => of_type(case, element, peer?, own),
+        "array" => {
+            let ((peer, count), (own, other)) = (peer?.rsplit_once('[')?, own?.rsplit_once('[')?);
+            of_type(case, element, peer, Some(own)).filter(|_| count == other)
+        }
+        "bits" => of_array(case.own.get(element)?.get("array")?, own?),
         "default" | "low" | "high" => of_value(case, difference),
         _ => of_text(peer?, own?),
     }
@@ -139,6 +144,14 @@ fn of_type(case: &Case<'_>, element: &str, peer: &str, own: Option<&str>) -> Opt
         Some(name) => Some("X11").filter(|_| own == by_name(name).as_deref()),
         None => Some("types of mapped objects").filter(|_| own == case.type_of_mapped(element)),
     }
+}
+
+/// Why an array is as long as its elements together, and not as its BitSize says.
+fn of_array(array: &str, own: &str) -> Option<&'static str> {
+    let (element, count) = array.strip_suffix(']')?.split_once('[')?;
+    let bits: u32 = if element == "bool" { 1 } else { element.get(1..)?.parse().ok()? };
+    let count: u32 = count.parse().ok()?;
+    Some("X14").filter(|_| own == (bits * count).to_string())
 }
 
 /// What a name outside the tables can only mean: `UINT16`, or `UDINT_hex`.

@@ -170,6 +170,21 @@ def diagnosis(found, root, texts):
             found[f"{key} field {place}"] = facts
 
 
+def log_book(found, root, texts):
+    """Each entry with the status whose last byte is the error code."""
+    rows = xpath(f"{PROCESS}/LogBookEntryList/LogBookEntryItem/*[self::ErrorCode2Value or self::ErrorCode2List]")(root)
+    entries = [own for row in rows for own in (xpath("ErrorCode2Item")(row) or [row])]
+    for at, own in enumerate(entries):
+        first = int(types.number(text(own, "ancestor::LogBookEntryItem/@Status"))) << 8
+        whole = own.tag == "ErrorCode2Value"
+        found[f"log_book {at}"] = {
+            "code": str(first if whole else first + int(types.number(text(own, "@ErrorCode2")))),
+            "last": str(first + 0xFF) if whole else "",
+            **texts.names(own, "Name/@TextId"),
+            **texts.names(own, "Help/@TextId", "help"),
+        }
+
+
 def lists(found, root, texts):
     for own in xpath(f"{PROCESS}/ValueList/ValueItem")(root):
         facts = found.setdefault(f"values {text(own, '@ID')}", {})
@@ -203,6 +218,7 @@ def elements(root):
     for own, at in order.items():
         submodule(found, f"submodule {at}", own, texts)
     diagnosis(found, root, texts)
+    log_book(found, root, texts)
     lists(found, root, texts)
     return told(found)
 

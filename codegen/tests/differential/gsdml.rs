@@ -176,11 +176,8 @@ fn submodule(elements: &mut Elements, owner: &str, submodule: &Submodule, types:
     menus(elements, owner, &submodule.menus);
 }
 
-/// Channel diagnosis and process alarms; a code of an extended list has that of its parent in front.
+/// Channel diagnosis, process alarms and log book; a code of an extended list has that of its parent in front.
 fn code_table(elements: &mut Elements, table: &CodeTable) {
-    if table.name == "log_book" {
-        return;
-    }
     for (at, row) in table.rows.iter().enumerate() {
         let mut facts = Facts::new();
         let (parent, rest) = match row.cells.first() {
@@ -188,6 +185,7 @@ fn code_table(elements: &mut Elements, table: &CodeTable) {
             _ => (None, &row.cells[..]),
         };
         put(&mut facts, "code", row.code.to_string());
+        put_some(&mut facts, "last", row.last);
         put_some(&mut facts, "of", parent);
         if let [Value::Text(state), Value::Int(api), ..] = rest {
             put(&mut facts, "state", state.as_str());
