@@ -15,10 +15,7 @@ const PEER: &[(&str, &str)] = &[
     ("limits with $NODEID", "It reads formulas in values, but not in limits, and drops them."),
     ("node-ID 255", "It takes any number for a node-ID; 255 is how LSS says that there is none, and Lexibus drops it."),
     ("suffixes of C", "It drops `0x1234LL`; Lexibus reads the number, and says so."),
-    (
-        "times of two numbers",
-        "It takes the blank out of `365 43200000`, and reads days and milliseconds as one number.",
-    ),
+    ("times of two numbers", "It takes the blank out of `1 2000`, and reads days and milliseconds as one number."),
 ];
 
 pub const REASONS: Reasons = Reasons {
@@ -76,9 +73,20 @@ fn missing(case: &Case<'_>, index: u16, sub: Option<u8>, is_own: bool) -> Option
     let is_pdo = (0x1400..0x1C00).contains(&index) && case.reading.get(index, Part::Object).is_none();
     match sub {
         _ if !is_own => None,
-        Some(sub) if compact.is_some_and(|count| i128::from(sub) <= count) => Some("E43"),
+        Some(sub) if compact.is_some_and(|count| i128::from(sub) <= count) => {
+            Some("E43").filter(|_| sub == 0 || is_like_first(case, index, sub))
+        }
         _ => Some("E70").filter(|_| is_pdo && has_key(&case.text, "CompactPDO")),
     }
+}
+
+/// Whether an element that follows from CompactSubObj is what the first one is, which the library has as well.
+fn is_like_first(case: &Case<'_>, index: u16, sub: u8) -> bool {
+    let facts = |sub| {
+        let own = case.own.get(&format!("{index:04X}:{sub:02X}")).into_iter().flatten();
+        own.filter(|(name, _)| !matches!(name.as_str(), "name" | "value")).collect::<Vec<_>>()
+    };
+    facts(sub) == facts(1)
 }
 
 fn of_device(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static str> {

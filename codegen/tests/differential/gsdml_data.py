@@ -28,11 +28,11 @@ def io_data(found, owner, submodule, texts):
                 name, (ty, bits) = text(item, "@DataType"), types.of_element(item)
                 named, subordinate = xpath("BitDataItem")(item), types.flag(text(item, "@Subordinate"))
                 facts = {"offset": str(at), "bits": str(bits), "subordinate": subordinate, **texts.names(item)}
-                is_one = not (named or subordinate or name in types.PAIRS or name in ("OctetString_S",))
-                trailer += bits // 8 if name.startswith("F_MessageTrailer") else 0
-                facts["type" if is_one and not name.startswith("F_MessageTrailer") else "spelt"] = ty if is_one else name
-                if "spelt" in facts:
-                    facts["spelt"] = name
+                is_trailer = name.startswith("F_MessageTrailer")
+                trailer += bits // 8 if is_trailer else 0
+                # What becomes one field of the image has a type; what becomes several, or none, the name of one.
+                several = named or subordinate or is_trailer or name in types.PAIRS or name == "OctetString_S"
+                facts |= {"spelt": name} if several else {"type": ty}
                 found[f"{key} item {place}"] = facts
                 for bit in named:
                     offset = int(types.number(text(bit, "@BitOffset")))
