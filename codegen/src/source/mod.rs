@@ -148,12 +148,16 @@ impl Source {
     ///
     /// CR LF, LF and a CR on its own each end a line.
     pub fn position(&self, offset: u32) -> Position {
-        let starts = self.line_starts();
-        let line = starts.partition_point(|&start| start <= offset).max(1);
-        let start = starts[line - 1] as usize;
+        let line = self.line_at(offset);
+        let start = self.line_starts()[line as usize - 1] as usize;
         let end = (offset as usize).clamp(start, self.text.len());
         let column = self.characters_before(end) - self.characters_before(start);
-        Position { line: line as u32, column: column + 1 }
+        Position { line, column: column + 1 }
+    }
+
+    /// The line of [`Source::position`] alone, without counting characters.
+    pub fn line_at(&self, offset: u32) -> u32 {
+        self.line_starts().partition_point(|&start| start <= offset).max(1) as u32
     }
 
     /// Number of characters that begin before the byte `offset`.

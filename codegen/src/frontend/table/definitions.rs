@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use compact_str::{format_compact, CompactString};
 
 use super::at::{At, OneOrMany, TextOr};
+use super::by_name::ByName;
 use super::conditions::Window;
 use super::format::{BitEntries, BitTable, BitsTable, EnumTable, NumberOrText, UnitTable, ValueEntries, ValueTable};
 use super::references::References;
@@ -26,14 +27,15 @@ pub(super) enum Kind {
 /// The definitions of a table.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Definitions {
-    pub enums: Vec<(At<String>, EnumTable)>,
-    pub bits: Vec<(At<String>, BitsTable)>,
-    pub units: Vec<(At<String>, UnitTable)>,
+    pub enums: ByName<EnumTable>,
+    pub bits: ByName<BitsTable>,
+    pub units: ByName<UnitTable>,
     /// The types made so far.
     pub types: Vec<TypeDef>,
     /// Contradictions of definitions.
     pub doubts: Vec<Doubt>,
-    pub made: HashMap<(Kind, String, Type), TypeId>,
+    /// Those of a name, each over another integer.
+    pub made: HashMap<(Kind, String), Vec<(Type, TypeId)>>,
     /// Names that definitions refer to, with their places.
     pub mentioned: References,
 }
@@ -49,8 +51,9 @@ struct About<'t> {
 impl Definitions {
     /// The type of this name over the integer `base`. A name that isn't defined is reported.
     pub fn named(&mut self, reader: &mut Reader<'_, '_>, kind: Kind, name: &At<String>, base: Type) -> Option<Type> {
-        let key = (kind, name.value.clone(), base);
-        if let Some(&id) = self.made.get(&key) {
+        let key = (kind, name.value.clone());
+        let made = self.made.get(&key).and_then(|made| made.iter().find(|(own, _)| *own == base));
+        if let Some(&(_, id)) = made {
             return Some(Type::Named(id));
         }
         // The integer that the definition names has its plain name.
@@ -60,8 +63,8 @@ impl Definitions {
         };
         let id = match kind {
             Kind::Enumeration => {
-                let Some((place, table)) = self.enums.iter().find(|(own, _)| own.value == name.value).cloned() else {
-                    let known = self.enums.iter().map(|(own, _)| own.value.as_str());
+                let Some((place, table)) = self.enums.get(&name.value).cloned() else {
+                    let known = self.enums.names().map(|own| own.value.as_str());
                     reader.unresolved("enumeration", &name.value, reader.span(name), known);
                     return None;
                 };
@@ -70,8 +73,8 @@ impl Definitions {
                 self.enumeration(reader, about, base, table.closed, &table.values)
             }
             Kind::Bits => {
-                let Some((place, table)) = self.bits.iter().find(|(own, _)| own.value == name.value).cloned() else {
-                    let known = self.bits.iter().map(|(own, _)| own.value.as_str());
+                let Some((place, table)) = self.bits.get(&name.value).cloned() else {
+                    let known = self.bits.names().map(|own| own.value.as_str());
                     reader.unresolved("bit field", &name.value, reader.span(name), known);
                     return None;
                 };
@@ -80,30 +83,26 @@ impl Definitions {
                 self.bit_field(reader, about, base, (&table.at, table.address))
             }
         };
-        self.made.insert(key, id);
+        self.made.entry(key).or_default().push((base, id));
         Some(Type::Named(id))
     }
 
     /// The integer that a definition names as its base.
     pub fn base(&self, reader: &mut Reader<'_, '_>, kind: Kind, name: &str) -> Option<Type> {
         let base = match kind {
-            Kind::Enumeration => {
-                self.enums.iter().find(|(own, _)| own.value == name).and_then(|(_, t)| t.base.as_ref())
-            }
-            Kind::Bits => self.bits.iter().find(|(own, _)| own.value == name).and_then(|(_, t)| t.base.as_ref()),
+            Kind::Enumeration => self.enums.get(name).and_then(|(_, table)| table.base.as_ref()),
+            Kind::Bits => self.bits.get(name).and_then(|(_, table)| table.base.as_ref()),
         }?;
         integer(reader, base)
     }
 
     /// Makes the definitions that no row uses, so that their mistakes are found and they are part of the output.
     pub fn make_unused(&mut self, reader: &mut Reader<'_, '_>) {
-        let unused = |made: &HashMap<(Kind, String, Type), TypeId>, kind, name: &str| {
-            !made.keys().any(|(own, other, _)| *own == kind && other == name)
-        };
-        let enums = self.enums.iter().map(|(name, _)| (Kind::Enumeration, name.clone()));
-        let all: Vec<_> = enums.chain(self.bits.iter().map(|(name, _)| (Kind::Bits, name.clone()))).collect();
+        let enums = self.enums.names().map(|name| (Kind::Enumeration, name.clone()));
+        let all: Vec<_> = enums.chain(self.bits.names().map(|name| (Kind::Bits, name.clone()))).collect();
         for (kind, name) in all {
-            if unused(&self.made, kind, &name.value) {
+            // One may have been made for another one.
+            if !self.made.contains_key(&(kind, name.value.clone())) {
                 let base = self.base(reader, kind, &name.value).unwrap_or(Type::Unsigned(16));
                 self.named(reader, kind, &name, base);
             }

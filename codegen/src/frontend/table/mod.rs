@@ -24,6 +24,7 @@
 mod alternatives;
 mod at;
 mod bindings;
+mod by_name;
 mod code_tables;
 mod composites;
 mod conditions;
@@ -71,6 +72,7 @@ use crate::ir::{Catalog, Device, Group, GroupKind, ObjectCode};
 use crate::limits::MAX_DERIVED_ITEMS;
 use crate::source::{FileId, Source, Span};
 use at::{At, Entries};
+use by_name::ByName;
 use definitions::Definitions;
 use format::{ChapterTable, DeviceTable, OptionTable, Row};
 use objects::Dictionary;
@@ -277,9 +279,9 @@ impl<'a> Table<'a> {
     /// What rows need: definitions, spaces and defaults.
     fn rows(&mut self, reader: &mut Reader<'a, '_>, buses: Buses) -> Rows {
         let definitions = Definitions {
-            units: self.named(reader, "units"),
-            enums: self.named(reader, "enums"),
-            bits: self.named(reader, "bits"),
+            units: ByName::new(self.named(reader, "units")),
+            enums: ByName::new(self.named(reader, "enums")),
+            bits: ByName::new(self.named(reader, "bits")),
             ..Definitions::default()
         };
         let spaces: Vec<(At<String>, format::SpaceTable)> = self.named(reader, "spaces");

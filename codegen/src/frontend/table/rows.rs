@@ -338,10 +338,8 @@ impl Rows {
         }
         let base = self.underlying(item.ty);
         let mut quantity = item.quantity.take().map_or_else(Quantity::default, |quantity| *quantity);
-        let own = row.unit.as_ref().and_then(|unit| {
-            let mut units = self.definitions.units.iter();
-            units.find(|(name, _)| name.value == unit.value).map(|(_, table)| table.clone())
-        });
+        let own = row.unit.as_ref().and_then(|unit| self.definitions.units.get(&unit.value));
+        let own = own.map(|(_, table)| table.clone());
         if let Some(unit) = &row.unit {
             quantity.unit = match &own {
                 Some(table) => table.symbol.as_deref().unwrap_or_default().into(),
@@ -351,7 +349,7 @@ impl Rows {
             let machine = own.as_ref().and_then(|table| table.machine.as_ref());
             quantity.machine = machine.and_then(|machine| given::unit(reader, machine, &mut self.references));
             if own.is_none() && !super::units::is_known(&unit.value) {
-                let names = self.definitions.units.iter().map(|(name, _)| name.value.as_str());
+                let names = self.definitions.units.names().map(|name| name.value.as_str());
                 let similar = super::tree::similar(&unit.value, names).or_else(|| super::units::usual(&unit.value));
                 let message =
                     format!("`{}` is neither a name of `[units]` nor a unit that is known", brief(&unit.value));

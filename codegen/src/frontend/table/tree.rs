@@ -38,7 +38,7 @@ impl<'a> Reader<'a, '_> {
         let mut last_line = 0;
         for (position, error) in errors.iter().enumerate() {
             let span = self.range(error.span());
-            let line = self.source.position(span.start).line;
+            let line = self.source.line_at(span.start);
             let follows = std::mem::replace(&mut last_line, line) == line || error.span().is_none();
             if position == 0 || !follows {
                 let message = format!("this is no TOML: {}", first_line(error.message()));
@@ -158,7 +158,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     pub fn origin<T>(&self, at: &At<T>) -> Origin {
-        Origin { span: self.span(at), line: self.source.position(at.start).line }
+        Origin { span: self.span(at), line: self.source.line_at(at.start) }
     }
 
     /// A place that can be shown: where nothing is marked, the letter before.

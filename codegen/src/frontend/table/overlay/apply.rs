@@ -177,7 +177,7 @@ impl<'o> Applied<'o> {
                 *own = (*own).max(outcome);
             }
         }
-        let names = self.rows.definitions.made.keys().map(|(kind, name, _)| (*kind, name.clone()));
+        let names = self.rows.definitions.made.keys().cloned();
         self.used.extend(names);
         *place.types = std::mem::take(&mut self.rows.definitions.types);
         name_conditions(place.groups, place.types.get_mut(made..).unwrap_or_default());
@@ -206,11 +206,11 @@ impl<'o> Applied<'o> {
             return;
         }
         let definitions = &self.overlay.patch.definitions;
-        let enums = definitions.enums.iter().map(|(name, _)| (Kind::Enumeration, name));
-        let all = enums.chain(definitions.bits.iter().map(|(name, _)| (Kind::Bits, name)));
+        let enums = definitions.enums.names().map(|name| (Kind::Enumeration, name));
+        let all = enums.chain(definitions.bits.names().map(|name| (Kind::Bits, name)));
         let unused = all.filter(|(kind, name)| !self.used.contains(&(*kind, name.value.clone()))).map(|(_, name)| name);
         let rows = || self.overlay.patch.rows.iter().filter_map(|row| row.row.value.unit.as_ref());
-        let units = definitions.units.iter().map(|(name, _)| name);
+        let units = definitions.units.names();
         let units = units.filter(|name| !rows().any(|unit| unit.value == name.value));
         for name in unused.chain(units) {
             let message = format!("no row of the overlay names `{}`", brief(&name.value));

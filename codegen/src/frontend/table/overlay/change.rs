@@ -214,7 +214,10 @@ impl Applied<'_> {
     /// Takes back types that nothing names.
     fn forget_types(&mut self, length: usize) {
         self.rows.definitions.types.truncate(length);
-        self.rows.definitions.made.retain(|_, id| (id.0 as usize) < length);
+        self.rows.definitions.made.retain(|_, made| {
+            made.retain(|(_, id)| (id.0 as usize) < length);
+            !made.is_empty()
+        });
     }
 
     /// What a row says of an object whose values are its sub-entries.
