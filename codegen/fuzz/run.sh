@@ -20,9 +20,19 @@ seeds() {
     table) find ../../dictionaries ../tests ../../tests -name '*.toml' ;;
     import) find ../tests ../../tests ../../dictionaries -name '*.csv' -o -name '*.tsv' ;;
     macro_input) find seeds/macro_input -type f ;;
+    ir) random ;;
     esac 2>/dev/null | while read -r file; do
         if [[ $(stat -c %s "$file") -le 65536 ]]; then echo "$file"; fi
     done
+}
+
+# A description is drawn from a few kilobytes of anything.
+random() {
+    mkdir -p corpus/random
+    for number in {1..64}; do
+        if [[ ! -e corpus/random/$number ]]; then head -c 4000 /dev/urandom >"corpus/random/$number"; fi
+    done
+    find corpus/random -type f
 }
 
 dictionary() {
@@ -38,6 +48,7 @@ for target in "${targets[@]}"; do
     mkdir -p "corpus/$target"
     seeds "$target" | while read -r file; do cp "$file" "corpus/$target/$(sha1sum "$file" | cut -c1-16)"; done
     options=(-max_total_time="$seconds" -max_len=65536 -timeout=20 -rss_limit_mb=4096 -print_final_stats=1)
+    if [[ $target == ir ]]; then options+=(-len_control=0 -max_len=8192 -timeout=60); fi
     words=$(dictionary "$target")
     if [[ -n $words ]]; then options+=(-dict="$words"); fi
     echo "== $target"

@@ -64,6 +64,82 @@ fn every_edition_of_rust_takes_it() {
     }
 }
 
+/// Types, values, bits and items that are called as generated code's own names are, and as those that every module of Rust has.
+#[test]
+fn names_of_the_prelude_and_of_methods_compile() {
+    let words = [
+        "None",
+        "Some",
+        "Ok",
+        "Err",
+        "Default",
+        "New",
+        "FromRaw",
+        "Option",
+        "Result",
+        "String",
+        "Box",
+        "Self",
+        "Debug",
+        "Eq",
+        "Clone",
+        "Copy",
+        "Into",
+        "From",
+        "Raw",
+        "Unknown",
+        "Bits",
+        "On",
+        "Client",
+        "Send",
+        "Sync",
+        "Drop",
+        "Fn",
+        "Vec",
+        "core",
+        "with command",
+        "new",
+        "from raw",
+        "into",
+        "try into",
+        "clone",
+        "raw",
+        "native",
+        "get",
+        "set",
+        "2nd",
+        "_",
+        "u64",
+    ];
+    let mut table = "lexibus = 1\n[device]\nname = \"New\"\nbuses = [\"modbus\", \"canopen\"]\n\
+                     [spaces.register]\nmodbus = { table = \"holding\" }\n"
+        .to_owned();
+    for (at, word) in words.iter().enumerate() {
+        let other = words[(at + 7) % words.len()];
+        table += &format!("[enums.\"{word}\".values]\n0 = \"{word}\"\n1 = \"{other}\"\n");
+        table += &format!("[bits.\"{word} bits\".at]\n0 = \"{word}\"\n1 = \"{other}\"\n");
+    }
+    table += "[[chapters]]\n[chapters.registers]\n";
+    for (at, word) in words.iter().enumerate() {
+        let (one, other) = (2 * at, 2 * at + 1);
+        table += &format!("\"{word}\" = {{ reg = {one}, type = \"u16\", access = \"rw\", enum = \"{word}\" }}\n");
+        table +=
+            &format!("\"{word} b\" = {{ reg = {other}, type = \"u16\", access = \"rw\", bits = \"{word} bits\" }}\n");
+    }
+    table += "[chapters.objects]\n\"0x2000\" = { name = \"New\", code = \"record\" }\n";
+    for (at, word) in words.iter().enumerate() {
+        let sub = at + 1;
+        table +=
+            &format!("\"0x2000:{sub}\" = {{ name = \"{word}\", type = \"u8\", access = \"rw\", enum = \"{word}\" }}\n");
+    }
+    let options = Options { rust: everything(), ..Options::default() };
+    let compilation = check(Source::new("names.toml", table.into_bytes()), &options);
+    let found: Vec<String> = compilation.diagnostics.list().iter().map(|one| compilation.one_line(one)).collect();
+    let text = compilation.rust(&options.rust).unwrap_or_else(|| panic!("{found:#?}"));
+    compile("names of the prelude", &text).unwrap_or_else(|message| panic!("{message}"));
+    document("names of the prelude", &[&text]).unwrap_or_else(|message| panic!("{message}"));
+}
+
 /// PDOs with fields of every kind: single bits, odd widths, reals, times, texts, padding, more than 64 bits.
 #[test]
 fn pdos_of_every_shape_compile() {
