@@ -67,18 +67,10 @@ fn run_all(bindings: Vec<(String, String)>) -> found::Counts {
         }
         programs.last_mut().expect("a program").add(name, &found::needed(text), &found);
     }
-    let (queue, failures) = (Mutex::new(programs.into_iter()), Mutex::new(Vec::new()));
-    let work = || {
-        while let Some(program) = { queue.lock().expect("the queue").next() } {
-            if let Err(message) = program.run() {
-                failures.lock().expect("the failures").push(message);
-            }
-        }
-    };
-    std::thread::scope(|scope| {
-        (0..std::thread::available_parallelism().map_or(1, usize::from)).for_each(|_| {
-            scope.spawn(work);
-        });
+    let failures = Mutex::new(Vec::new());
+    corpus_support::bindings::on_all_processors(programs, |program| {
+        let outcome = program.run();
+        failures.lock().expect("the failures").extend(outcome.err());
     });
     let failures = failures.into_inner().expect("the failures");
     assert!(failures.is_empty(), "{}", failures.join("\n\n"));

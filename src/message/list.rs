@@ -200,6 +200,10 @@ impl SettingsRule {
     /// Where the number has more bits, the parameter's values have another length, or there is no room.
     pub fn write(&self, setting: &Setting, to: &mut Writer<'_>) -> Result<(), WriteError> {
         self.takes(setting)?;
+        self.put(setting, to)
+    }
+
+    fn put(&self, setting: &Setting, to: &mut Writer<'_>) -> Result<(), WriteError> {
         self.write_code(setting.parameter, to)?;
         to.value(self.order, setting.value())
     }
@@ -287,7 +291,7 @@ impl<'a> Settings<'a> {
     /// values have another length, or there is no room.
     pub fn write(&self, to: &mut Writer<'_>) -> Result<(), WriteError> {
         self.iter().try_for_each(|own| match self.rule.takes(&own)? {
-            true => self.rule.write(&own, to),
+            true => self.rule.put(&own, to),
             false => Err(WriteError::NoMessage),
         })
     }

@@ -184,8 +184,7 @@ impl<'b> Writer<'b> {
     ///
     /// Where there is no room for them, or the request is shorter.
     pub fn echo(&mut self, request: &[u8], first: usize, count: usize) -> Result<(), WriteError> {
-        let end = first.saturating_add(count);
-        self.bytes(request.get(first..end).ok_or(LengthError::new(end, request.len()))?)
+        self.bytes(part(request, first, count)?)
     }
 
     /// Whether the bytes from `at` on are `count` bytes of the request, from `first` on: a reply about another parameter is no reply
@@ -195,8 +194,7 @@ impl<'b> Writer<'b> {
     ///
     /// [`OutOfRange`] where they differ, [`LengthError`] where the request is shorter.
     pub fn same(&self, at: usize, request: &[u8], first: usize, count: usize) -> Result<(), WriteError> {
-        let end = first.saturating_add(count);
-        let expected = request.get(first..end).ok_or(LengthError::new(end, request.len()))?;
+        let expected = part(request, first, count)?;
         match self.written().get(at..at.saturating_add(count)) == Some(expected) {
             true => Ok(()),
             false => Err(OutOfRange.into()),
@@ -230,6 +228,12 @@ impl<'b> Writer<'b> {
         self.room(count)?.iter_mut().zip(own.iter().chain(core::iter::repeat(&0))).for_each(|(to, from)| *to = *from);
         Ok(())
     }
+}
+
+/// `count` bytes of the request, from `first` on.
+fn part(request: &[u8], first: usize, count: usize) -> Result<&[u8], LengthError> {
+    let end = first.saturating_add(count);
+    request.get(first..end).ok_or(LengthError::new(end, request.len()))
 }
 
 #[cfg(test)]

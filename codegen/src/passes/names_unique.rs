@@ -261,6 +261,12 @@ fn transliteration(letter: char) -> &'static str {
     }
 }
 
+/// `name` behind a prefix that is a word of its own, such as `set_`: without what keywords, and names that start with a digit, have in
+/// front.
+pub fn prefixed(prefix: &str, name: &str) -> String {
+    format!("{prefix}{}", name.trim_start_matches("r#").trim_start_matches('_'))
+}
+
 /// `name` as it has to be written where an identifier is wanted: raw where it is a keyword of any edition.
 pub fn escaped(name: &str) -> String {
     const KEYWORDS: [&str; 48] = [
@@ -327,6 +333,12 @@ mod tests {
         assert_eq!(got, ["a_chapter_speed_64", "a_other", "object_ss_2", "new_other", "new_other_other"]);
         let wishes = [Wish::new("A 2", "object", "U64"), Wish::new("a2", "object", "7")];
         assert_eq!(unique(&wishes, &[], Case::Pascal), ["A2U64", "A2_7"], "camel case has lines between digits only");
+    }
+
+    #[test]
+    fn prefixes_stand_in_front_of_words() {
+        let got = ["speed", "_2nd", "r#type"].map(|name| prefixed("set_", name));
+        assert_eq!(got, ["set_speed", "set_2nd", "set_type"]);
     }
 
     #[test]

@@ -32,8 +32,7 @@ pub fn compile_in(edition: &str, name: &str, bindings: &str) -> Result<(), Strin
     for path in [&module, &root, &stem.with_extension("rmeta")] {
         let _ = std::fs::remove_file(path);
     }
-    let first = |text: String| text.lines().take(40).collect::<Vec<_>>().join("\n");
-    result.map_err(|text| format!("{name} doesn't compile:\n{}", first(text)))
+    result.map_err(|text| format!("{name} doesn't compile:\n{}", start(&text)))
 }
 
 /// Compiles modules, each with its name, as those of one crate: that takes less time than a crate each. What their `cfg` ask for is
@@ -131,8 +130,7 @@ fn documented<T>(name: &str, bindings: &[&str], read: impl FnOnce(&Path) -> T) -
     }
     let _ = std::fs::remove_dir_all(&folder);
     let text = String::from_utf8_lossy(&output.stderr);
-    result
-        .ok_or_else(|| format!("{name} can't be documented:\n{}", text.lines().take(40).collect::<Vec<_>>().join("\n")))
+    result.ok_or_else(|| format!("{name} can't be documented:\n{}", start(&text)))
 }
 
 /// Compiles `text` as a program that uses the runtime, and runs it.
@@ -161,7 +159,12 @@ pub fn run(name: &str, text: &str) -> Result<(), String> {
         return Ok(());
     }
     let text = String::from_utf8_lossy(&output.stderr);
-    Err(format!("{name}:\n{}", text.lines().take(40).collect::<Vec<_>>().join("\n")))
+    Err(format!("{name}:\n{}", start(&text)))
+}
+
+/// What a compiler said first.
+fn start(text: &str) -> String {
+    text.lines().take(40).collect::<Vec<_>>().join("\n")
 }
 
 /// The start of a name for temporary files, which no other test has.

@@ -35,33 +35,44 @@ fn texts(compilation: &Compilation, options: &Options) -> Vec<String> {
 ///
 /// With the first failures, and where a file is rejected without a reason.
 pub fn each(files: Vec<File>, options: &Options, test: impl Fn(&str, &str) -> Result<(), String> + Sync) -> usize {
-    let queue = Mutex::new(files.into_iter());
     let (seen, failures) = (Mutex::new(HashSet::new()), Mutex::new(Vec::new()));
-    let work = || {
-        while let Some(File { name, bytes }) = { queue.lock().expect("the queue").next() } {
-            let compilation = check(Source::new(name.as_str(), bytes), options);
-            let texts = texts(&compilation, options);
-            let nothing_to_say = texts.is_empty() && !compilation.diagnostics.has_errors();
-            assert!(!nothing_to_say || is_silent(&compilation), "{name}: rejected in silence");
-            for text in texts {
-                let is_new = seen.lock().expect("what was seen").insert(body(&text).to_owned());
-                if !is_new {
-                    continue;
-                }
-                if let Err(message) = test(&name, &text) {
-                    failures.lock().expect("the failures").push(message);
-                }
+    on_all_processors(files, |File { name, bytes }| {
+        let compilation = check(Source::new(name.as_str(), bytes), options);
+        let texts = texts(&compilation, options);
+        let nothing_to_say = texts.is_empty() && !compilation.diagnostics.has_errors();
+        assert!(!nothing_to_say || is_silent(&compilation), "{name}: rejected in silence");
+        for text in texts {
+            let is_new = seen.lock().expect("what was seen").insert(body(&text).to_owned());
+            if !is_new {
+                continue;
+            }
+            if let Err(message) = test(&name, &text) {
+                failures.lock().expect("the failures").push(message);
             }
         }
-    };
-    std::thread::scope(|scope| {
-        (0..std::thread::available_parallelism().map_or(1, usize::from)).for_each(|_| {
-            scope.spawn(work);
-        });
     });
     let failures = failures.into_inner().expect("the failures");
     assert!(failures.is_empty(), "{} fail:\n{}", failures.len(), failures[..failures.len().min(20)].join("\n\n"));
     seen.into_inner().expect("what was seen").len()
+}
+
+/// Does `work` with each of `all`, on all processors.
+///
+/// # Panics
+///
+/// As `work` does.
+pub fn on_all_processors<T: Send>(all: Vec<T>, work: impl Fn(T) + Sync) {
+    let queue = Mutex::new(all.into_iter());
+    let one_by_one = || {
+        while let Some(own) = { queue.lock().expect("the queue").next() } {
+            work(own);
+        }
+    };
+    std::thread::scope(|scope| {
+        (0..std::thread::available_parallelism().map_or(1, usize::from)).for_each(|_| {
+            scope.spawn(one_by_one);
+        });
+    });
 }
 
 /// A file of nothing but texts of diagnosis describes no device.

@@ -4,10 +4,9 @@ use lexibus_codegen::compile::check;
 use lexibus_codegen::ir::{Access, Device, Extension, Group, Item, ObjectCode, Type, Value};
 
 use super::corpus_support::round_trip::{options, source};
-use super::corpus_support::{files_of, folder_of};
 use super::eds_reasons::{reason, rejection, Case, REASONS};
 use super::facts::{put, put_flag, put_some, real, Elements, Facts};
-use super::peer::{ask, python};
+use super::peer::answers;
 use super::tally::Tally;
 
 /// The node-ID where the file gives the device none; the script has the same.
@@ -15,11 +14,9 @@ const NODE_ID: u8 = 5;
 
 #[test]
 fn canopen_reads_the_same_facts() {
-    let (Some(python), Some(files), Some(folder)) = (python(), files_of("eds"), folder_of("eds")) else { return };
-    let paths: Vec<_> = files.iter().map(|file| folder.join(&file.name)).collect();
-    let answers = ask(python, "eds.py", &paths);
+    let Some(answers) = answers("eds") else { return };
     let mut tally = Tally::new("EDS", REASONS);
-    for (file, answer) in files.iter().zip(&answers) {
+    for (file, answer) in &answers {
         let compilation = check(source(file), &options());
         for error in &answer.errors {
             tally.rejected(&file.name, error, rejection(file, error));

@@ -6,21 +6,18 @@ use lexibus_codegen::ir::{
 };
 
 use super::corpus_support::round_trip::{options, source};
-use super::corpus_support::{files_of, folder_of};
 use super::esi_objects::{data_types, objects};
 use super::esi_reasons::{reason, rejection, Case, REASONS};
 use super::facts::{put, put_flag, put_number, put_some, Elements, Facts};
-use super::peer::{ask, python};
+use super::peer::answers;
 use super::tally::Tally;
 use super::values::{hex, type_name};
 
 #[test]
 fn xpath_reads_the_same_facts_from_esi() {
-    let (Some(python), Some(files), Some(folder)) = (python(), files_of("esi"), folder_of("esi")) else { return };
-    let paths: Vec<_> = files.iter().map(|file| folder.join(&file.name)).collect();
-    let answers = ask(python, "esi.py", &paths);
+    let Some(answers) = answers("esi") else { return };
     let mut tally = Tally::new("ESI", REASONS);
-    for (file, answer) in files.iter().zip(&answers) {
+    for (file, answer) in &answers {
         let compilation = check(source(file), &options());
         for error in &answer.errors {
             tally.rejected(&file.name, error, rejection(error));

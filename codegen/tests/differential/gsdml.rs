@@ -7,21 +7,18 @@ use lexibus_codegen::ir::{
 };
 
 use super::corpus_support::round_trip::{options, source};
-use super::corpus_support::{files_of, folder_of};
 use super::facts::{put, put_some, Elements, Facts};
 use super::gsdml_data::{body, io_data, menus, records};
 use super::gsdml_reasons::{reason, rejection, Case, REASONS};
-use super::peer::{ask, python};
+use super::peer::answers;
 use super::tally::Tally;
 use super::values::{numbers, put_names, type_name};
 
 #[test]
 fn xpath_reads_the_same_facts_from_gsdml() {
-    let (Some(python), Some(files), Some(folder)) = (python(), files_of("gsdml"), folder_of("gsdml")) else { return };
-    let paths: Vec<_> = files.iter().map(|file| folder.join(&file.name)).collect();
-    let answers = ask(python, "gsdml.py", &paths);
+    let Some(answers) = answers("gsdml") else { return };
     let mut tally = Tally::new("GSDML", REASONS);
-    for (file, answer) in files.iter().zip(&answers) {
+    for (file, answer) in &answers {
         let compilation = check(source(file), &options());
         for error in &answer.errors {
             tally.rejected(&file.name, error, rejection(&compilation));

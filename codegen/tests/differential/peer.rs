@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 
 use serde::Deserialize;
 
+use super::corpus_support::{files_of, folder_of, File};
 use super::facts::Elements;
 
 /// What a reader says of one file.
@@ -20,7 +21,7 @@ pub struct Answer {
 
 /// The Python that `tests/interop/setup.sh` made, or the one that `LEXIBUS_PYTHON` names; `None`, with a message, where it
 /// lacks what the scripts need.
-pub fn python() -> Option<&'static Path> {
+fn python() -> Option<&'static Path> {
     static PYTHON: OnceLock<Option<PathBuf>> = OnceLock::new();
     let python = PYTHON.get_or_init(|| {
         let own = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/python/bin/python");
@@ -34,8 +35,16 @@ pub fn python() -> Option<&'static Path> {
     python.as_deref()
 }
 
+/// The files of a format, each with what its script says of it; `None`, with a message, where the corpus or Python isn't there.
+pub fn answers(format: &str) -> Option<Vec<(File, Answer)>> {
+    let (python, files, folder) = (python()?, files_of(format)?, folder_of(format)?);
+    let paths: Vec<_> = files.iter().map(|file| folder.join(&file.name)).collect();
+    let answers = ask(python, &format!("{format}.py"), &paths);
+    Some(files.into_iter().zip(answers).collect())
+}
+
 /// What `script` says of each of `paths`.
-pub fn ask(python: &Path, script: &str, paths: &[PathBuf]) -> Vec<Answer> {
+fn ask(python: &Path, script: &str, paths: &[PathBuf]) -> Vec<Answer> {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/differential").join(script);
     let mut command = Command::new(python);
     command.arg("-X").arg("utf8").arg(script).args(paths).env("PYTHONDONTWRITEBYTECODE", "1");

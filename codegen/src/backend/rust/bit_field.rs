@@ -354,7 +354,7 @@ struct Context<'c, 's> {
 
 impl Context<'_, '_> {
     fn native_bits(&self) -> u32 {
-        self.native[1..].parse().unwrap_or(64)
+        native_bits(self.native)
     }
 
     /// The fields that have their meaning under `condition`. The table shows `link` of their names.
@@ -384,7 +384,7 @@ impl Context<'_, '_> {
         let names = names_unique::unique(&wishes, reserved, Case::Snake);
         let mut taken = names.clone();
         let fields = entries.iter().zip(&names).map(|(entry, name)| {
-            let setter = beside(&taken, format!("with_{}", name.trim_start_matches('_')));
+            let setter = beside(&taken, names_unique::prefixed("with_", name));
             taken.push(setter.clone());
             self.field(entry, name, setter, link(name))
         });

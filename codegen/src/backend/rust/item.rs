@@ -141,7 +141,7 @@ impl<'s> ItemType<'s> {
     fn word(&self) -> String {
         match (self.named, &self.quantity) {
             // A name that begins with a digit has a `_` in front, which no name in camel case has within.
-            (Some(name), _) => format!("Named{}", name.trim_start_matches('_')),
+            (Some(name), _) => names_unique::prefixed("Named", name),
             (None, Some(quantity)) => quantity.word.clone(),
             (None, None) => self.basic.word(),
         }

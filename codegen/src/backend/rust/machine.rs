@@ -93,6 +93,11 @@ pub(super) fn methods(machines: &[StateMachine]) -> Vec<[String; 2]> {
     machines.iter().map(|_| [methods.next().unwrap_or_default(), methods.next().unwrap_or_default()]).collect()
 }
 
+/// The method that gives a command, by its name in [`methods`].
+pub(super) fn setter(command: &str) -> String {
+    names_unique::prefixed("with_", command)
+}
+
 pub(super) fn models(
     scope: &Scope<'_>,
     machines: &[StateMachine],
@@ -107,7 +112,7 @@ pub(super) fn models(
         // The values of an enumeration have a type already.
         let own_states = if machine.state_type.is_some() { &[] } else { machine.states.as_slice() };
         let mut states = patterns(states, own_states, &machine.status_item, state);
-        let method = format!("with_{}", command.trim_start_matches('_'));
+        let method = setter(&command);
         let mut commands = patterns(commands, &machine.commands, &machine.control_item, method);
         let transitions = states
             .as_ref()

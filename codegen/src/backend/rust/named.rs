@@ -121,8 +121,7 @@ pub(super) fn types(scope: &Scope<'_>, machines: &[StateMachine], options: &Rust
 
     let mut machine_methods = Vec::new();
     for [state, command] in machine::methods(machines) {
-        machine_methods.push(format!("with_{}", command.trim_start_matches('_')));
-        machine_methods.extend([state, command]);
+        machine_methods.extend([machine::setter(&command), state, command]);
     }
     for ((&at, name), (views, view_names)) in bit_fields.iter().zip(own_names).zip(conditions.iter().zip(view_names)) {
         let views = (views.as_slice(), view_names);

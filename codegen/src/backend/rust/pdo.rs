@@ -321,7 +321,7 @@ fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry]) -> Vec<FieldModel> {
         let is_taken = TAKEN.contains(&name.as_str());
         field.getter = if is_taken { format!("{name}_") } else { field.name.clone() };
         // A name that starts with a digit has a line in front of it already.
-        field.setter = beside(&names, format!("set_{}", name.trim_start_matches('_')));
+        field.setter = beside(&names, names_unique::prefixed("set_", name));
     }
     fields
 }

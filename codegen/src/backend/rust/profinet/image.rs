@@ -170,7 +170,7 @@ impl FieldModel {
 
     /// The name of its setter.
     pub(super) fn setter(&self) -> String {
-        format!("set_{}", self.name.trim_start_matches("r#").trim_start_matches('_'))
+        names_unique::prefixed("set_", &self.name)
     }
 }
 
