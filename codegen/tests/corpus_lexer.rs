@@ -87,8 +87,8 @@ fn ours(document: &Document<'_>) -> Sections {
     for section in document.sections() {
         let entries = sections.entry(document.name(section).to_lowercase()).or_default();
         for entry in document.entries(section) {
-            if !e20_e61_is_comment(document, entry) {
-                entries.insert(document.key(entry).to_lowercase(), document.value(entry).to_owned());
+            if !e20_e61_is_comment(document, &entry) {
+                entries.insert(document.key(&entry).to_lowercase(), document.value(&entry).to_owned());
             }
         }
     }
@@ -97,7 +97,8 @@ fn ours(document: &Document<'_>) -> Sections {
 
 /// The lines that the lexer reports as `oddity`.
 fn odd<'a>(document: &Document<'_>, source: &'a Source, oddity: Oddity) -> Vec<(u32, &'a str)> {
-    let of_kind = document.oddities().iter().filter(|(kind, _)| *kind == oddity);
+    let oddities = document.oddities();
+    let of_kind = oddities.iter().filter(|(kind, _)| *kind == oddity);
     of_kind.map(|(_, span)| (source.position(span.start).line, source.slice(*span))).collect()
 }
 
@@ -148,8 +149,8 @@ fn first_difference(name: &str, ours: &BTreeMap<String, String>, theirs: &BTreeM
 fn e27_e28_each_line(source: &Source) -> Result<usize, String> {
     let document = Document::parse(source.text(), FileId(0));
     let mut ours = document.sections().iter().flat_map(|section| {
-        let own = document.entries(section).iter().filter(|entry| !document.is_comment(entry));
-        let line = |entry: &Entry| (entry.line, document.key(entry).to_lowercase(), document.value(entry).to_owned());
+        let own = document.entries(section).filter(|entry| !document.is_comment(entry));
+        let line = |entry: Entry| (entry.line, document.key(&entry).to_lowercase(), document.value(&entry).to_owned());
         std::iter::once((section.line, document.name(section).to_lowercase(), String::new())).chain(own.map(line))
     });
     let mut compared = 0;
@@ -239,9 +240,13 @@ fn comment_lines_and_hash_lines_are_all_accounted_for() {
         let text = file.text();
         let all = lines(&text);
         let marked = |mark| all.iter().zip(1u32..).filter(move |((_, line), _)| trimmed(line).starts_with(mark));
-        let own = document.sections().iter().flat_map(|section| document.entries(section)).chain(document.preamble());
+        let own = document
+            .sections()
+            .iter()
+            .flat_map(|section| document.entries(section))
+            .chain(document.preamble().iter().copied());
         let ours: BTreeSet<(u32, &str)> =
-            own.filter(|entry| document.is_comment(entry)).map(|entry| (entry.line, document.value(entry))).collect();
+            own.filter(|entry| document.is_comment(entry)).map(|entry| (entry.line, document.value(&entry))).collect();
         let behind_header = |line: &str| {
             header(line).map(|(_, rest)| trimmed(rest.trim_start_matches([';', '#']))).unwrap_or("").to_owned()
         };

@@ -114,7 +114,8 @@ fn code_of_an_image() {
     assert_eq!((mode.type_on("canopen"), mode.access_on("canopen")), (Type::Integer(8), Access::WriteOnly));
     assert_eq!((mode.type_on("modbus"), mode.access_on("modbus")), (Type::Integer(32), Access::ReadWrite));
     assert!(mode.limits_on("canopen").is_some() && mode.limits_on("modbus").is_none());
-    let is_narrow = |own: &Binding| matches!(own, Binding::Image { bits: 8, ty: Some(Type::Integer(8)), .. });
+    let is_narrow =
+        |own: &Binding| matches!(own, Binding::Image(own) if own.bits == 8 && own.ty == Some(Type::Integer(8)));
     assert!(mode.bindings.iter().any(is_narrow));
 }
 

@@ -1,7 +1,9 @@
 //! What register tables say of messages, process images, state machines and procedures.
 
 use lexibus_codegen::compile::{check, Compilation, Options};
-use lexibus_codegen::ir::{Binding, Completion, Device, Direction, GroupKind, MessageField, Shape, Step, Type, Value};
+use lexibus_codegen::ir::{
+    Binding, Completion, Device, Direction, GroupKind, ImageBinding, MessageField, Shape, Step, Type, Value,
+};
 use lexibus_codegen::source::Source;
 
 mod table_support;
@@ -129,7 +131,8 @@ fn images_have_items_and_fields_of_their_own() {
     let own = device.groups.iter().find(|group| matches!(group.kind, GroupKind::Image { .. })).expect("a group");
     assert_eq!(own.items.iter().map(|item| item.name.as_str()).collect::<Vec<_>>(), ["ready", "text"]);
     let speed = device.groups.iter().flat_map(|group| &group.items).find(|item| item.name == "Speed").expect("it");
-    assert_eq!(speed.bindings[1], Binding::Image { image: "in".into(), bit_offset: 8, bits: 16, ty: None });
+    let image = ImageBinding { image: "in".into(), bit_offset: 8, bits: 16, ty: None };
+    assert_eq!(speed.bindings[1], Binding::Image(Box::new(image)));
 }
 
 #[test]

@@ -57,7 +57,7 @@ fn address(binding: &Binding) -> String {
             format!("{:?} {:05}{bit}", own.space, own.address).to_lowercase()
         }
         Binding::Record { index, bit_offset, .. } => format!("record 0x{index:04X} bit {bit_offset:05}"),
-        Binding::Image { image, bit_offset, .. } => format!("{image} bit {bit_offset:05}"),
+        Binding::Image(own) => format!("{} bit {:05}", own.image, own.bit_offset),
         Binding::Parameter { space, code } => format!("{space} 0x{code:04X}"),
         Binding::Ascii(name) => name.to_string(),
         Binding::EscMemory { address, .. } => format!("memory 0x{address:04X}"),

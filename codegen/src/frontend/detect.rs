@@ -136,7 +136,7 @@ fn ini(source: &Source, file: FileId) -> Result<Format, Box<Diagnostic>> {
             .iter()
             .any(|known| known.eq_ignore_ascii_case(name));
         dcf |= name.eq_ignore_ascii_case("FileInfo")
-            && doc.entries(section).iter().any(|entry| doc.key(entry).eq_ignore_ascii_case("LastEDS"));
+            && doc.entries(section).any(|entry| doc.key(&entry).eq_ignore_ascii_case("LastEDS"));
     }
     if let (Some(span), false) = (cip, canopen) {
         return Err(Box::new(

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Condition, Documentation, Doubt, Scale, Texts, Type, Value};
+use super::{CompactString, Condition, Documentation, Doubts, Scale, Texts, Type, Value};
 use crate::source::{Origin, Span};
 
 /// Access rights of an item, seen from the bus (CiA 306; ETG.2000 Flags/Access).
@@ -116,17 +116,7 @@ pub enum Binding {
         bits: u32,
     },
     /// Bits of a fixed process image.
-    Image {
-        /// Name of the image.
-        image: CompactString,
-        /// First bit.
-        bit_offset: u32,
-        /// Number of bits.
-        bits: u32,
-        /// The type that the value has there, where it isn't the item's.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        ty: Option<Type>,
-    },
+    Image(Box<ImageBinding>),
     /// A numbered parameter in a named space, reached by messages.
     Parameter {
         /// The space.
@@ -232,6 +222,20 @@ pub enum RegisterSpace {
     Holding,
 }
 
+/// Bits of a fixed process image.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ImageBinding {
+    /// Name of the image.
+    pub image: CompactString,
+    /// First bit.
+    pub bit_offset: u32,
+    /// Number of bits.
+    pub bits: u32,
+    /// The type that the value has there, where it isn't the item's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ty: Option<Type>,
+}
+
 /// Access through a window: the number of the item is written to one item, and its value read or written through another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct IndirectBinding {
@@ -334,7 +338,7 @@ pub struct GivenNumber {
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
     /// Contradictions of the source.
-    pub doubts: Vec<Doubt>,
+    pub doubts: Doubts,
     /// Where it is declared.
     pub origin: Origin,
 }

@@ -1,6 +1,7 @@
 //! The top of the IR: a catalogue, the files it came from, and what every element shares.
 
 use serde::{Deserialize, Serialize};
+use thin_vec::ThinVec;
 
 use super::{
     CodeTable, CompactString, Device, Family, Graphic, Module, ModuleId, ModuleUse, Places, Submodule, Texts, TypeDef,
@@ -30,7 +31,7 @@ pub struct Catalog {
     /// Pictures that devices and modules refer to.
     pub graphics: Vec<Graphic>,
     /// What the source says beyond that.
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
 }
 
 impl Catalog {
@@ -107,6 +108,12 @@ pub struct Extension {
     /// Where it stands.
     pub span: Span,
 }
+
+/// Most elements have none, so that an empty list takes one pointer.
+pub type Extensions = ThinVec<Extension>;
+
+/// Most elements have none, so that an empty list takes one pointer.
+pub type Doubts = ThinVec<Doubt>;
 
 /// A place where the source contradicts itself or leaves something open, and what was made of it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    CodeTable, CompactString, Composite, Documentation, Doubt, EtherCatSettings, Extension, Framing, Group, Message,
+    CodeTable, CompactString, Composite, Documentation, Doubts, EtherCatSettings, Extensions, Framing, Group, Message,
     Module, ModuleUse, Procedure, ProcessData, ProfinetSettings, RegisterSpace, Slot, StateMachine, SubmoduleUse,
     Texts, TypeDef, Value,
 };
@@ -80,9 +80,9 @@ pub struct Device {
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
     /// Contradictions of the source.
-    pub doubts: Vec<Doubt>,
+    pub doubts: Doubts,
     /// What the source says beyond that.
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
     /// Where it is declared.
     pub origin: Origin,
 }

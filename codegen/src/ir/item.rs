@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 use smallvec::SmallVec;
+use thin_vec::ThinVec;
 
 use super::{
-    Access, Availability, Behaviour, Binding, CompactString, Documentation, Doubt, Extension, ItemVariant, Limits,
+    Access, Availability, Behaviour, Binding, CompactString, Documentation, Doubts, Extensions, ItemVariant, Limits,
     Mappable, Quantity, Texts, Type, Value,
 };
 use crate::source::{Origin, Span};
@@ -29,8 +30,8 @@ pub struct Item {
     /// The values it may have, where the source says so; else all of its type.
     pub limits: Limits,
     /// What differs between models or buses, in the order of the source.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub variants: Vec<ItemVariant>,
+    #[serde(default, skip_serializing_if = "ThinVec::is_empty")]
+    pub variants: ThinVec<ItemVariant>,
     /// What a DCF or XDC sets for this one device.
     pub configured: Option<Box<Configured>>,
     /// Unit and scale.
@@ -46,9 +47,9 @@ pub struct Item {
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
     /// Contradictions of the source.
-    pub doubts: Vec<Doubt>,
+    pub doubts: Doubts,
     /// What the source says beyond that.
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
     /// Where it is declared.
     pub origin: Origin,
     /// Where its facts stand.
@@ -67,7 +68,7 @@ impl Item {
             mappable: Mappable::default(),
             default: None,
             limits: Limits::default(),
-            variants: Vec::new(),
+            variants: ThinVec::new(),
             configured: None,
             quantity: None,
             behaviour: None,
@@ -75,8 +76,8 @@ impl Item {
             shared_by_axes: false,
             flags: 0,
             documentation: None,
-            doubts: Vec::new(),
-            extensions: Vec::new(),
+            doubts: Doubts::new(),
+            extensions: Extensions::new(),
             origin: Origin::default(),
             at: ItemSpans::default(),
         }
@@ -183,9 +184,9 @@ pub struct Group {
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
     /// Contradictions of the source.
-    pub doubts: Vec<Doubt>,
+    pub doubts: Doubts,
     /// What the source says beyond that.
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
     /// Where it is declared.
     pub origin: Origin,
     /// Where its name stands.
@@ -206,8 +207,8 @@ impl Group {
             depends_on_slot_group: false,
             described: 0,
             documentation: None,
-            doubts: Vec::new(),
-            extensions: Vec::new(),
+            doubts: Doubts::new(),
+            extensions: Extensions::new(),
             origin: Origin::default(),
             name_at: Span::default(),
         }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Availability, CompactString, Direction, Documentation, Texts, Value};
+use super::{Availability, CompactString, Direction, Documentation, SharedList, Texts, Value};
 use crate::source::{Origin, Span};
 
 /// A state machine.
@@ -18,14 +18,14 @@ pub struct StateMachine {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state_type: Option<CompactString>,
     /// States, by the bits of the status item; with a `state_type`, one for each of its values.
-    pub states: Vec<Pattern>,
+    pub states: SharedList<Pattern>,
     /// The state after power-on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub initial: Option<CompactString>,
     /// Commands, by the bits of the control item.
-    pub commands: Vec<Pattern>,
+    pub commands: SharedList<Pattern>,
     /// From which state to which.
-    pub transitions: Vec<Transition>,
+    pub transitions: SharedList<Transition>,
     /// What commands do in each state, where the source has a table of that.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outcomes: Vec<CommandOutcomes>,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Availability, CompactString, Condition, Documentation, Doubt, Item, Texts, Value};
+use super::{Availability, CompactString, Condition, Documentation, Doubts, Item, SharedList, Texts, Value};
 use crate::source::{Origin, Span};
 
 /// A request and its reply.
@@ -42,7 +42,7 @@ pub struct Message {
     /// What the source says about it.
     pub documentation: Option<Box<Documentation>>,
     /// Contradictions of the source.
-    pub doubts: Vec<Doubt>,
+    pub doubts: Doubts,
     /// Where it is declared.
     pub origin: Origin,
 }
@@ -238,7 +238,7 @@ pub struct CodeTable {
     /// Names of the columns beside code and meaning.
     pub columns: Vec<CompactString>,
     /// Its rows.
-    pub rows: Vec<CodeRow>,
+    pub rows: SharedList<CodeRow>,
     /// The only buses on which its codes mean this; all of them where it is empty.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub buses: Vec<CompactString>,

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    CompactString, Documentation, Extension, Group, Identity, InitCommand, Item, Numbers, Places, ProcessData,
+    CompactString, Documentation, Extensions, Group, Identity, InitCommand, Item, Numbers, Places, ProcessData,
     SubmoduleUse, SubslotName, Texts, TypeDef,
 };
 use crate::source::Origin;
@@ -106,7 +106,7 @@ pub struct Module {
     /// Device profiles that it follows, by number.
     pub profiles: Vec<u32>,
     /// What the source says beyond that.
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
     /// Where it is declared.
     pub origin: Origin,
 }

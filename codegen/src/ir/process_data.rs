@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Documentation, Doubt, Extension, ObjectBuses, Texts, Type, Value};
+use super::{CompactString, Documentation, Doubts, Extensions, ObjectBuses, Texts, Type, Value};
 use crate::source::Origin;
 
 /// Cyclic data of a device or a module.
@@ -95,10 +95,10 @@ pub struct Pdo {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub documentation: Option<Box<Documentation>>,
     /// Contradictions of the source.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub doubts: Vec<Doubt>,
+    #[serde(default, skip_serializing_if = "Doubts::is_empty")]
+    pub doubts: Doubts,
     /// What the source says beyond that.
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
     /// The buses on which it is mapped so; all those of the device where none is said.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub buses: Option<ObjectBuses>,
@@ -133,8 +133,8 @@ impl Pdo {
             names: Texts::default(),
             max_bytes: None,
             documentation: None,
-            doubts: Vec::new(),
-            extensions: Vec::new(),
+            doubts: Doubts::new(),
+            extensions: Extensions::new(),
             buses: None,
             implicit: false,
             origin: Origin::default(),

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CompactString, Documentation, Extension, Group, Identity, Places, ProcessImage, Texts, TypeId};
+use super::{CompactString, Documentation, Extensions, Group, Identity, Places, ProcessImage, Texts, TypeId};
 use crate::source::Origin;
 
 /// Position of a [`Submodule`] in [`Catalog::submodules`](super::Catalog::submodules).
@@ -119,7 +119,7 @@ pub struct Submodule {
     /// Whether it may be pulled while the device runs; and further attributes, as the source spells them.
     pub attributes: Vec<(CompactString, CompactString)>,
     /// What the source says beyond that.
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
     /// Where it is declared.
     pub origin: Origin,
 }
@@ -269,7 +269,7 @@ pub struct UnitDiagnosis {
     /// Its fields.
     pub fields: Vec<UnitDiagnosisField>,
     /// What the source says beyond that.
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
     /// Where it is declared.
     pub origin: Origin,
 }

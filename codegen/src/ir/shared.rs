@@ -10,45 +10,85 @@ use smallvec::SmallVec;
 use super::{CompactString, LocalText};
 use crate::source::{Origin, Span};
 
-/// A text in further languages. Copies share one list: a device of 50,000 parameters names many of them alike.
-#[derive(Clone, Default, PartialEq, Eq)]
-pub struct Texts(Option<Arc<[LocalText]>>);
+/// A list whose copies share it until one of them is changed: a device of 50,000 parameters names many of them alike, and every
+/// drive has the codes and states that its profile gives it. An empty one takes no memory.
+pub struct SharedList<T>(Option<Arc<Vec<T>>>);
 
-impl Deref for Texts {
-    type Target = [LocalText];
+/// A text in further languages.
+pub type Texts = SharedList<LocalText>;
 
-    fn deref(&self) -> &[LocalText] {
-        self.0.as_deref().unwrap_or(&[])
+impl<T: Clone> SharedList<T> {
+    /// The list of this copy alone, to be changed.
+    pub fn to_mut(&mut self) -> &mut Vec<T> {
+        Arc::make_mut(self.0.get_or_insert_with(Arc::default))
     }
 }
 
-impl From<Vec<LocalText>> for Texts {
-    fn from(list: Vec<LocalText>) -> Self {
-        Texts((!list.is_empty()).then(|| list.into()))
+impl<T> Clone for SharedList<T> {
+    fn clone(&self) -> Self {
+        SharedList(self.0.clone())
     }
 }
 
-impl FromIterator<LocalText> for Texts {
-    fn from_iter<I: IntoIterator<Item = LocalText>>(list: I) -> Self {
+impl<T> Default for SharedList<T> {
+    fn default() -> Self {
+        SharedList(None)
+    }
+}
+
+impl<T> Deref for SharedList<T> {
+    type Target = [T];
+
+    fn deref(&self) -> &[T] {
+        self.0.as_ref().map_or(&[], |list| list.as_slice())
+    }
+}
+
+impl<T: PartialEq> PartialEq for SharedList<T> {
+    fn eq(&self, other: &Self) -> bool {
+        let same = self.0.as_ref().zip(other.0.as_ref()).is_some_and(|(own, others)| Arc::ptr_eq(own, others));
+        same || **self == **other
+    }
+}
+
+impl<T: Eq> Eq for SharedList<T> {}
+
+impl<T> From<Vec<T>> for SharedList<T> {
+    fn from(list: Vec<T>) -> Self {
+        SharedList((!list.is_empty()).then(|| Arc::new(list)))
+    }
+}
+
+impl<T> FromIterator<T> for SharedList<T> {
+    fn from_iter<I: IntoIterator<Item = T>>(list: I) -> Self {
         list.into_iter().collect::<Vec<_>>().into()
     }
 }
 
-impl fmt::Debug for Texts {
+impl<'l, T> IntoIterator for &'l SharedList<T> {
+    type Item = &'l T;
+    type IntoIter = std::slice::Iter<'l, T>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}
+
+impl<T: fmt::Debug> fmt::Debug for SharedList<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_list().entries(self.iter()).finish()
     }
 }
 
-impl Serialize for Texts {
+impl<T: Serialize> Serialize for SharedList<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(self.iter())
     }
 }
 
-impl<'de> Deserialize<'de> for Texts {
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for SharedList<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Vec::deserialize(deserializer).map(Texts::from)
+        Vec::deserialize(deserializer).map(SharedList::from)
     }
 }
 
@@ -118,4 +158,19 @@ pub struct Places {
     pub fixed: Numbers,
     /// Where it is by default (`UsedInSlots`, `UsedInSubslots`).
     pub used: Numbers,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_change_is_seen_in_its_own_copy_alone() {
+        let first: SharedList<u8> = [1, 2].into_iter().collect();
+        let mut other = first.clone();
+        assert!(first == other && std::ptr::eq(&*first, &*other));
+        other.to_mut().push(3);
+        assert_eq!((&*first, &*other), (&[1, 2][..], &[1, 2, 3][..]));
+        assert!(SharedList::<u8>::from(Vec::new()).0.is_none());
+    }
 }

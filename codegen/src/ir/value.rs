@@ -3,6 +3,7 @@
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
+use thin_vec::ThinVec;
 
 use super::CompactString;
 
@@ -86,7 +87,7 @@ pub struct Limits {
     pub high: Option<Value>,
     /// Where the values are a list, or several ranges: first and last of each, in the order of the source. `low` and
     /// `high` are the least and the greatest of them.
-    pub allowed: Vec<(Value, Value)>,
+    pub allowed: ThinVec<(Value, Value)>,
 }
 
 impl Limits {

@@ -1,5 +1,6 @@
 //! What has items and types of its own: a device, a module, or all submodules of a catalogue.
 
+use std::cell::OnceCell;
 use std::collections::{HashMap, HashSet};
 
 use crate::ir::{EnumValue, Group, Item, Shape, Type, TypeDef, TypeId, Value, Zone};
@@ -69,38 +70,50 @@ impl<'a> Owner<'a> {
     }
 }
 
-/// Items by what refers to them.
+/// Items by what refers to them. Each list is made when it is first asked for: most descriptions refer to nothing.
 pub(super) struct Index<'a> {
-    names: HashMap<&'a str, &'a Item>,
-    objects: HashMap<(u16, u8), &'a Item>,
+    names: OnceCell<HashMap<&'a str, &'a Item>>,
+    objects: OnceCell<HashMap<(u16, u8), &'a Item>>,
     owner: Owner<'a>,
 }
 
 impl<'a> Index<'a> {
-    /// Of the items that share a name, the first counts. An object of one value goes by the object's name too.
     pub fn new(owner: Owner<'a>) -> Self {
-        let groups = || owner.groups.iter().flat_map(|groups| groups.iter());
-        let own = groups().flat_map(|group| group.items.iter().map(|item| (item.name.as_str(), item)));
-        let first = groups().filter_map(|group| Some((group.name.as_str(), group.items.first()?)));
-        let mut names = HashMap::new();
-        for (name, item) in own.chain(first).filter(|(name, _)| !name.is_empty()) {
-            names.entry(name).or_insert(item);
-        }
-        let objects = owner.items().filter_map(|item| Some((item.object()?, item))).collect();
-        Index { names, objects, owner }
+        Index { names: OnceCell::new(), objects: OnceCell::new(), owner }
+    }
+
+    fn groups(&self) -> impl Iterator<Item = &'a Group> {
+        self.owner.groups.iter().flat_map(|groups| groups.iter())
+    }
+
+    /// Of the items that share a name, the first counts. An object of one value goes by the object's name too.
+    fn names(&self) -> &HashMap<&'a str, &'a Item> {
+        self.names.get_or_init(|| {
+            let own = self.groups().flat_map(|group| group.items.iter().map(|item| (item.name.as_str(), item)));
+            let first = self.groups().filter_map(|group| Some((group.name.as_str(), group.items.first()?)));
+            let mut names = HashMap::new();
+            for (name, item) in own.chain(first).filter(|(name, _)| !name.is_empty()) {
+                names.entry(name).or_insert(item);
+            }
+            names
+        })
+    }
+
+    fn objects(&self) -> &HashMap<(u16, u8), &'a Item> {
+        let items = || self.owner.items().filter_map(|item| Some((item.object()?, item)));
+        self.objects.get_or_init(|| items().collect())
     }
 
     /// The item that goes by this name, is at this place (`0x6040`, `0x1018:1`), or is in this chapter (`Chapter/Item`).
     pub fn find(&self, name: &str) -> Option<&'a Item> {
-        let by_name = || self.names.get(name).copied();
-        let mut groups = self.owner.groups.iter().flat_map(|groups| groups.iter());
-        let by_object = || self.objects.get(&object(name)?).copied();
-        by_name().or_else(by_object).or_else(|| groups.find_map(|group| group.by_path(name)))
+        let by_name = || self.names().get(name).copied();
+        let by_object = || self.objects().get(&object(name)?).copied();
+        by_name().or_else(by_object).or_else(|| self.groups().find_map(|group| group.by_path(name)))
     }
 
     /// Whether there is an object with this index.
     pub fn indices(&self) -> HashSet<u16> {
-        self.objects.keys().map(|(index, _)| *index).collect()
+        self.objects().keys().map(|(index, _)| *index).collect()
     }
 }
 

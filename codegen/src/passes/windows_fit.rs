@@ -61,7 +61,7 @@ fn order(
     diagnostics: &mut Diagnostics,
 ) {
     let number = device.item(&side.number);
-    let is_cyclic = |own: &Item| own.bindings.iter().any(|binding| matches!(binding, Binding::Image { .. }));
+    let is_cyclic = |own: &Item| own.bindings.iter().any(|binding| matches!(binding, Binding::Image(_)));
     let by_row = number.and_then(|own| own.behaviour.as_ref()).is_some_and(|own| own.self_clearing);
     if device.item(&side.value).is_some_and(is_cyclic) || !(by_row || side.clears == Some(true)) {
         return;

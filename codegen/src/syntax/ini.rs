@@ -1,19 +1,27 @@
 //! The lexer of EDS and DCF files.
 //!
-//! One pass, line by line, without an allocation a line: a [`Document`] holds two flat lists, sections and entries,
-//! whose parts are spans into the text. What a line breaks of the grammar is noted as an [`Oddity`] and read all the
-//! same. Case, numbers and meaning are the front end's.
+//! A [`Document`] knows where the sections of a text are; the lines of one are taken apart when they are asked for, without an
+//! allocation a line, so that a file of any length costs no more memory than a list of its sections. All parts are spans into the
+//! text. What a line breaks of the grammar is noted as an [`Oddity`] and read all the same. Case, numbers and meaning are the
+//! front end's.
+
+use std::cell::{Cell, RefCell};
 
 use crate::source::{FileId, Span};
 
-/// The lines of a file, taken apart.
+/// The sections of a file.
 #[derive(Debug)]
 pub struct Document<'a> {
     text: &'a str,
     file: FileId,
+    /// Where the text ends.
+    end: usize,
     sections: Vec<Section>,
-    entries: Vec<Entry>,
-    oddities: Vec<(Oddity, Span)>,
+    preamble: Vec<Entry>,
+    /// What was noted so far.
+    oddities: RefCell<Vec<(Oddity, Span)>>,
+    /// By section: whether what is odd in it was noted.
+    noted: Vec<Cell<bool>>,
 }
 
 /// A section header and the lines below it.
@@ -22,8 +30,11 @@ pub struct Section {
     name: Range,
     /// Line of the header, counted from 1.
     pub line: u32,
-    first_entry: u32,
-    last_entry: u32,
+    /// The lines below it.
+    body: Range,
+    /// Where a comment stands behind the header; 0 = nowhere.
+    comment: u32,
+    number: u32,
 }
 
 /// A `Key=Value` line, or a comment line.
@@ -60,41 +71,32 @@ pub enum Oddity {
 /// The greatest number of characters in a line (CiA 306).
 const MAX_LINE: usize = 255;
 
+/// So many bytes are looked at at once: what is sought in a short line is sought in them, and left if it stands behind the line.
+const AT_ONCE: usize = 32;
+
 impl<'a> Document<'a> {
-    /// Takes `text` apart.
+    /// Finds the sections of `text`.
     pub fn parse(text: &'a str, file: FileId) -> Self {
-        let estimate = text.len() / 24;
+        // An editor of old ends a text with Ctrl-Z; everything from it on is no text.
+        let end = text.trim_end_matches(['\u{1a}', '\0', '\r', '\n', ' ', '\t']).len();
         let mut document = Document {
             text,
             file,
-            sections: Vec::with_capacity(estimate / 6 + 4),
-            entries: Vec::with_capacity(estimate + 4),
-            oddities: Vec::new(),
+            end,
+            sections: Vec::new(),
+            preamble: Vec::new(),
+            oddities: RefCell::default(),
+            noted: Vec::new(),
         };
-        // An editor of old ends a text with Ctrl-Z; everything from it on is no text.
-        let end = text.trim_end_matches(['\u{1a}', '\0', '\r', '\n', ' ', '\t']).len();
-        let bytes = &text.as_bytes()[..end];
-        let (mut start, mut line) = (0, 1);
-        for at in memchr::memchr2_iter(b'\n', b'\r', bytes) {
-            if at < start {
-                continue;
-            }
-            document.line(start, at, line);
-            let crlf = bytes[at] == b'\r' && bytes.get(at + 1) == Some(&b'\n');
-            start = at + 1 + usize::from(crlf);
-            line += 1;
-        }
-        document.line(start, end, line);
-        if let Some(section) = document.sections.last_mut() {
-            section.last_entry = document.entries.len() as u32;
-        }
+        document.headers();
+        document.noted = vec![Cell::new(false); document.sections.len()];
+        document.preamble = document.above();
         document
     }
 
     /// The comments above the first section.
     pub fn preamble(&self) -> &[Entry] {
-        let end = self.sections.first().map_or(self.entries.len(), |section| section.first_entry as usize);
-        &self.entries[..end]
+        &self.preamble
     }
 
     /// All sections, in the order of the file.
@@ -103,18 +105,23 @@ impl<'a> Document<'a> {
     }
 
     /// Entries and comments of a section.
-    pub fn entries(&self, section: &Section) -> &[Entry] {
-        &self.entries[section.first_entry as usize..section.last_entry as usize]
+    pub fn entries(&self, section: &Section) -> Entries<'_> {
+        let lines = Lines { at: section.body.0 as usize, end: section.body.1 as usize, line: section.line + 1 };
+        Entries { document: self, lines, comment: section.comment, number: Some(section.number), odd: Vec::new() }
     }
 
     /// Number of entries and comments in all sections.
     pub fn entry_count(&self) -> usize {
-        self.entries.len()
+        self.sections.iter().map(|section| self.entries(section).count()).sum()
     }
 
     /// Every broken rule, in the order of the file.
-    pub fn oddities(&self) -> &[(Oddity, Span)] {
-        &self.oddities
+    pub fn oddities(&self) -> Vec<(Oddity, Span)> {
+        let left = self.sections.iter().zip(&self.noted).filter(|(_, noted)| !noted.get());
+        left.for_each(|(section, _)| self.entries(section).for_each(drop));
+        let mut all = self.oddities.borrow().clone();
+        all.sort_by_key(|(_, span)| span.start);
+        all
     }
 
     /// Name of a section, without brackets and blanks around it.
@@ -164,85 +171,216 @@ impl<'a> Document<'a> {
         Span::new(self.file, range.0, range.1)
     }
 
-    fn line(&mut self, start: usize, end: usize, line: u32) {
-        let (first, last) = trim(self.text.as_bytes(), start, end);
-        if first == last {
-            return;
-        }
-        if end - start > MAX_LINE && self.text[start..end].chars().count() > MAX_LINE {
-            self.odd(Oddity::LongLine, start, end);
-        }
-        match self.text.as_bytes()[first] {
-            b'[' => self.header(start, first, last, line),
-            b';' => self.comment(first, last, line),
-            b'#' => self.odd(Oddity::HashLine, first, last),
-            _ => self.entry(first, last, line),
+    /// Finds all lines that start with `[`.
+    fn headers(&mut self) {
+        let bytes = &self.text.as_bytes()[..self.end];
+        let (mut from, mut line, mut counted) = (0, 1, 0);
+        while let Some(length) = memchr::memchr(b'[', &bytes[from..]) {
+            let bracket = from + length;
+            let blanks = bytes[from..bracket].iter().rev().take_while(|byte| matches!(byte, b' ' | b'\t')).count();
+            let start = bracket - blanks;
+            if start > 0 && !matches!(bytes[start - 1], b'\n' | b'\r') {
+                from = bracket + 1;
+                continue;
+            }
+            line += line_ends(&bytes[counted..start]);
+            counted = start;
+            let mut below = Lines { at: start, end: self.end, line };
+            let Some((_, end, _)) = below.next(bytes) else { break };
+            if let Some(section) = self.sections.last_mut() {
+                section.body.1 = start as u32;
+            }
+            self.header((start, bracket), end, line, below.at);
+            from = below.at.min(bytes.len());
         }
     }
 
-    fn header(&mut self, start: usize, first: usize, last: usize, line: u32) {
+    /// The header in the line from `start` to `end`, with the section that begins at `body`.
+    fn header(&mut self, (start, first): (usize, usize), end: usize, line: u32, body: usize) {
         let bytes = self.text.as_bytes();
-        if first > start {
-            self.odd(Oddity::IndentedHeader, first, last);
+        let mut odd = Vec::new();
+        let (_, last) = trim(bytes, first, end);
+        if is_long(&self.text[start..end]) {
+            odd.push((Oddity::LongLine, start, end));
         }
-        let mut comment = None;
+        if first > start {
+            odd.push((Oddity::IndentedHeader, first, last));
+        }
+        let mut comment = 0;
         let name = match memchr::memchr(b']', &bytes[first..last]) {
             Some(length) => {
                 let close = first + length;
                 let (rest, _) = trim(bytes, close + 1, last);
                 if rest < last && matches!(bytes[rest], b';' | b'#') {
-                    comment = Some(rest);
+                    comment = rest;
                 } else if rest < last {
-                    self.odd(Oddity::TextAfterHeader, rest, last);
+                    odd.push((Oddity::TextAfterHeader, rest, last));
                 }
                 trim(bytes, first + 1, close)
             }
             None => {
-                self.odd(Oddity::UnclosedHeader, first, last);
+                odd.push((Oddity::UnclosedHeader, first, last));
                 trim(bytes, first + 1, last)
             }
         };
-        let next = self.entries.len() as u32;
-        if let Some(section) = self.sections.last_mut() {
-            section.last_entry = next;
-        }
-        self.sections.push(Section { name: (name.0 as u32, name.1 as u32), line, first_entry: next, last_entry: next });
-        if let Some(mark) = comment {
-            self.comment(mark, last, line);
-        }
+        self.note(&odd);
+        self.sections.push(Section {
+            name: (name.0 as u32, name.1 as u32),
+            line,
+            body: (body as u32, self.end as u32),
+            comment: comment as u32,
+            number: self.sections.len() as u32,
+        });
     }
 
-    fn comment(&mut self, first: usize, last: usize, line: u32) {
-        let (start, end) = trim(self.text.as_bytes(), first + 1, last);
-        if start < end {
-            self.push((first, first + 1), (start, end), line);
-        }
+    /// What stands above the first header. There are no entries there.
+    fn above(&self) -> Vec<Entry> {
+        let end = self.sections.first().map_or(self.end, |section| {
+            let bracket = memchr::memrchr(b'[', &self.text.as_bytes()[..section.name.0 as usize]).unwrap_or(0);
+            let blanks = self.text.as_bytes()[..bracket].iter().rev();
+            bracket - blanks.take_while(|byte| matches!(byte, b' ' | b'\t')).count()
+        });
+        let lines = Lines { at: 0, end, line: 1 };
+        let (entries, rest): (Vec<_>, Vec<_>) =
+            Entries { document: self, lines, comment: 0, number: None, odd: Vec::new() }
+                .partition(|entry| self.is_comment(entry));
+        let outside = |entry: &Entry| (Oddity::EntryOutsideSection, entry.key.0 as usize, entry.value.1 as usize);
+        self.note(&rest.iter().map(outside).collect::<Vec<_>>());
+        entries
     }
 
-    fn entry(&mut self, first: usize, last: usize, line: u32) {
-        let bytes = self.text.as_bytes();
-        let Some(length) = memchr::memchr(b'=', &bytes[first..last]) else {
-            return self.odd(Oddity::Junk, first, last);
+    fn note(&self, odd: &[(Oddity, usize, usize)]) {
+        let span = |&(oddity, start, end): &(Oddity, usize, usize)| (oddity, self.span((start as u32, end as u32)));
+        self.oddities.borrow_mut().extend(odd.iter().map(span));
+    }
+}
+
+/// The lines of a part of the text, one after another.
+#[derive(Clone, Debug)]
+struct Lines {
+    at: usize,
+    end: usize,
+    line: u32,
+}
+
+impl Lines {
+    /// Where the next line begins and ends, without its end of line, and its number.
+    #[inline]
+    fn next(&mut self, bytes: &[u8]) -> Option<(usize, usize, u32)> {
+        if self.at >= self.end {
+            return None;
+        }
+        let (start, line) = (self.at, self.line);
+        let end = match memchr::memchr2(b'\n', b'\r', &bytes[start..]) {
+            Some(length) if start + length < self.end => start + length,
+            _ => self.end,
         };
-        let equals = first + length;
-        let key = trim(bytes, first, equals);
-        if key.0 == key.1 {
-            return self.odd(Oddity::Junk, first, last);
+        let crlf = bytes[end..].starts_with(b"\r\n");
+        self.at = end + 1 + usize::from(crlf);
+        self.line += 1;
+        Some((start, end, line))
+    }
+}
+
+/// The entries and comments of a section, in the order of the file.
+#[derive(Clone, Debug)]
+pub struct Entries<'d> {
+    document: &'d Document<'d>,
+    lines: Lines,
+    comment: u32,
+    number: Option<u32>,
+    /// Noted when the last line was seen, so that nothing is noted twice.
+    odd: Vec<(Oddity, usize, usize)>,
+}
+
+impl Iterator for Entries<'_> {
+    type Item = Entry;
+
+    #[inline]
+    fn next(&mut self) -> Option<Entry> {
+        let bytes = &self.document.text.as_bytes()[..self.document.end];
+        if self.comment > 0 {
+            if let Some(comment) = self.behind_header(bytes) {
+                return Some(comment);
+            }
         }
-        if self.sections.is_empty() {
-            return self.odd(Oddity::EntryOutsideSection, first, last);
+        while let Some((start, end, line)) = self.lines.next(bytes) {
+            if let Some(entry) = self.line(bytes, (start, end), line) {
+                return Some(entry);
+            }
         }
-        let value = trim(bytes, equals + 1, last);
-        self.push(key, value, line);
+        self.finish();
+        None
+    }
+}
+
+impl Entries<'_> {
+    /// What stands behind the header.
+    #[cold]
+    fn behind_header(&mut self, bytes: &[u8]) -> Option<Entry> {
+        let first = std::mem::take(&mut self.comment) as usize;
+        let end = memchr::memchr2(b'\n', b'\r', &bytes[first..]).map_or(bytes.len(), |length| first + length);
+        let (first, last) = trim(bytes, first, end);
+        comment(bytes, first, last, self.lines.line - 1)
     }
 
-    fn push(&mut self, key: (usize, usize), value: (usize, usize), line: u32) {
-        self.entries.push(Entry { key: (key.0 as u32, key.1 as u32), value: (value.0 as u32, value.1 as u32), line });
+    #[inline]
+    fn line(&mut self, bytes: &[u8], (start, end): (usize, usize), line: u32) -> Option<Entry> {
+        let (first, last) = trim(bytes, start, end);
+        if first == last {
+            return None;
+        }
+        if end - start > MAX_LINE && is_long(&self.document.text[start..end]) {
+            self.odd.push((Oddity::LongLine, start, end));
+        }
+        match bytes[first] {
+            b';' => return comment(bytes, first, last, line),
+            b'#' => self.odd.push((Oddity::HashLine, first, last)),
+            _ => {
+                let ahead = bytes.len().min(last.max(first + AT_ONCE));
+                let equals = memchr::memchr(b'=', &bytes[first..ahead]).map(|length| first + length);
+                let key = equals.filter(|&equals| equals < last).map(|equals| (equals, trim(bytes, first, equals)));
+                if let Some((equals, key)) = key.filter(|(_, key)| key.0 < key.1) {
+                    return Some(entry(key, trim(bytes, equals + 1, last), line));
+                }
+                self.odd.push((Oddity::Junk, first, last));
+            }
+        }
+        None
     }
 
-    fn odd(&mut self, oddity: Oddity, start: usize, end: usize) {
-        self.oddities.push((oddity, self.span((start as u32, end as u32))));
+    fn finish(&mut self) {
+        let noted = self.number.and_then(|number| self.document.noted.get(number as usize));
+        let is_first = noted.is_none_or(|noted| !noted.replace(true));
+        if is_first && !self.odd.is_empty() {
+            self.document.note(&self.odd);
+        }
+        self.odd.clear();
     }
+}
+
+fn comment(bytes: &[u8], first: usize, last: usize, line: u32) -> Option<Entry> {
+    let text = trim(bytes, first + 1, last);
+    (text.0 < text.1).then(|| entry((first, first + 1), text, line))
+}
+
+fn entry(key: (usize, usize), value: (usize, usize), line: u32) -> Entry {
+    Entry { key: (key.0 as u32, key.1 as u32), value: (value.0 as u32, value.1 as u32), line }
+}
+
+fn is_long(line: &str) -> bool {
+    line.len() > MAX_LINE && line.chars().count() > MAX_LINE
+}
+
+/// How many lines end in `bytes`, with CR LF, LF, or a CR of its own.
+fn line_ends(bytes: &[u8]) -> u32 {
+    let feeds = || memchr::memchr_iter(b'\n', bytes);
+    let both = |returns| match returns {
+        0 => 0,
+        _ => feeds().filter(|&at| bytes[..at].ends_with(b"\r")).count(),
+    };
+    let returns = memchr::memchr_iter(b'\r', bytes).count();
+    (feeds().count() + returns - both(returns)) as u32
 }
 
 /// `start..end` without blanks and tabs at either end.
@@ -265,8 +403,8 @@ mod tests {
         let mut out = Vec::new();
         for section in document.sections() {
             for entry in document.entries(section) {
-                let part = |text: &str| text.to_owned();
-                out.push((part(document.name(section)), part(document.key(entry)), part(document.value(entry))));
+                let (key, value) = (document.key(&entry), document.value(&entry));
+                out.push((document.name(section).to_owned(), key.to_owned(), value.to_owned()));
             }
         }
         out
@@ -294,7 +432,7 @@ mod tests {
     fn lines_are_counted_and_spans_point_at_values() {
         let text = "[A]\r\nx=1\rlong = v \n";
         let document = Document::parse(text, FileId(3));
-        let entry = document.entries(&document.sections()[0])[1];
+        let entry = document.entries(&document.sections()[0]).nth(1).unwrap();
         assert_eq!(entry.line, 3);
         assert_eq!(&text[document.value_span(&entry).range()], "v");
         assert_eq!(document.value_span(&entry).file, FileId(3));

@@ -1,8 +1,8 @@
 //! Items, and the groups that they stand in: objects, chapters and images.
 
 use lexibus_codegen::ir::{
-    Binding, Category, CompactString, Configured, Group, GroupKind, IndirectBinding, Item, Mappable, ObjectBuses,
-    ObjectCode, RegisterBinding, RegisterSpace, Type, TypeDef, Value, WindowSide,
+    Binding, Category, CompactString, Configured, Group, GroupKind, ImageBinding, IndirectBinding, Item, Mappable,
+    ObjectBuses, ObjectCode, RegisterBinding, RegisterSpace, Type, TypeDef, Value, WindowSide,
 };
 
 use super::bytes::Bytes;
@@ -48,7 +48,7 @@ pub fn item(b: &mut Bytes<'_>, around: &Around<'_>, binding: Binding) -> Item {
         },
         default: b.maybe(2, |b| values::of(b, base)),
         limits: values::limits(b, base),
-        variants: b.few(6, 2, |b| facts::variant(b, base)),
+        variants: b.few(6, 2, |b| facts::variant(b, base)).into(),
         configured: b.maybe(12, |b| {
             let value = b.maybe(2, |b| values::of(b, base));
             Box::new(Configured { value, denotation: b.maybe(2, names::text), ..Configured::default() })
@@ -184,12 +184,12 @@ fn binding(b: &mut Bytes<'_>, around: &Around<'_>) -> Binding {
         0 | 1 => Binding::Object { buses: b.pick(around.buses), index: b.within(0x2000..=0x2020), sub_index: b.any() },
         2..=5 => Binding::Register(Box::new(register(b))),
         6 => Binding::Parameter { space: names::of(b, around.spaces), code: b.pick(&[0, 1, 255, u32::MAX]) },
-        7 => Binding::Image {
+        7 => Binding::Image(Box::new(ImageBinding {
             image: names::of(b, around.images),
             bit_offset: b.within(0..=80),
             bits: b.within(0..=70),
             ty: b.maybe(4, types::basic),
-        },
+        })),
         8 => Binding::EscMemory { address: b.any(), length: b.within(0..=9) },
         9 => b.maybe(2, |b| Binding::Ascii(names::name(b))).unwrap_or(Binding::Record {
             index: 1,

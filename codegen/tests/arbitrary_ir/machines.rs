@@ -30,9 +30,9 @@ pub fn machine(b: &mut Bytes<'_>, items: &[CompactString], types: &[CompactStrin
         state_type: b.maybe(5, |b| names::of(b, types)),
         initial: b.maybe(3, |b| names::of(b, &state_names)),
         outcomes: b.few(3, 3, |b| outcomes(b, &state_names)),
-        states,
-        commands,
-        transitions,
+        states: states.into(),
+        commands: commands.into(),
+        transitions: transitions.into(),
         documentation: names::documentation(b),
     }
 }
@@ -109,7 +109,7 @@ pub fn code_table(b: &mut Bytes<'_>) -> CodeTable {
     CodeTable {
         name: names::name(b),
         columns,
-        rows,
+        rows: rows.into(),
         buses,
         documentation: names::documentation(b),
         origin: Origin::default(),

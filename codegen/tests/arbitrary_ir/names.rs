@@ -1,6 +1,6 @@
 //! Names and texts: ordinary ones, and those that clash with Rust, with generated code or with one another.
 
-use lexibus_codegen::ir::{CompactString, Documentation, Doubt, Extension, LocalText, Texts};
+use lexibus_codegen::ir::{CompactString, Documentation, Doubt, Doubts, Extension, Extensions, LocalText, Texts};
 use lexibus_codegen::source::Origin;
 
 use super::bytes::Bytes;
@@ -242,15 +242,16 @@ pub fn documentation(b: &mut Bytes<'_>) -> Option<Box<Documentation>> {
     })
 }
 
-pub fn doubts(b: &mut Bytes<'_>) -> Vec<Doubt> {
+pub fn doubts(b: &mut Bytes<'_>) -> Doubts {
     b.few(12, 2, |b| {
         let [says, chosen, why] = [text(b), text(b), text(b)].map(String::from);
         Doubt { says, chosen, why, origin: Origin::default(), cite: b.maybe(2, text) }
     })
+    .into()
 }
 
-pub fn extensions(b: &mut Bytes<'_>) -> Vec<Extension> {
-    b.few(16, 2, |b| Extension { key: name(b), value: text(b), span: Default::default() })
+pub fn extensions(b: &mut Bytes<'_>) -> Extensions {
+    b.few(16, 2, |b| Extension { key: name(b), value: text(b), span: Default::default() }).into()
 }
 
 /// Attributes as a source spells them.

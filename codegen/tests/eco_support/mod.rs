@@ -78,7 +78,7 @@ pub fn address(item: &Item) -> Option<u16> {
 /// The places of an item in process images: the image, the first byte, and the number of bytes.
 pub fn in_images(item: &Item) -> Vec<(&str, u32, u32)> {
     let own = item.bindings.iter().filter_map(|binding| match binding {
-        Binding::Image { image, bit_offset, bits, .. } => Some((image.as_str(), bit_offset / 8, bits / 8)),
+        Binding::Image(own) => Some((own.image.as_str(), own.bit_offset / 8, own.bits / 8)),
         _ => None,
     });
     own.collect()

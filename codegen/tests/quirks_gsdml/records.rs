@@ -21,7 +21,7 @@ fn g05_allowed_values() {
     let of = |low: i128, high: i128, allowed: &[(i128, i128)]| Limits {
         low: Some(Value::Int(low)),
         high: Some(Value::Int(high)),
-        allowed: ints(allowed),
+        allowed: ints(allowed).into(),
     };
     assert_eq!(limits("Unsigned8", "0 1 3", "3"), of(0, 3, &[(0, 0), (1, 1), (3, 3)]));
     assert_eq!(limits("Integer8", "-128..127", "-1"), of(-128, 127, &[]));
@@ -29,7 +29,7 @@ fn g05_allowed_values() {
     assert_eq!(limits("Unsigned64", "0..18446744073709551615", "0"), of(0, u64::MAX.into(), &[]));
     assert_eq!(limits("Bit", "0..1", "1"), of(0, 1, &[]));
     assert_eq!(limits("Unsigned8", "7", "7"), of(7, 7, &[]));
-    let expected = Limits { low: Some(Value::Real(-1e38)), high: Some(Value::Real(1e38)), allowed: Vec::new() };
+    let expected = Limits { low: Some(Value::Real(-1e38)), high: Some(Value::Real(1e38)), ..Limits::default() };
     assert_eq!(limits("Float32", "-1.0000e38..1.0000e38", "0"), expected);
     let steps = limits("Float64", "-0.5 0.5 1e3..2e3", "0.5");
     assert_eq!((steps.low, steps.high, steps.allowed.len()), (Some(Value::Real(-0.5)), Some(Value::Real(2e3)), 3));

@@ -81,9 +81,7 @@ fn address(binding: &Binding) -> Address {
         Binding::Record { index, bit_offset, bits } => {
             ("PROFINET", format!("record 0x{index:04X}, {}", span(*bit_offset, *bits)))
         }
-        Binding::Image { image, bit_offset, bits, .. } => {
-            ("Process image", format!("{image}, {}", span(*bit_offset, *bits)))
-        }
+        Binding::Image(own) => ("Process image", format!("{}, {}", own.image, span(own.bit_offset, own.bits))),
         Binding::Parameter { space, code } => ("Serial", format!("{space} 0x{code:04X}")),
         Binding::Ascii(name) => ("ASCII", name.to_string()),
         Binding::EscMemory { address, length } => ("Slave controller", format!("0x{address:04X}, {length} bytes")),

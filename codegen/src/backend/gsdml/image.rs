@@ -365,7 +365,7 @@ fn losses(device: &Device, notes: &mut Notes) {
     notes.add_many(NoteKind::Axis, axes, place);
     for group in &device.groups {
         for item in &group.items {
-            let in_image = item.bindings.iter().any(|binding| matches!(binding, Binding::Image { .. }));
+            let in_image = item.bindings.iter().any(|binding| matches!(binding, Binding::Image(_)));
             let in_record = item.bindings.iter().any(|binding| matches!(binding, Binding::Record { .. }));
             let place = Place::Named(&item.name);
             match (in_image, in_record) {

@@ -110,7 +110,7 @@ pub(super) fn models(
         let patterns =
             |name, list, item: &str, method| patterns(scope, name, list, (item, method), bit_fields, options);
         // The values of an enumeration have a type already.
-        let own_states = if machine.state_type.is_some() { &[] } else { machine.states.as_slice() };
+        let own_states = if machine.state_type.is_some() { &[] } else { &*machine.states };
         let mut states = patterns(states, own_states, &machine.status_item, state);
         let method = setter(&command);
         let mut commands = patterns(commands, &machine.commands, &machine.control_item, method);

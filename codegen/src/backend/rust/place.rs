@@ -79,7 +79,7 @@ impl<'i> Place<'i> {
             }
             Binding::Register(register) => self.modbus = self.modbus.or(Some(register)),
             Binding::Parameter { code, .. } => self.serial = self.serial.or(Some(*code)),
-            Binding::Image { .. } => self.image = self.image.or_else(|| Field::of(scope, base, binding)),
+            Binding::Image(_) => self.image = self.image.or_else(|| Field::of(scope, base, binding)),
             Binding::EscMemory { address, length } => self.esc = self.esc.or(Some((*address, *length))),
             _ => {}
         }

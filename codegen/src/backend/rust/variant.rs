@@ -1,5 +1,7 @@
 //! Items that differ on models and buses: the limits that hold on all of them, and what an item is on one model.
 
+use thin_vec::ThinVec;
+
 use crate::ir::{Item, Limits, Value};
 use crate::selection::glob;
 
@@ -17,7 +19,7 @@ pub(super) fn on_model(item: &Item, model: &str) -> Option<Item> {
     if !has {
         return None;
     }
-    let mut own = Item { variants: Vec::new(), ..item.clone() };
+    let mut own = Item { variants: ThinVec::new(), ..item.clone() };
     for variant in variants.filter(|own| own.models.iter().any(|name| glob(name, model))) {
         own.default = variant.default.clone().or(own.default);
         own.limits.low = variant.limits.low.clone().or(own.limits.low);

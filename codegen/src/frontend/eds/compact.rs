@@ -6,7 +6,9 @@ use super::reader::Reader;
 use super::sections::Refinement;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::value::Role;
-use crate::ir::{Access, Binding, CompactString, Configured, Extension, Group, Item, ObjectCode, Type, Value};
+use crate::ir::{
+    Access, Binding, CompactString, Configured, Extension, Extensions, Group, Item, ObjectCode, Type, Value,
+};
 use crate::limits;
 use crate::syntax::ini::{Entry, Section};
 
@@ -72,7 +74,7 @@ fn nothing_to_refine(
     index: u16,
     section: &Section,
     entry: &Entry,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) {
     let (name, key) = (reader.doc.name(section), reader.doc.key(entry));
     reader.diagnostics.push(

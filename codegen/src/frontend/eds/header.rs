@@ -8,7 +8,7 @@ use super::reader::{Fixed, Reader};
 use super::sections::{Kind, List};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::number;
-use crate::ir::{CanOpenSettings, Commissioning, CompactString, Device, DynamicChannel, Extension, Header};
+use crate::ir::{CanOpenSettings, Commissioning, CompactString, Device, DynamicChannel, Extension, Extensions, Header};
 use crate::syntax::ini::{Entry, Section};
 
 /// Fills `device` from its header sections and returns what the object lists say.
@@ -99,7 +99,7 @@ const FILE_INFO: [&str; 12] = [
 
 fn file_info(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device) {
     let mut seen = [None; FILE_INFO.len()];
-    for entry in reader.doc.entries(section) {
+    for ref entry in reader.doc.entries(section) {
         let Some(which) = position(&FILE_INFO, reader.doc.key(entry)) else {
             reader.extension(entry, &mut device.extensions);
             continue;
@@ -223,7 +223,7 @@ fn device_info(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Devi
     ];
     let mut seen = [None; KEYS.len()];
     let mut rates = [None; BIT_RATES.len()];
-    for entry in reader.doc.entries(section) {
+    for ref entry in reader.doc.entries(section) {
         let key = reader.doc.key(entry);
         let Some(which) = position(&KEYS, key) else {
             if !bit_rate(reader, entry, &mut rates, canopen) {
@@ -303,7 +303,7 @@ fn dummy_usage(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Devi
     canopen.dummies_given = true;
     let mut seen = [None; 256];
     let mut usage = [false; 256];
-    for entry in reader.doc.entries(section) {
+    for ref entry in reader.doc.entries(section) {
         let Some(code) = dummy_code(reader.doc.key(entry)) else {
             reader.extension(entry, &mut device.extensions);
             continue;
@@ -328,28 +328,28 @@ pub(super) fn comments(
     reader: &mut Reader<'_, '_>,
     section: &Section,
     lines: &mut Vec<CompactString>,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) {
-    let mut numbered: Vec<(u32, &Entry)> = Vec::new();
+    let mut numbered: Vec<(u32, Entry)> = Vec::new();
     let mut count = None;
-    for entry in reader.doc.entries(section) {
+    for ref entry in reader.doc.entries(section) {
         let key = reader.doc.key(entry);
         let digits = key.get(4..).filter(|_| key[..4].eq_ignore_ascii_case("Line"));
         match digits.and_then(|digits| digits.parse::<u32>().ok()) {
-            Some(number) => numbered.push((number, entry)),
+            Some(number) => numbered.push((number, *entry)),
             // How many lines there are is plain to see, and many files have it wrong.
             None if key.eq_ignore_ascii_case("Lines") => {
-                if let Some(earlier) = count.replace(entry) {
-                    reader.duplicate_key(earlier, entry);
+                if let Some(earlier) = count.replace(*entry) {
+                    reader.duplicate_key(&earlier, entry);
                 }
             }
             None => reader.extension(entry, extensions),
         }
     }
     numbered.sort_by_key(|&(number, _)| number);
-    for (position, &(number, entry)) in numbered.iter().enumerate() {
+    for (position, (number, entry)) in numbered.iter().enumerate() {
         match numbered.get(position + 1) {
-            Some(&(next, later)) if next == number => reader.duplicate_key(entry, later),
+            Some((next, later)) if next == number => reader.duplicate_key(entry, later),
             _ => lines.push(reader.doc.value(entry).into()),
         }
     }
@@ -360,7 +360,7 @@ fn commissioning(reader: &mut Reader<'_, '_>, section: &Section, device: &mut De
         ["NodeID", "NodeName", "Baudrate", "NetNumber", "NetworkName", "CANopenManager", "LSS_SerialNumber"];
     let mut seen = [None; KEYS.len()];
     let mut own = device.commissioning.take().unwrap_or_default();
-    for entry in reader.doc.entries(section) {
+    for ref entry in reader.doc.entries(section) {
         let Some(which) = position(&KEYS, reader.doc.key(entry)) else {
             reader.extension(entry, &mut device.extensions);
             continue;
@@ -413,21 +413,21 @@ fn dynamic_channels(
     const FIELDS: [&str; 4] = ["Type", "Dir", "Range", "PPOffset"];
     let mut segments: BTreeMap<u32, [Option<Entry>; FIELDS.len()]> = BTreeMap::new();
     let mut count = None;
-    for entry in reader.doc.entries(section) {
+    for ref entry in reader.doc.entries(section) {
         let key = reader.doc.key(entry);
         let split = key.len() - key.bytes().rev().take_while(u8::is_ascii_digit).count();
         match (position(&FIELDS, &key[..split]), key[split..].parse::<u32>()) {
             (Some(field), Ok(number)) => once(reader, segments.entry(number).or_default(), field, entry),
             _ if key.eq_ignore_ascii_case("NrOfSeg") => {
-                if let Some(earlier) = count.replace(entry) {
-                    reader.duplicate_key(earlier, entry);
+                if let Some(earlier) = count.replace(*entry) {
+                    reader.duplicate_key(&earlier, entry);
                 }
             }
             _ => reader.extension(entry, &mut device.extensions),
         }
     }
     if let Some(count) = count {
-        lists::announced_count(reader, count, segments.len());
+        lists::announced_count(reader, &count, segments.len());
     }
     canopen.dynamic_channels.extend(segments.values().map(|fields| dynamic_channel(reader, fields)));
 }

@@ -3,7 +3,7 @@
 use super::reader::Reader;
 use super::sections::List;
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Device, Extension};
+use crate::ir::{Device, Extensions};
 use crate::source::Span;
 use crate::syntax::ini::{Entry, Section};
 
@@ -29,14 +29,14 @@ impl Lists {
     pub(super) fn supported_modules(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device) {
         let mut earlier = None;
         for entry in reader.doc.entries(section) {
-            if reader.doc.key(entry).eq_ignore_ascii_case("NrOfEntries") {
+            if reader.doc.key(&entry).eq_ignore_ascii_case("NrOfEntries") {
                 if let Some(earlier) = earlier.replace(entry) {
-                    reader.duplicate_key(earlier, entry);
+                    reader.duplicate_key(&earlier, &entry);
                 }
-                let span = reader.doc.value_span(entry);
-                reader.announced_modules = reader.unsigned(entry, 0xFFFF).map(|count| (count, span));
+                let span = reader.doc.value_span(&entry);
+                reader.announced_modules = reader.unsigned(&entry, 0xFFFF).map(|count| (count, span));
             } else {
-                reader.extension(entry, &mut device.extensions);
+                reader.extension(&entry, &mut device.extensions);
             }
         }
         if earlier.is_none() {
@@ -50,7 +50,7 @@ pub(super) fn numbered(
     reader: &mut Reader<'_, '_>,
     section: &Section,
     count_key: &str,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Vec<Entry> {
     let (entries, count) = by_number(reader, section, count_key, |reader, entry| reader.extension(entry, extensions));
     let agrees = match count {
@@ -95,17 +95,17 @@ fn by_number(
     mut others: impl FnMut(&mut Reader<'_, '_>, &Entry),
 ) -> (Vec<(u32, Entry)>, Option<Entry>) {
     let doc = reader.doc;
-    let mut entries: Vec<(u32, Entry)> = Vec::with_capacity(doc.entries(section).len());
+    let mut entries: Vec<(u32, Entry)> = Vec::new();
     let mut count = None;
     for entry in doc.entries(section) {
-        if let Some(number) = reader.key_number(entry) {
-            entries.push((number, *entry));
-        } else if doc.key(entry).eq_ignore_ascii_case(count_key) {
-            if let Some(earlier) = count.replace(*entry) {
-                reader.duplicate_key(&earlier, entry);
+        if let Some(number) = reader.key_number(&entry) {
+            entries.push((number, entry));
+        } else if doc.key(&entry).eq_ignore_ascii_case(count_key) {
+            if let Some(earlier) = count.replace(entry) {
+                reader.duplicate_key(&earlier, &entry);
             }
         } else {
-            others(reader, entry);
+            others(reader, &entry);
         }
     }
     if !entries.is_sorted_by(|earlier, later| earlier.0 < later.0) {

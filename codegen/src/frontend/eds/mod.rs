@@ -25,7 +25,7 @@ use std::collections::HashSet;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::canopen::deftype::defined_type;
-use crate::ir::{Catalog, Device, Extension, Group, ObjectCode, Shape, TypeDef};
+use crate::ir::{Catalog, Device, Extension, Extensions, Group, ObjectCode, Shape, TypeDef};
 use crate::source::{Encoding, FileId, Origin, Source, Span};
 use crate::syntax::ini::{Document, Oddity, Section};
 use object::ObjectSections;
@@ -38,7 +38,6 @@ use sections::{Kind, Refinement};
 pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut Diagnostics) -> Option<Catalog> {
     let doc = Document::parse(source.text(), file);
     report_encoding(source, file, diagnostics);
-    report_oddities(&doc, diagnostics);
     let mut reader = Reader {
         doc: &doc,
         diagnostics,
@@ -48,7 +47,7 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
         orphan_sections: Vec::new(),
         announced_modules: None,
         derived_items: 0,
-        comments: Vec::new(),
+        comments: Extensions::new(),
         hex_flags: None,
     };
     let sorted = Sorted::new(&mut reader);
@@ -71,6 +70,7 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
     lists::check(&mut reader, &lists, &device);
     unknown_sections(&mut reader, &sorted.unknown, &mut device);
     reader.report_hex_flags();
+    report_oddities(&doc, diagnostics);
     Some(Catalog::of_device(device, modules))
 }
 
@@ -78,8 +78,8 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
 struct Sorted {
     /// In the order of the file.
     header: Vec<(Kind, Section)>,
-    /// By index, then object before sub-indices; the order of the file among equals.
-    objects: Vec<(u16, u32, Kind, Section)>,
+    /// Index, rank and section, by index, then object before sub-indices; the order of the file among equals.
+    objects: Vec<(u16, u16, u32)>,
     /// By module.
     modules: Vec<(u32, sections::ModulePart, Section)>,
     /// In the order of the file.
@@ -92,23 +92,23 @@ impl Sorted {
         let count = doc.sections().len();
         let mut sorted =
             Sorted { header: Vec::new(), objects: Vec::with_capacity(count), modules: Vec::new(), unknown: Vec::new() };
-        for section in doc.sections() {
+        for (section, number) in doc.sections().iter().zip(0..) {
             let name = doc.name(section);
             let (kind, legal) = sections::classify(name);
             if !legal {
                 illegal_name(reader, section, kind);
             }
             match kind {
-                Kind::Object(index) => sorted.objects.push((index, 0, kind, *section)),
-                Kind::Sub(index, sub) => sorted.objects.push((index, 1 + u32::from(sub), kind, *section)),
-                Kind::Refinement(index, _) | Kind::Links(index) => sorted.objects.push((index, 0x200, kind, *section)),
+                Kind::Object(index) => sorted.objects.push((index, 0, number)),
+                Kind::Sub(index, sub) => sorted.objects.push((index, 1 + u16::from(sub), number)),
+                Kind::Refinement(index, _) | Kind::Links(index) => sorted.objects.push((index, 0x200, number)),
                 Kind::Module(number, part) => sorted.modules.push((number, part, *section)),
                 Kind::Unknown => sorted.unknown.push(*section),
                 _ => sorted.header.push((kind, *section)),
             }
         }
-        if !sorted.objects.is_sorted_by_key(|object| (object.0, object.1)) {
-            sorted.objects.sort_by_key(|object| (object.0, object.1));
+        if !sorted.objects.is_sorted() {
+            sorted.objects.sort_unstable();
         }
         sorted.modules.sort_by_key(|module| module.0);
         sorted
@@ -120,22 +120,21 @@ impl Sorted {
 }
 
 /// Builds the objects, each from its run of sections.
-fn objects(reader: &mut Reader<'_, '_>, sorted: Vec<(u16, u32, Kind, Section)>, device: &mut Device) {
+fn objects(reader: &mut Reader<'_, '_>, sorted: Vec<(u16, u16, u32)>, device: &mut Device) {
     let mut own = ObjectSections::default();
-    let mut rest = sorted.as_slice();
-    device.groups.reserve(sorted.len() / 4);
-    while let Some(&(index, ..)) = rest.first() {
-        let run = rest.iter().take_while(|section| section.0 == index).count();
+    device.groups.reserve_exact(sorted.chunk_by(|one, other| one.0 == other.0).count());
+    for run in sorted.chunk_by(|one, other| one.0 == other.0) {
+        let index = run[0].0;
         own.clear();
-        for (_, _, kind, section) in &rest[..run] {
-            match *kind {
+        for &(_, _, number) in run {
+            let section = &reader.doc.sections()[number as usize];
+            match sections::classify(reader.doc.name(section)).0 {
                 Kind::Object(_) => own.object.push(*section),
                 Kind::Sub(_, sub) => own.subs.push((sub, *section)),
                 Kind::Refinement(_, refinement) => own.refinements.push((refinement, *section)),
                 _ => own.links.push(*section),
             }
         }
-        rest = &rest[run..];
         if let Some(group) = reader.object(index, &mut own) {
             define_type(reader, &group, device);
             device.groups.push(group);
@@ -215,9 +214,9 @@ fn unknown_sections(reader: &mut Reader<'_, '_>, unknown: &[Section], device: &m
     for section in unknown.iter().chain(&orphans) {
         let name = reader.doc.name(section);
         for entry in reader.doc.entries(section) {
-            let key = if reader.doc.is_comment(entry) { ";" } else { reader.doc.key(entry) };
+            let key = if reader.doc.is_comment(&entry) { ";" } else { reader.doc.key(&entry) };
             let key = compact_str::format_compact!("{name}/{key}");
-            let (value, span) = (reader.doc.value(entry), reader.doc.value_span(entry));
+            let (value, span) = (reader.doc.value(&entry), reader.doc.value_span(&entry));
             device.extensions.push(Extension { key, value: value.into(), span });
         }
     }
@@ -246,9 +245,10 @@ fn report_encoding(source: &Source, file: FileId, diagnostics: &mut Diagnostics)
 }
 
 fn report_oddities(doc: &Document<'_>, diagnostics: &mut Diagnostics) {
-    let hash_lines = doc.oddities().iter().filter(|(oddity, _)| *oddity == Oddity::HashLine).count();
+    let oddities = doc.oddities();
+    let hash_lines = oddities.iter().filter(|(oddity, _)| *oddity == Oddity::HashLine).count();
     let mut hash_seen = false;
-    for &(oddity, span) in doc.oddities() {
+    for &(oddity, span) in &oddities {
         let (code, message, label) = match oddity {
             Oddity::Junk => (&codes::JUNK_LINE, "this line has no meaning in an EDS", "skipped"),
             Oddity::EntryOutsideSection => {

@@ -103,7 +103,7 @@ fn info(reader: &mut Reader<'_, '_>, sections: &[Section], module: &mut Module) 
     let mut seen = [None; KEYS.len()];
     for section in sections {
         module.origin = reader.origin(section);
-        for entry in reader.doc.entries(section) {
+        for ref entry in reader.doc.entries(section) {
             let key = reader.doc.key(entry);
             let Some(which) = KEYS.iter().position(|known| known.eq_ignore_ascii_case(key)) else {
                 reader.extension(entry, &mut module.extensions);

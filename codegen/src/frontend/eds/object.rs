@@ -8,7 +8,8 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::number;
 use crate::frontend::canopen::value::Role;
 use crate::ir::{
-    Access, Binding, CompactString, Configured, Extension, Group, Item, Limits, Mappable, ObjectCode, Type, Value,
+    Access, Binding, CompactString, Configured, Extension, Extensions, Group, Item, Limits, Mappable, ObjectCode, Type,
+    Value,
 };
 use crate::source::{Origin, Span};
 use crate::syntax::ini::{Entry, Section};
@@ -104,7 +105,7 @@ pub(super) struct Raw {
     fields: [Option<Entry>; KEYS],
     /// The keywords that only an extension of sub-indices has.
     pub(super) more: [Option<Entry>; 2],
-    pub(super) extensions: Vec<Extension>,
+    pub(super) extensions: Extensions,
     pub(super) origin: Origin,
 }
 
@@ -122,24 +123,25 @@ impl<'a> Reader<'a, '_> {
 
     /// The same with the further keywords `more`, of which there are two at most.
     pub(super) fn raw_with(&mut self, sections: &[Section], more: &[&str]) -> Raw {
-        let mut raw = Raw { fields: [None; KEYS], more: [None; 2], extensions: Vec::new(), origin: Origin::default() };
+        let mut raw =
+            Raw { fields: [None; KEYS], more: [None; 2], extensions: Extensions::new(), origin: Origin::default() };
         let Some(first) = sections.first() else { return raw };
         raw.origin = Origin { span: self.doc.name_span(first), line: first.line };
         for section in sections {
             for entry in self.doc.entries(section) {
-                let key = self.doc.key(entry);
+                let key = self.doc.key(&entry);
                 let field = match keyword(key) {
                     Some(keyword) => &mut raw.fields[keyword as usize],
                     None => match more.iter().position(|name| name.eq_ignore_ascii_case(key)) {
                         Some(position) => &mut raw.more[position],
                         None => {
-                            self.extension(entry, &mut raw.extensions);
+                            self.extension(&entry, &mut raw.extensions);
                             continue;
                         }
                     },
                 };
-                if let Some(earlier) = field.replace(*entry) {
-                    self.duplicate_key(&earlier, entry);
+                if let Some(earlier) = field.replace(entry) {
+                    self.duplicate_key(&earlier, &entry);
                 }
             }
         }
@@ -223,7 +225,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Keeps entries that mean nothing where they stand, unless they are empty or 0.
-    fn unused(&mut self, raw: &Raw, keys: &[Key], extensions: &mut Vec<Extension>) {
+    fn unused(&mut self, raw: &Raw, keys: &[Key], extensions: &mut Extensions) {
         for &key in keys {
             let Some(entry) = raw.get(key) else { continue };
             let (text, span) = (self.doc.value(entry), self.doc.value_span(entry));
@@ -368,6 +370,7 @@ impl<'a> Reader<'a, '_> {
         item.flags = self.flags(raw);
         self.configured(raw, &mut item);
         self.take_comments(&mut item.extensions);
+        item.extensions.shrink_to_fit();
         item
     }
 

@@ -3,7 +3,7 @@
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::canopen::number::{self, Parsed};
 use crate::frontend::canopen::value::Converter;
-use crate::ir::{CompactString, Extension, Type};
+use crate::ir::{CompactString, Extension, Extensions, Type};
 use crate::limits;
 use crate::source::{Origin, Span};
 use crate::syntax::ini::{Document, Entry, Section};
@@ -23,7 +23,7 @@ pub(super) struct Reader<'a, 'd> {
     /// How many items were made from CompactSubObj and CompactPDO.
     pub derived_items: usize,
     /// Comments behind values, until the element that they belong to is complete and takes them.
-    pub comments: Vec<Extension>,
+    pub comments: Extensions,
     /// The first flag that is a hexadecimal number, and how many there are: tools write all or none so.
     pub hex_flags: Option<(Span, usize)>,
 }
@@ -87,7 +87,7 @@ impl<'a, 'd> Reader<'a, 'd> {
     }
 
     /// Moves the comments read so far to the element that they belong to.
-    pub(super) fn take_comments(&mut self, extensions: &mut Vec<Extension>) {
+    pub(super) fn take_comments(&mut self, extensions: &mut Extensions) {
         if !self.comments.is_empty() {
             extensions.append(&mut self.comments);
         }
@@ -209,7 +209,7 @@ impl<'a, 'd> Reader<'a, 'd> {
     }
 
     /// Keeps an entry, or a comment that says something, that the IR has no field for.
-    pub(super) fn extension(&mut self, entry: &Entry, extensions: &mut Vec<Extension>) {
+    pub(super) fn extension(&mut self, entry: &Entry, extensions: &mut Extensions) {
         let (key, value, span) = (self.doc.key(entry), self.doc.value(entry), self.doc.value_span(entry));
         if self.doc.is_comment(entry) {
             // A line of dashes says nothing.

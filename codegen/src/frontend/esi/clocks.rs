@@ -1,14 +1,14 @@
 //! Distributed clocks.
 
 use super::reader::{has_attributes, note, Read, Reader};
-use crate::ir::{ClockMode, ClockSyncManager, ClockTime, DistributedClocks, Extension};
+use crate::ir::{ClockMode, ClockSyncManager, ClockTime, DistributedClocks, Extensions};
 use crate::syntax::xml::Tag;
 
 /// Reads Dc.
 pub(super) fn read<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<DistributedClocks> {
     let mut clocks = DistributedClocks::default();
     if has_attributes(parent) {
@@ -30,7 +30,7 @@ pub(super) fn read<'a>(
     Ok(clocks)
 }
 
-fn mode<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<ClockMode> {
+fn mode<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<ClockMode> {
     let mut mode = ClockMode::default();
     while let Some(tag) = reader.cursor.child(parent)? {
         match tag.name {
@@ -51,7 +51,7 @@ fn mode<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Vec<
     Ok(mode)
 }
 
-fn time<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<ClockTime> {
+fn time<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<ClockTime> {
     let fields = reader.fields(tag, &["Factor", "Input", "OutputDelayTime", "InputDelayTime"], extensions)?;
     let [factor, input, output_delay, input_delay] = &fields;
     note("OutputDelayTime", output_delay, extensions);
@@ -64,7 +64,7 @@ fn time<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Ext
 fn sync_manager<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<ClockSyncManager> {
     let [number] = reader.fields(parent, &["No"], extensions)?;
     let number = reader.int(&number, "number of a sync manager").unwrap_or(0);

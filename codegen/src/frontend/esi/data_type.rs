@@ -4,7 +4,7 @@ use super::flags::{self, Flags};
 use super::object::{self, RawInfo};
 use super::reader::{Given, Names, Read, Reader};
 use crate::diagnostics::codes;
-use crate::ir::{EnumValue, Extension};
+use crate::ir::{EnumValue, Extensions};
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
 
@@ -20,7 +20,7 @@ pub(super) struct RawType<'a> {
     pub fields: Vec<RawField<'a>>,
     pub values: Vec<EnumValue>,
     pub comment: Names<'a>,
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
     pub origin: Origin,
 }
 
@@ -43,7 +43,7 @@ pub(super) struct RawField<'a> {
     pub flags: Flags,
     pub info: RawInfo<'a>,
     pub comment: Names<'a>,
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
     pub origin: Origin,
     /// Bytes of text that every item made from it copies.
     pub weight: usize,
@@ -82,7 +82,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut 
     Ok(())
 }
 
-fn dimension<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<Dimension> {
+fn dimension<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<Dimension> {
     let mut dimension = Dimension { origin: reader.cursor.origin(parent), ..Dimension::default() };
     while let Some(tag) = reader.cursor.child(parent)? {
         match tag.name {
@@ -123,7 +123,7 @@ fn field<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawField<'
 pub(super) fn enum_value<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<Option<EnumValue>> {
     let (mut names, mut comment) = (Names::default(), Names::default());
     let mut value = None;

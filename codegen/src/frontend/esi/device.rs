@@ -7,7 +7,7 @@ use super::references::Reference;
 use super::types::Types;
 use super::{clocks, device_info, dictionary, eeprom, items, mailbox, slots, sync};
 use crate::diagnostics::codes;
-use crate::ir::{Device, EtherCatSettings, Extension, Group, PdoEntry, SyncManager, Type, TypeDef};
+use crate::ir::{Device, EtherCatSettings, Extensions, Group, PdoEntry, SyncManager, Type, TypeDef};
 use crate::syntax::xml::Tag;
 
 /// What is collected of a device until its end.
@@ -95,7 +95,7 @@ fn hide<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
     settings: &mut EtherCatSettings,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<()> {
     let fields = reader.fields(tag, &["ProductCode", "RevisionNo", "ProductRevision"], extensions)?;
     let [product, revision, name] = &fields;

@@ -1,7 +1,7 @@
 //! What Info says of a device: time limits, ports, electrical data.
 
 use super::reader::{Read, Reader};
-use crate::ir::{EtherCatSettings, Extension};
+use crate::ir::{EtherCatSettings, Extensions};
 use crate::syntax::xml::Tag;
 
 /// Reads Info.
@@ -9,7 +9,7 @@ pub(super) fn read<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
     settings: &mut EtherCatSettings,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<()> {
     while let Some(tag) = reader.cursor.child(parent)? {
         match tag.name {
@@ -33,7 +33,7 @@ fn timeouts<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
     settings: &mut EtherCatSettings,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<()> {
     while let Some(tag) = reader.cursor.child(parent)? {
         match tag.name {

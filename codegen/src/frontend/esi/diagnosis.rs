@@ -5,7 +5,7 @@ use compact_str::CompactString;
 use super::data_type::enum_value;
 use super::reader::{Names, Read, Reader};
 use crate::diagnostics::codes;
-use crate::ir::{CodeRow, CodeTable, Documentation, Extension, Value};
+use crate::ir::{CodeRow, CodeTable, Documentation, Extensions, SharedList, Value};
 use crate::syntax::xml::Tag;
 
 /// The flags of a message, in the order of the columns.
@@ -15,13 +15,13 @@ const COLUMNS: [&str; 4] = ["DiagClass", "DiagReset", "DiagReaction", "DiagType"
 pub(super) fn read<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<Vec<CodeTable>> {
     let origin = reader.cursor.origin(parent);
     let table = |name: &'static str, columns: &[&'static str]| CodeTable {
         name: CompactString::const_new(name),
         columns: columns.iter().map(|name| CompactString::const_new(name)).collect(),
-        rows: Vec::new(),
+        rows: SharedList::default(),
         buses: Vec::new(),
         documentation: None,
         origin,
@@ -31,9 +31,9 @@ pub(super) fn read<'a>(
     while let Some(tag) = reader.cursor.child(parent)? {
         if tag.name == "DiagMessage" {
             let row = message(reader, &tag, extensions)?;
-            messages.rows.extend(row);
+            messages.rows.to_mut().extend(row);
         } else if let Some(list) = lists.iter_mut().find(|list| list.name == tag.name) {
-            list.rows.extend(enum_value(reader, &tag, extensions)?.map(|value| CodeRow {
+            list.rows.to_mut().extend(enum_value(reader, &tag, extensions)?.map(|value| CodeRow {
                 code: value.value,
                 last: None,
                 name: value.name,
@@ -50,11 +50,7 @@ pub(super) fn read<'a>(
     Ok(std::iter::once(messages).chain(lists).collect())
 }
 
-fn message<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
-) -> Read<Option<CodeRow>> {
+fn message<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<Option<CodeRow>> {
     let (mut names, mut text, mut number) = (Names::default(), String::new(), None);
     let mut description = Names::default();
     let mut cells: [CompactString; COLUMNS.len()] = Default::default();
@@ -98,7 +94,7 @@ fn cause<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
     text: &mut String,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<()> {
     // The number of a cause only tells it from the others.
     reader.fields(parent, &["Idx"], extensions)?;

@@ -6,7 +6,7 @@ use super::data_type::{self, RawType};
 use super::object::{self, RawObject, RawSub};
 use super::reader::{note, shortened, Given, Read, Reader};
 use crate::diagnostics::codes;
-use crate::ir::{CompactString, Extension};
+use crate::ir::{CompactString, Extensions};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
@@ -19,7 +19,7 @@ pub(super) struct Dictionary<'a> {
     pub subs: Vec<RawSub<'a>>,
     /// Symbols of units that it defines, by notation index.
     pub units: Vec<(u32, CompactString)>,
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
 }
 
 impl<'a> Dictionary<'a> {
@@ -78,7 +78,7 @@ impl<'a> Dictionary<'a> {
     }
 
     /// What of the dictionary has no place in the IR, with what its data types and their sub-items say beyond that.
-    pub fn take_extensions(&mut self) -> Vec<Extension> {
+    pub fn take_extensions(&mut self) -> Extensions {
         let mut extensions = std::mem::take(&mut self.extensions);
         for ty in &mut self.types {
             let of_fields = ty.fields.iter_mut().flat_map(|field| field.extensions.drain(..));

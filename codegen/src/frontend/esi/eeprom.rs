@@ -1,11 +1,11 @@
 //! Content of the EEPROM, and registers of the slave controller.
 
 use super::reader::{has_attributes, Read, Reader};
-use crate::ir::{Eeprom, EtherCatSettings, Extension};
+use crate::ir::{Eeprom, EtherCatSettings, Extensions};
 use crate::syntax::xml::Tag;
 
 /// Reads Eeprom.
-pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<Eeprom> {
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<Eeprom> {
     let [assign] = reader.fields(parent, &["AssignToPdi"], extensions)?;
     let mut eeprom = Eeprom { assign_to_pdi: reader.flag(&assign), ..Eeprom::default() };
     while let Some(tag) = reader.cursor.child(parent)? {
@@ -25,7 +25,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions
     Ok(eeprom)
 }
 
-fn octets<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<Vec<u8>> {
+fn octets<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<Vec<u8>> {
     let given = reader.leaf(tag, extensions)?;
     Ok(reader.octets(&given).unwrap_or_default())
 }
@@ -34,7 +34,7 @@ fn octets<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<E
 fn category<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<Option<(u16, Vec<u8>)>> {
     if has_attributes(parent) {
         let [preserve] = reader.fields(parent, &["PreserveOnlineData"], extensions)?;
@@ -65,7 +65,7 @@ pub(super) fn registers<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
     settings: &mut EtherCatSettings,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<()> {
     while let Some(tag) = reader.cursor.child(parent)? {
         let address = tag.name.strip_prefix("Reg").filter(|digits| digits.len() == 4);

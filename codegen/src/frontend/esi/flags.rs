@@ -2,7 +2,7 @@
 
 use super::reader::{Given, Read, Reader};
 use crate::diagnostics::codes;
-use crate::ir::{Access, Behaviour, Category, CompactString, Extension, Mappable};
+use crate::ir::{Access, Behaviour, Category, CompactString, Extensions, Mappable};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
@@ -30,7 +30,7 @@ pub(super) struct MoreFlags {
 }
 
 /// Reads the element Flags.
-pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<Flags> {
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<Flags> {
     let mut flags = Flags { given: true, ..Flags::default() };
     while let Some(tag) = reader.cursor.child(parent)? {
         match tag.name {
@@ -61,12 +61,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions
     Ok(flags)
 }
 
-fn access<'a>(
-    reader: &mut Reader<'a, '_>,
-    tag: &Tag<'a>,
-    flags: &mut Flags,
-    extensions: &mut Vec<Extension>,
-) -> Read<()> {
+fn access<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, flags: &mut Flags, extensions: &mut Extensions) -> Read<()> {
     let [read, write] = reader.fields(tag, &["ReadRestrictions", "WriteRestrictions"], extensions)?;
     if !read.is_empty() {
         flags.more().read_states = states(&read);
@@ -128,11 +123,7 @@ fn mapping(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<Mappable> {
     Some(mappable).filter(|_| !given.is_empty())
 }
 
-fn number_as_flag<'a>(
-    reader: &mut Reader<'a, '_>,
-    tag: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
-) -> Read<Option<bool>> {
+fn number_as_flag<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<Option<bool>> {
     let given = reader.leaf(tag, extensions)?;
     Ok((!given.is_empty()).then(|| reader.flag(&given)))
 }

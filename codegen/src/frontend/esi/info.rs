@@ -4,7 +4,7 @@ use super::reader::{note, Given, Names, Read, Reader};
 use super::references::{Owner, Reference, Target};
 use super::{device, modules, Description};
 use crate::diagnostics::codes;
-use crate::ir::{Extension, Family, Header, LocalText};
+use crate::ir::{Extension, Extensions, Family, Header, LocalText};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
@@ -15,7 +15,7 @@ struct Vendor<'a> {
     names: Names<'a>,
     seen: bool,
     header: Header,
-    extensions: Vec<Extension>,
+    extensions: Extensions,
 }
 
 /// Reads EtherCATInfo or EtherCATModule.

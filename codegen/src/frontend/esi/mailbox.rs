@@ -3,15 +3,11 @@
 use super::pdo::slot_index;
 use super::reader::{has_attributes, Read, Reader};
 use crate::diagnostics::codes;
-use crate::ir::{Coe, CompactString, Extension, InitCommand, Mailbox, Protocol};
+use crate::ir::{Coe, CompactString, Extension, Extensions, InitCommand, Mailbox, Protocol};
 use crate::syntax::xml::Tag;
 
 /// Reads the Mailbox of a device or module.
-pub(super) fn read<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
-) -> Read<Mailbox> {
+pub(super) fn read<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<Mailbox> {
     let [data_link, real_time] = reader.fields(parent, &["DataLinkLayer", "RealTimeMode"], extensions)?;
     let mut mailbox =
         Mailbox { data_link_layer: reader.flag(&data_link), real_time: reader.flag(&real_time), ..Mailbox::default() };
@@ -30,10 +26,10 @@ pub(super) fn read<'a>(
     Ok(mailbox)
 }
 
-fn coe<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<Coe> {
+fn coe<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<Coe> {
     const NAMES: [&str; 7] =
         ["SdoInfo", "PdoAssign", "PdoConfig", "PdoUpload", "CompleteAccess", "SegmentedSdo", "DiagHistory"];
-    let mut others = Vec::new();
+    let mut others = Extensions::new();
     let fields = reader.fields(parent, &NAMES, &mut others)?;
     let [info, assign, config, upload, complete, segmented, history] =
         fields.each_ref().map(|given| reader.flag(given));
@@ -63,7 +59,7 @@ fn coe<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Vec<E
     Ok(coe)
 }
 
-fn protocol<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<Protocol> {
+fn protocol<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<Protocol> {
     let mut protocol = Protocol::default();
     if has_attributes(parent) {
         for attribute in parent.attributes() {
@@ -87,11 +83,7 @@ fn protocol<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut 
     Ok(protocol)
 }
 
-fn init_command<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
-) -> Read<InitCommand> {
+fn init_command<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<InitCommand> {
     const NAMES: [&str; 4] = ["Fixed", "CompleteAccess", "OverwrittenByModule", "Chn"];
     let mut command = InitCommand { origin: reader.cursor.origin(parent), ..InitCommand::default() };
     let fields = reader.fields(parent, &NAMES, extensions)?;

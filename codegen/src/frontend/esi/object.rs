@@ -8,7 +8,7 @@ use super::dictionary::Dictionary;
 use super::flags::{self, Flags};
 use super::reader::{note, shortened, Given, Names, Read, Reader};
 use crate::diagnostics::codes;
-use crate::ir::Extension;
+use crate::ir::{Extension, Extensions};
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
 
@@ -27,7 +27,7 @@ pub(super) struct RawObject<'a> {
     /// Its sub-items, among those of the dictionary.
     pub subs: Range<usize>,
     pub flags: Flags,
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
     pub origin: Origin,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct RawObject<'a> {
 pub(super) struct RawSub<'a> {
     pub name: Given<'a>,
     pub info: RawInfo<'a>,
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
     pub origin: Origin,
 }
 
@@ -75,7 +75,7 @@ pub(super) enum Form {
 
 impl<'a> RawInfo<'a> {
     /// Reads a child of Info, or of a SubItem of a data type; false for any other element.
-    pub fn read(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<bool> {
+    pub fn read(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<bool> {
         let form = match tag.name {
             "DefaultData" | "MinData" | "MaxData" => Form::Data,
             "DefaultValue" | "MinValue" | "MaxValue" => Form::Number,
@@ -200,11 +200,7 @@ fn sub_item<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, raw: &mut RawSub<
 }
 
 /// Reads Properties.
-pub(super) fn properties<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
-) -> Read<()> {
+pub(super) fn properties<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
     while let Some(tag) = reader.cursor.child(parent)? {
         if tag.name == "Property" {
             property(reader, &tag, extensions)?;
@@ -216,7 +212,7 @@ pub(super) fn properties<'a>(
 }
 
 /// Keeps a Property under its own name.
-pub(super) fn property<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+pub(super) fn property<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
     let (mut name, mut value) = (Given::default(), Given::default());
     let mut description = Names::default();
     while let Some(tag) = reader.cursor.child(parent)? {

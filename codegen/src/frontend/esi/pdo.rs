@@ -5,7 +5,7 @@ use compact_str::format_compact;
 use super::dictionary::missing_index;
 use super::reader::{note, Given, Names, Read, Reader};
 use crate::diagnostics::codes;
-use crate::ir::{Direction, Extension, Oversampling, Pdo, PdoEntry, PdoEntryKind, ProcessData, Type};
+use crate::ir::{Direction, Extensions, Oversampling, Pdo, PdoEntry, PdoEntryKind, ProcessData, Type};
 use crate::syntax::xml::Tag;
 
 /// The PDOs of a device or module. What the types of their entries are is known only once the dictionary was read.
@@ -83,7 +83,7 @@ fn pdo_index<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, pdo: &mut Pdo) -> R
 pub(super) fn slot_index<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<(Given<'a>, bool, bool)> {
     let [slot, group] = reader.fields(tag, &["DependOnSlot", "DependOnSlotGroup"], extensions)?;
     let (slot, group) = (reader.flag(&slot), reader.flag(&group));
@@ -91,14 +91,14 @@ pub(super) fn slot_index<'a>(
 }
 
 /// An index of which nothing matters but the number.
-fn plain_index<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<Option<u16>> {
+fn plain_index<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<Option<u16>> {
     reader.number(tag, "index", extensions)
 }
 
 fn entry<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<(PdoEntry, Given<'a>)> {
     let mut entry = PdoEntry { origin: reader.cursor.origin(parent), ..PdoEntry::new(0, 0, 0) };
     let [fixed] = reader.fields(parent, &["Fixed"], extensions)?;
@@ -134,7 +134,7 @@ fn entry<'a>(
 }
 
 /// The name of a type, with its scale and the order of its bytes, which have no place in the IR.
-fn data_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<Given<'a>> {
+fn data_type<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<Given<'a>> {
     let [scale, swap] = reader.fields(tag, &["DScale", "SwapData"], extensions)?;
     note("DataType@DScale", &scale, extensions);
     note("DataType@SwapData", &swap, extensions);

@@ -6,7 +6,7 @@ use super::diagnosis;
 use super::dictionary::Dictionary;
 use super::reader::{note, Read, Reader};
 use super::references::{Reference, Target};
-use crate::ir::{CodeTable, Extension};
+use crate::ir::{CodeTable, Extensions};
 use crate::syntax::xml::Tag;
 
 /// What the profiles of a device or module say.
@@ -23,7 +23,7 @@ pub(super) struct Profiles<'a> {
 
 impl<'a> Profiles<'a> {
     /// Reads a Profile.
-    pub fn read(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    pub fn read(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         let [channel] = reader.fields(parent, &["Channel"], extensions)?;
         note("Profile@Channel", &channel, extensions);
         while let Some(tag) = reader.cursor.child(parent)? {
@@ -42,14 +42,14 @@ impl<'a> Profiles<'a> {
         Ok(())
     }
 
-    fn number(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    fn number(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         let number = reader.number(tag, "number of a profile", extensions)?;
         self.numbers.extend(number.filter(|&number| self.seen.insert(number)));
         Ok(())
     }
 
     /// A channel follows a profile of its own.
-    fn channel(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    fn channel(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         let fields = reader.fields(parent, &["OverwrittenByModule", "ChannelGroup"], extensions)?;
         let [overwritten, group] = &fields;
         note("ChannelInfo@OverwrittenByModule", overwritten, extensions);
@@ -69,7 +69,7 @@ impl<'a> Profiles<'a> {
         reader: &mut Reader<'a, '_>,
         tag: &Tag<'a>,
         target: Target,
-        extensions: &mut Vec<Extension>,
+        extensions: &mut Extensions,
     ) -> Read<()> {
         let given = reader.leaf(tag, extensions)?;
         if !given.is_empty() {

@@ -8,7 +8,7 @@ use smallvec::SmallVec;
 use super::language;
 use super::number::{self, Number};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
-use crate::ir::{Documentation, Extension, LocalText, Texts};
+use crate::ir::{Documentation, Extension, Extensions, LocalText, Texts};
 use crate::limits;
 use crate::source::Span;
 use crate::syntax::xml::{Cursor, Event, Tag, Text};
@@ -130,7 +130,7 @@ fn local(lcid: Option<u32>, given: &Given<'_>) -> LocalText {
 
 impl<'a> Reader<'a, '_> {
     /// Reads an element that has nothing but text to its end; whatever else it has becomes extensions.
-    pub fn leaf(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<Given<'a>> {
+    pub fn leaf(&mut self, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<Given<'a>> {
         if has_attributes(tag) {
             self.keep_attributes(tag, extensions)?;
         }
@@ -138,7 +138,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// The same for an element whose attributes were read.
-    pub fn content(&mut self, extensions: &mut Vec<Extension>) -> Read<Given<'a>> {
+    pub fn content(&mut self, extensions: &mut Extensions) -> Read<Given<'a>> {
         let mut given = Given::default();
         loop {
             match self.cursor.read()? {
@@ -176,7 +176,7 @@ impl<'a> Reader<'a, '_> {
         &mut self,
         tag: &Tag<'a>,
         names: &[&str; N],
-        extensions: &mut Vec<Extension>,
+        extensions: &mut Extensions,
     ) -> Read<[Given<'a>; N]> {
         let mut fields = std::array::from_fn(|_| Given::default());
         if !has_attributes(tag) {
@@ -213,7 +213,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Reads a text with its language.
-    pub fn name(&mut self, tag: &Tag<'a>, names: &mut Names<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    pub fn name(&mut self, tag: &Tag<'a>, names: &mut Names<'a>, extensions: &mut Extensions) -> Read<()> {
         let mut lcid = None;
         if has_attributes(tag) {
             let [given] = self.fields(tag, &["LcId"], extensions)?;
@@ -237,7 +237,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Keeps an element that ETG.2000 doesn't have at this place.
-    pub fn unknown(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    pub fn unknown(&mut self, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         self.lint(&codes::ESI_UNKNOWN_ELEMENT, tag.name_span(), || {
             format!("ETG.2000 has no element <{}> here", shortened(tag.name))
         });
@@ -245,7 +245,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Keeps the attributes and texts of an element and of those within it as `parent/element@attribute` extensions.
-    pub fn keep(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    pub fn keep(&mut self, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         self.keep_attributes(tag, extensions)?;
         while self.cursor.depth() >= tag.depth {
             match self.cursor.read()? {
@@ -264,7 +264,7 @@ impl<'a> Reader<'a, '_> {
 
     /// Keeps of VendorSpecific what stands on top: the name, the attributes and the text of each element in it. What is
     /// below has no meaning but to the tool of its vendor.
-    pub fn vendor_specific(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    pub fn vendor_specific(&mut self, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         while let Some(child) = self.cursor.child(tag)? {
             self.keep_attributes(&child, extensions)?;
             let key = self.cursor.innermost();
@@ -285,7 +285,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Notes the size of a picture that the file contains, or the name of one that it refers to.
-    pub fn image(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    pub fn image(&mut self, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         let given = self.leaf(tag, extensions)?;
         let value = if tag.name.contains("Data") {
             let digits = given.text.bytes().filter(u8::is_ascii_hexdigit).count();
@@ -298,13 +298,13 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Keeps the text of an element under its name.
-    pub fn note(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    pub fn note(&mut self, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         let given = self.leaf(tag, extensions)?;
         note(tag.name, &given, extensions);
         Ok(())
     }
 
-    fn keep_attributes(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    fn keep_attributes(&mut self, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         if !has_attributes(tag) {
             return Ok(());
         }
@@ -377,7 +377,7 @@ impl<'a> Reader<'a, '_> {
         &mut self,
         tag: &Tag<'a>,
         what: &str,
-        extensions: &mut Vec<Extension>,
+        extensions: &mut Extensions,
     ) -> Read<Option<T>> {
         let given = self.leaf(tag, extensions)?;
         Ok(self.int(&given, what))
@@ -434,7 +434,7 @@ pub(super) fn has_attributes(tag: &Tag<'_>) -> bool {
 }
 
 /// Keeps something that was read as an extension.
-pub(super) fn note(key: &str, given: &Given<'_>, extensions: &mut Vec<Extension>) {
+pub(super) fn note(key: &str, given: &Given<'_>, extensions: &mut Extensions) {
     if !given.is_empty() {
         extensions.push(Extension { key: key.into(), value: given.compact(), span: given.span });
     }

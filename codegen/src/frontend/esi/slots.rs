@@ -1,7 +1,7 @@
 //! Slots of a modular device.
 
 use super::reader::{note, Given, Names, Read, Reader};
-use crate::ir::{CompactString, Extension, Fit, ModulePdoGroup, Slot, SlotRules};
+use crate::ir::{CompactString, Extension, Extensions, Fit, ModulePdoGroup, Slot, SlotRules};
 use crate::syntax::xml::Tag;
 
 /// Reads Slots. Slots are numbered from 0; one that takes several modules stands for as many.
@@ -9,7 +9,7 @@ pub(super) fn read<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
     slots: &mut Vec<Slot>,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<SlotRules> {
     let mut rules = rules(reader, parent, extensions)?;
     let first = slots.len();
@@ -45,7 +45,7 @@ fn after(slot: &Slot) -> u16 {
     slot.number.saturating_add(slot.instances.1.max(1))
 }
 
-fn rules<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<SlotRules> {
+fn rules<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<SlotRules> {
     const NAMES: [&str; 10] = [
         "MaxSlotCount",
         "MaxSlotGroupCount",
@@ -83,11 +83,7 @@ fn increment(reader: &mut Reader<'_, '_>, given: &Given<'_>) -> Option<u16> {
 /// The increments that a slot gives itself: for indices of objects and of PDOs, from slot to slot and from group to group.
 type Increments = [Option<u16>; 4];
 
-fn slot<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
-) -> Read<(Slot, Increments)> {
+fn slot<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<(Slot, Increments)> {
     const NAMES: [&str; 10] = [
         "MinInstances",
         "MaxInstances",
@@ -130,7 +126,7 @@ fn module_ident<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
     slot: &mut Slot,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<()> {
     let [default] = reader.fields(tag, &["Default"], extensions)?;
     let is_default = reader.int::<u32>(&default, "number").is_some_and(|value| value != 0);
@@ -148,7 +144,7 @@ fn module_class<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
     slot: &mut Slot,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<()> {
     while let Some(tag) = reader.cursor.child(parent)? {
         match tag.name {
@@ -168,7 +164,7 @@ fn group<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
     rules: &mut SlotRules,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<()> {
     let [number] = reader.fields(parent, &["SlotGroup"], extensions)?;
     let number = reader.int(&number, "number of a slot group").unwrap_or(0);
@@ -189,7 +185,7 @@ fn group<'a>(
     Ok(())
 }
 
-fn pdo_group<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<ModulePdoGroup> {
+fn pdo_group<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<ModulePdoGroup> {
     let fields = reader.fields(tag, &["Alignment", "RxPdo", "TxPdo"], extensions)?;
     let [alignment, receive, transmit] = &fields;
     let group = ModulePdoGroup {
@@ -205,7 +201,7 @@ fn pdo_group<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Ve
 fn selection<'a>(
     reader: &mut Reader<'a, '_>,
     parent: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<(CompactString, Vec<u32>)> {
     let (mut names, mut idents) = (Names::default(), Vec::new());
     while let Some(tag) = reader.cursor.child(parent)? {

@@ -2,7 +2,7 @@
 
 use super::reader::{shortened, Given, Read, Reader};
 use crate::diagnostics::codes;
-use crate::ir::{EtherCatSettings, Extension, Fmmu, SyncManager, SyncManagerPurpose, SyncUnit};
+use crate::ir::{EtherCatSettings, Extensions, Fmmu, SyncManager, SyncManagerPurpose, SyncUnit};
 use crate::syntax::xml::Tag;
 
 /// Reads a Fmmu.
@@ -10,7 +10,7 @@ pub(super) fn fmmu<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
     settings: &mut EtherCatSettings,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<()> {
     let [op_only, sm, su] = reader.fields(tag, &["OpOnly", "Sm", "Su"], extensions)?;
     let fmmu = Fmmu {
@@ -28,7 +28,7 @@ pub(super) fn sync_unit<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
     settings: &mut EtherCatSettings,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<()> {
     const NAMES: [&str; 4] = ["SeparateSu", "SeparateFrame", "DependOnInputState", "FrameRepeatSupport"];
     let [separate, frame, state, repeat] = reader.fields(tag, &NAMES, extensions)?;
@@ -48,7 +48,7 @@ pub(super) fn sync_manager<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
     list: &mut Vec<(SyncManager, Given<'a>)>,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<()> {
     const NAMES: [&str; 8] =
         ["MinSize", "MaxSize", "DefaultSize", "StartAddress", "ControlByte", "Enable", "OpOnly", "Virtual"];

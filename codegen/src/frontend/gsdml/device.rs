@@ -5,7 +5,7 @@ use super::module::{named_graphic, Info};
 use super::reader::{attribute, Attributes, Given, Read, Reader};
 use super::submodule::Holder;
 use crate::ir::{
-    Catalog, CompactString, Device, Extension, Group, GroupKind, IoLengths, Numbers, ObjectCode, ProfinetSettings,
+    Catalog, CompactString, Device, Extensions, Group, GroupKind, IoLengths, Numbers, ObjectCode, ProfinetSettings,
     Record, Slot, Submodule, VendorBlock,
 };
 use crate::syntax::xml::Tag;
@@ -131,7 +131,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    fn useable_modules(&mut self, list: &Tag<'a>, device: usize, rest: &mut Vec<Extension>) -> Read<()> {
+    fn useable_modules(&mut self, list: &Tag<'a>, device: usize, rest: &mut Extensions) -> Read<()> {
         let names = ["ModuleItemTarget", "AllowedInSlots", "FixedInSlots", "UsedInSlots"];
         while let Some(tag) = self.cursor.child(list)? {
             if tag.name != "ModuleItemRef" {
@@ -186,12 +186,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    fn vendor_blocks(
-        &mut self,
-        list: &Tag<'a>,
-        settings: &mut ProfinetSettings,
-        rest: &mut Vec<Extension>,
-    ) -> Read<()> {
+    fn vendor_blocks(&mut self, list: &Tag<'a>, settings: &mut ProfinetSettings, rest: &mut Extensions) -> Read<()> {
         while let Some(tag) = self.cursor.child(list)? {
             if tag.name != "Request" {
                 self.unknown(&tag, rest)?;

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::data_type::DataType;
 use super::reader::{note, Given, Read, Reader};
 use crate::ir::{
-    Catalog, CodeRow, CodeTable, CompactString, Documentation, Extension, Type, UnitDiagnosis, UnitDiagnosisField,
+    Catalog, CodeRow, CodeTable, CompactString, Documentation, Extensions, Type, UnitDiagnosis, UnitDiagnosisField,
     Value,
 };
 use crate::syntax::xml::Tag;
@@ -81,7 +81,7 @@ impl<'a> Reader<'a, '_> {
         catalog.code_tables.push(CodeTable {
             name: list.table.into(),
             columns: named(list.columns),
-            rows: own,
+            rows: own.into(),
             buses: Vec::new(),
             documentation: None,
             origin,
@@ -90,7 +90,7 @@ impl<'a> Reader<'a, '_> {
             catalog.code_tables.push(CodeTable {
                 name: list.extended.into(),
                 columns: named(list.extended_columns),
-                rows: extended,
+                rows: extended.into(),
                 buses: Vec::new(),
                 documentation: None,
                 origin,
@@ -106,7 +106,7 @@ impl<'a> Reader<'a, '_> {
         list: &'static List,
         parent_code: Option<i128>,
         rows: &mut Rows,
-        rest: &mut Vec<Extension>,
+        rest: &mut Extensions,
     ) -> Read<()> {
         // Some files have errors where reasons belong.
         let names = [list.code, "MaintenanceAlarmState", "API", "ErrorType"];
@@ -151,7 +151,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// What comes along with a code, as `1 Unsigned16, 2 Float32`.
-    fn add_values(&mut self, list: &Tag<'a>, text: &mut String, rest: &mut Vec<Extension>) -> Read<()> {
+    fn add_values(&mut self, list: &Tag<'a>, text: &mut String, rest: &mut Extensions) -> Read<()> {
         while let Some(tag) = self.cursor.child(list)? {
             if tag.name != "DataItem" {
                 self.unknown(&tag, rest)?;
@@ -195,7 +195,7 @@ impl<'a> Reader<'a, '_> {
         catalog.code_tables.push(CodeTable {
             name: "log_book".into(),
             columns: Vec::new(),
-            rows,
+            rows: rows.into(),
             buses: Vec::new(),
             documentation: None,
             origin,
@@ -203,13 +203,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    fn log_entries(
-        &mut self,
-        list: &Tag<'a>,
-        first: i128,
-        rows: &mut Vec<CodeRow>,
-        rest: &mut Vec<Extension>,
-    ) -> Read<()> {
+    fn log_entries(&mut self, list: &Tag<'a>, first: i128, rows: &mut Vec<CodeRow>, rest: &mut Extensions) -> Read<()> {
         while let Some(tag) = self.cursor.child(list)? {
             if tag.name != "ErrorCode2Item" {
                 self.unknown(&tag, rest)?;
@@ -226,7 +220,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    fn log_entry(&mut self, tag: &Tag<'a>, code: i128, last: Option<i128>, rest: &mut Vec<Extension>) -> Read<CodeRow> {
+    fn log_entry(&mut self, tag: &Tag<'a>, code: i128, last: Option<i128>, rest: &mut Extensions) -> Read<CodeRow> {
         let mut row = empty_row(code);
         row.last = last;
         while let Some(child) = self.cursor.child(tag)? {
@@ -276,7 +270,7 @@ impl<'a> Reader<'a, '_> {
         Ok(diagnosis)
     }
 
-    fn unit_field(&mut self, tag: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<UnitDiagnosisField> {
+    fn unit_field(&mut self, tag: &Tag<'a>, rest: &mut Extensions) -> Read<UnitDiagnosisField> {
         let names =
             ["DataType", "ByteOffset", "BitOffset", "BitLength", "Length", "TextId", "ValueItemTarget", "DefaultValue"];
         let [data_type, byte, bit, bits, length, text, values, default] = self.fields(tag, &names, rest)?;
@@ -313,7 +307,7 @@ impl<'a> Reader<'a, '_> {
         Ok(field)
     }
 
-    fn unit_values(&mut self, target: Given<'a>, field: &mut UnitDiagnosisField, rest: &mut Vec<Extension>) {
+    fn unit_values(&mut self, target: Given<'a>, field: &mut UnitDiagnosisField, rest: &mut Extensions) {
         let base = if field.ty == Type::Boolean { Type::Unsigned(1) } else { field.ty };
         if !matches!(base, Type::Integer(_) | Type::Unsigned(_)) {
             self.bad(&target, "list of values for this type", "kept as an extension attribute");

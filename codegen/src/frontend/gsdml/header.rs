@@ -3,7 +3,7 @@
 use super::reader::{Given, Read, Reader};
 use super::resolve::Resolver;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Catalog, CompactString, Documentation, Extension};
+use crate::ir::{Catalog, CompactString, Documentation, Extension, Extensions};
 use crate::source::{FileId, Span};
 use crate::syntax::xml::Tag;
 
@@ -32,7 +32,7 @@ impl Header {
     }
 
     /// Reads DeviceIdentity.
-    pub fn identity<'a>(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<()> {
+    pub fn identity<'a>(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, rest: &mut Extensions) -> Read<()> {
         let [vendor, device] = reader.fields(tag, &["VendorID", "DeviceID"], rest)?;
         for (given, name) in [(&vendor, "VendorID"), (&device, "DeviceID")] {
             if given.is_none() {
@@ -52,7 +52,7 @@ impl Header {
     }
 
     /// Reads the child `Family` of DeviceFunction.
-    pub fn family<'a>(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<()> {
+    pub fn family<'a>(&mut self, reader: &mut Reader<'a, '_>, tag: &Tag<'a>, rest: &mut Extensions) -> Read<()> {
         let [main, product] = reader.fields(tag, &["MainFamily", "ProductFamily"], rest)?;
         let text = |given: Option<Given<'a>>| given.map_or_else(CompactString::default, |given| given.text.into());
         self.family = (text(main), text(product));

@@ -7,7 +7,7 @@ use super::reader::{attribute, Given, Read, Reader};
 use super::texts::with_suffix;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
-    Direction, Extension, IoChannel, IoData, IoItem, PdoEntry, PdoEntryKind, ProcessImage, Submodule, Type,
+    Direction, Extensions, IoChannel, IoData, IoItem, PdoEntry, PdoEntryKind, ProcessImage, Submodule, Type,
 };
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
@@ -43,7 +43,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    fn direction(&mut self, parent: &Tag<'a>, direction: Direction, rest: &mut Vec<Extension>) -> Read<IoData> {
+    fn direction(&mut self, parent: &Tag<'a>, direction: Direction, rest: &mut Extensions) -> Read<IoData> {
         let [consistency] = self.fields(parent, &["Consistency"], rest)?;
         let consistent = match consistency.as_ref().map(|given| given.text.as_ref()) {
             Some("All items consistency") => true,
@@ -70,7 +70,7 @@ impl<'a> Reader<'a, '_> {
         Ok(IoData { image, consistent, items, channels })
     }
 
-    fn data_item(&mut self, tag: &Tag<'a>, layout: &mut Layout, rest: &mut Vec<Extension>) -> Read<()> {
+    fn data_item(&mut self, tag: &Tag<'a>, layout: &mut Layout, rest: &mut Extensions) -> Read<()> {
         let origin = self.cursor.origin(tag);
         let names = ["DataType", "TextId", "Length", "UseAsBits", "Subordinate"];
         let [given, text, length, use_as_bits, subordinate] = self.fields(tag, &names, rest)?;
@@ -113,7 +113,7 @@ impl<'a> Reader<'a, '_> {
         length
     }
 
-    fn bit_data_items(&mut self, parent: &Tag<'a>, item: &mut DataItem, rest: &mut Vec<Extension>) -> Read<()> {
+    fn bit_data_items(&mut self, parent: &Tag<'a>, item: &mut DataItem, rest: &mut Extensions) -> Read<()> {
         while let Some(tag) = self.cursor.child(parent)? {
             if tag.name != "BitDataItem" {
                 self.unknown(&tag, rest)?;
@@ -133,7 +133,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    fn channel(&mut self, parent: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<IoChannel> {
+    fn channel(&mut self, parent: &Tag<'a>, rest: &mut Extensions) -> Read<IoChannel> {
         let mut channel = IoChannel::default();
         let [number] = self.fields_of(parent, &["Number"], &mut channel.attributes)?;
         channel.number = self.unsigned16(number.as_ref(), "number of a channel").unwrap_or(0);

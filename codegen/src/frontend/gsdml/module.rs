@@ -3,7 +3,7 @@
 use super::links::{Kind, Owner};
 use super::reader::{Attributes, Given, Read, Reader};
 use super::submodule::Holder;
-use crate::ir::{Catalog, CompactString, Documentation, Extension, Module};
+use crate::ir::{Catalog, CompactString, Documentation, Extension, Extensions, Module};
 use crate::syntax::xml::Tag;
 
 /// ModuleInfo.
@@ -82,7 +82,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Reads ModuleInfo.
-    pub fn module_info(&mut self, parent: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<Info<'a>> {
+    pub fn module_info(&mut self, parent: &Tag<'a>, rest: &mut Extensions) -> Read<Info<'a>> {
         let mut info = Info::default();
         let [category, sub_category] = self.fields(parent, &["CategoryRef", "SubCategory1Ref"], rest)?;
         for (key, given) in [("CategoryRef", category), ("SubCategory1Ref", sub_category)] {
@@ -118,7 +118,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Reads Graphics.
-    pub fn graphics(&mut self, list: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<Graphics> {
+    pub fn graphics(&mut self, list: &Tag<'a>, rest: &mut Extensions) -> Read<Graphics> {
         let mut graphics = Graphics::new();
         while let Some(tag) = self.cursor.child(list)? {
             if tag.name != "GraphicItemRef" {

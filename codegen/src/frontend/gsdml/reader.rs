@@ -8,7 +8,7 @@ use super::links::Links;
 use super::texts::Names;
 use super::types::Types;
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Extension, Item};
+use crate::ir::{Extension, Extensions, Item};
 use crate::source::Span;
 use crate::syntax::xml::{Attribute, Cursor, Event, Tag};
 pub(super) use crate::text::brief as shortened;
@@ -47,7 +47,7 @@ impl<'a> Reader<'a, '_> {
         &mut self,
         tag: &Tag<'a>,
         names: &[&str; N],
-        extensions: &mut Vec<Extension>,
+        extensions: &mut Extensions,
     ) -> Read<[Option<Given<'a>>; N]> {
         self.sorted(tag, names, |reader, attribute| reader.unknown_attribute(tag, attribute, extensions))
     }
@@ -102,7 +102,7 @@ impl<'a> Reader<'a, '_> {
         Some(at)
     }
 
-    fn unknown_attribute(&mut self, tag: &Tag<'a>, attribute: &Attribute<'a>, extensions: &mut Vec<Extension>) {
+    fn unknown_attribute(&mut self, tag: &Tag<'a>, attribute: &Attribute<'a>, extensions: &mut Extensions) {
         if self.diagnostics.wants(&codes::UNKNOWN_GSDML_ELEMENT) {
             let message = format!("<{}> has no such attribute in GSDML V2.35", shortened(tag.name));
             self.diagnostics.push(
@@ -128,7 +128,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Keeps an element that GSDML doesn't have at this place.
-    pub fn unknown(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    pub fn unknown(&mut self, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         if self.diagnostics.wants(&codes::UNKNOWN_GSDML_ELEMENT) {
             self.diagnostics.push(
                 Diagnostic::new(&codes::UNKNOWN_GSDML_ELEMENT, tag.name_span(), "GSDML V2.35 has no such element here")
@@ -139,7 +139,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Keeps the attributes and texts of an element and of those within it as `parent/element@attribute` extensions.
-    pub fn keep(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    pub fn keep(&mut self, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         self.each_within(tag, |reader, found| {
             let (key, value, span) = match found {
                 Found::Attribute(attribute) => {
@@ -201,7 +201,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Reads an element that has no children in GSDML to its end.
-    pub fn no_children(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    pub fn no_children(&mut self, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         while let Some(child) = self.cursor.child(tag)? {
             self.unknown(&child, extensions)?;
         }
@@ -230,7 +230,7 @@ enum Found<'f, 'a> {
 }
 
 /// Keeps something that was read as an extension.
-pub(super) fn note(key: &str, given: Option<&Given<'_>>, extensions: &mut Vec<Extension>) {
+pub(super) fn note(key: &str, given: Option<&Given<'_>>, extensions: &mut Extensions) {
     if let Some(given) = given {
         extensions.push(Extension { key: key.into(), value: given.text.as_ref().into(), span: given.span });
     }

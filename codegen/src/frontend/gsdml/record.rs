@@ -7,7 +7,7 @@ use super::reader::{shortened, Given, Read, Reader};
 use super::value::octets;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
-    Access, Behaviour, Binding, Extension, Group, GroupKind, Item, Menu, ObjectCode, Record, Submodule, Type,
+    Access, Behaviour, Binding, Extensions, Group, GroupKind, Item, Menu, ObjectCode, Record, Submodule, Type,
 };
 use crate::source::Span;
 use crate::syntax::xml::Tag;
@@ -93,7 +93,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    fn constant(&mut self, tag: &Tag<'a>, record: &mut Record, extensions: &mut Vec<Extension>) -> Read<()> {
+    fn constant(&mut self, tag: &Tag<'a>, record: &mut Record, extensions: &mut Extensions) -> Read<()> {
         let [offset, data] = self.fields(tag, &["ByteOffset", "Data"], extensions)?;
         let offset = self.unsigned(offset.as_ref(), u32::MAX, "byte offset").unwrap_or(0);
         let Some(data) = data else {
@@ -146,6 +146,8 @@ impl<'a> Reader<'a, '_> {
         if !tag.empty {
             self.no_children(tag, &mut item.extensions)?;
         }
+        // Nearly every parameter has its ID there, and nothing else.
+        item.extensions.shrink_to_fit();
         Ok(item)
     }
 
@@ -271,7 +273,7 @@ impl<'a> Reader<'a, '_> {
         super::reader::note("ValueItemTarget", Some(&target), &mut item.extensions);
     }
 
-    fn menu_list(&mut self, list: &Tag<'a>, menus: &mut Vec<Menu>, rest: &mut Vec<Extension>) -> Read<()> {
+    fn menu_list(&mut self, list: &Tag<'a>, menus: &mut Vec<Menu>, rest: &mut Extensions) -> Read<()> {
         while let Some(tag) = self.cursor.child(list)? {
             match tag.name {
                 "MenuItem" => {
@@ -284,7 +286,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    fn menu(&mut self, parent: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<Menu> {
+    fn menu(&mut self, parent: &Tag<'a>, rest: &mut Extensions) -> Read<Menu> {
         let [id] = self.fields(parent, &["ID"], rest)?;
         let mut menu = Menu { id: id.map_or_else(CompactString::default, |id| id.text.into()), ..Menu::default() };
         while let Some(tag) = self.cursor.child(parent)? {

@@ -20,7 +20,7 @@ pub(super) fn catalog(catalog: &mut Catalog, resolver: &mut Resolver<'_, '_>) {
     catalog.modules.iter_mut().for_each(|found| module(found, resolver));
     catalog.submodules.iter_mut().for_each(|found| submodule(found, resolver));
     catalog.types.iter_mut().for_each(|def| type_def(def, resolver));
-    for row in catalog.code_tables.iter_mut().flat_map(|table| &mut table.rows) {
+    for row in catalog.code_tables.iter_mut().flat_map(|table| table.rows.to_mut()) {
         resolver.name(&mut row.name, &mut row.names);
         resolver.documentation(&mut row.documentation);
     }

@@ -5,7 +5,7 @@ use super::module::Info;
 use super::number::tokens;
 use super::reader::{attribute, Given, Read, Reader};
 use crate::ir::{
-    CompactString, Extension, Numbers, Places, ProfinetSettings, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse,
+    CompactString, Extensions, Numbers, Places, ProfinetSettings, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse,
     SubslotName,
 };
 use crate::syntax::xml::Tag;
@@ -21,7 +21,7 @@ pub(super) struct Holder<'h> {
     pub uses: &'h mut Vec<SubmoduleUse>,
     /// What an interface says of the device as a whole.
     pub settings: Option<&'h mut ProfinetSettings>,
-    pub extensions: &'h mut Vec<Extension>,
+    pub extensions: &'h mut Extensions,
 }
 
 /// The kind of submodule that an element stands for.
@@ -62,7 +62,7 @@ impl<'a> Reader<'a, '_> {
         &mut self,
         list: &Tag<'a>,
         submodules: &mut Vec<Submodule>,
-        rest: &mut Vec<Extension>,
+        rest: &mut Extensions,
     ) -> Read<()> {
         while let Some(tag) = self.cursor.child(list)? {
             match kind_of(tag.name) {
@@ -156,7 +156,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Reads UseableSubmodules.
-    pub fn useable_submodules(&mut self, list: &Tag<'a>, owner: Owner, rest: &mut Vec<Extension>) -> Read<()> {
+    pub fn useable_submodules(&mut self, list: &Tag<'a>, owner: Owner, rest: &mut Extensions) -> Read<()> {
         let names = ["SubmoduleItemTarget", "AllowedInSubslots", "FixedInSubslots", "UsedInSubslots"];
         while let Some(tag) = self.cursor.child(list)? {
             if tag.name != "SubmoduleItemRef" {
@@ -181,7 +181,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Reads SubslotList.
-    pub fn subslot_list(&mut self, list: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<Vec<SubslotName>> {
+    pub fn subslot_list(&mut self, list: &Tag<'a>, rest: &mut Extensions) -> Read<Vec<SubslotName>> {
         let mut subslots = Vec::new();
         while let Some(tag) = self.cursor.child(list)? {
             if tag.name != "SubslotItem" {

@@ -10,7 +10,7 @@ use compact_str::{format_compact, CompactString, ToCompactString};
 
 use super::reader::{shortened, Given, Read, Reader};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Documentation, Extension, LocalText, Texts};
+use crate::ir::{Documentation, Extension, Extensions, LocalText, Texts};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
@@ -109,7 +109,7 @@ struct Text<'a> {
 
 impl<'a> TextList<'a> {
     /// Reads ExternalTextList.
-    pub fn read(&mut self, reader: &mut Reader<'a, '_>, list: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<()> {
+    pub fn read(&mut self, reader: &mut Reader<'a, '_>, list: &Tag<'a>, rest: &mut Extensions) -> Read<()> {
         while let Some(tag) = reader.cursor.child(list)? {
             match tag.name {
                 "PrimaryLanguage" => {
@@ -126,7 +126,7 @@ impl<'a> TextList<'a> {
         Ok(())
     }
 
-    fn primary(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<()> {
+    fn primary(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>, rest: &mut Extensions) -> Read<()> {
         while let Some(tag) = reader.cursor.child(parent)? {
             let Some(text) = read_text(reader, &tag, rest)? else { continue };
             let (span, at) = (text.id.span, self.entry(text.id));
@@ -141,7 +141,7 @@ impl<'a> TextList<'a> {
         Ok(())
     }
 
-    fn language(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<()> {
+    fn language(&mut self, reader: &mut Reader<'a, '_>, parent: &Tag<'a>, rest: &mut Extensions) -> Read<()> {
         // Every text of the language has a copy of its name.
         let name = CompactString::from(shortened(&reader.single(parent, "lang")?));
         if let Some(&first) = self.seen.get(&name) {
@@ -230,7 +230,7 @@ impl<'a> TextList<'a> {
     }
 
     /// Texts that nothing refers to become extensions, and those that the primary language lacks are reported.
-    pub fn close(&self, diagnostics: &mut Diagnostics, extensions: &mut Vec<Extension>) {
+    pub fn close(&self, diagnostics: &mut Diagnostics, extensions: &mut Extensions) {
         for entry in &self.entries {
             if entry.primary.is_none() {
                 let message = format!("the primary language has no text `{}`", shortened(&entry.id));
@@ -243,7 +243,7 @@ impl<'a> TextList<'a> {
         }
     }
 
-    fn keep_unused(&self, entry: &Entry<'a>, diagnostics: &mut Diagnostics, extensions: &mut Vec<Extension>) {
+    fn keep_unused(&self, entry: &Entry<'a>, diagnostics: &mut Diagnostics, extensions: &mut Extensions) {
         if diagnostics.wants(&codes::UNUSED_TEXT) {
             let message = format!("nothing refers to the text `{}`", shortened(&entry.id));
             let diagnostic = Diagnostic::new(&codes::UNUSED_TEXT, entry.span, message);
@@ -288,7 +288,7 @@ fn repeated(diagnostics: &mut Diagnostics, span: Span, entry: &Entry<'_>) {
     );
 }
 
-fn read_text<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<Option<Text<'a>>> {
+fn read_text<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, rest: &mut Extensions) -> Read<Option<Text<'a>>> {
     if tag.name != "Text" {
         reader.unknown(tag, rest)?;
         return Ok(None);

@@ -7,7 +7,7 @@ use super::data_type::{DataType, NumberType, PairType, StringType};
 use super::links::{unresolved, Kind};
 use super::reader::{Given, Read, Reader};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{Documentation, EnumValue, Extension, Field, Scale, Shape, Type, TypeDef, TypeId};
+use crate::ir::{Documentation, EnumValue, Extensions, Field, Scale, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 use crate::source::Origin;
 use crate::syntax::xml::Tag;
@@ -140,7 +140,7 @@ fn narrowest(values: &[EnumValue]) -> Type {
 
 impl<'a> Reader<'a, '_> {
     /// Reads ValueList.
-    pub fn value_list(&mut self, list: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<()> {
+    pub fn value_list(&mut self, list: &Tag<'a>, rest: &mut Extensions) -> Read<()> {
         while let Some(tag) = self.cursor.child(list)? {
             match tag.name {
                 "ValueItem" => self.value_item(&tag, rest)?,
@@ -150,7 +150,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    fn value_item(&mut self, parent: &Tag<'a>, rest: &mut Vec<Extension>) -> Read<()> {
+    fn value_item(&mut self, parent: &Tag<'a>, rest: &mut Extensions) -> Read<()> {
         let origin = self.cursor.origin(parent);
         let [id] = self.fields(parent, &["ID"], rest)?;
         let position = self.types.items.len();
@@ -178,7 +178,7 @@ impl<'a> Reader<'a, '_> {
         Ok(())
     }
 
-    fn assign(&mut self, tag: &Tag<'a>, values: &mut Vec<EnumValue>, rest: &mut Vec<Extension>) -> Read<()> {
+    fn assign(&mut self, tag: &Tag<'a>, values: &mut Vec<EnumValue>, rest: &mut Extensions) -> Read<()> {
         let [text, content] = self.fields(tag, &["TextId", "Content"], rest)?;
         let name = self.name(tag, text);
         let Some(content) = content else {

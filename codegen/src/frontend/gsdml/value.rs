@@ -2,7 +2,7 @@
 
 use super::reader::{shortened, Given, Reader};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Extension, Limits, Type, Value};
+use crate::ir::{Extensions, Limits, Type, Value};
 
 impl<'a> Reader<'a, '_> {
     /// The default of a parameter of type `ty`; what is no value of it is reported and kept as text.
@@ -65,7 +65,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// The values that a parameter of type `ty` may have.
-    pub fn allowed_values(&mut self, given: Option<&Given<'_>>, ty: Type, rest: &mut Vec<Extension>) -> Limits {
+    pub fn allowed_values(&mut self, given: Option<&Given<'_>>, ty: Type, rest: &mut Extensions) -> Limits {
         let Some(given) = given else { return Limits::default() };
         let mut limits = Limits::default();
         let parse = match ty {

@@ -47,7 +47,7 @@ pub(super) fn table(reader: &mut Reader<'_, '_>, name: &At<String>, table: &Code
     device.code_tables.push(CodeTable {
         name: name.value.as_str().into(),
         columns: table.columns.iter().map(|column| column.as_str().into()).collect(),
-        rows,
+        rows: rows.into(),
         buses: table.buses.iter().flatten().map(|bus| bus.value.as_str().into()).collect(),
         documentation: reader.documentation(table.doc.as_deref(), table.cite.as_ref().map(cited)),
         origin: reader.origin(name),

@@ -13,7 +13,7 @@ use super::rows::ACCESSES;
 use super::tree::{cited, Reader};
 use super::{lints, place, types};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{BitFieldEntry, BitMeaning, Doubt, EnumValue, Mark, Shape, Trigger, Type, TypeDef, TypeId, Zone};
+use crate::ir::{BitFieldEntry, BitMeaning, Doubts, EnumValue, Mark, Shape, Trigger, Type, TypeDef, TypeId, Zone};
 use crate::source::Origin;
 use crate::text::brief;
 
@@ -33,7 +33,7 @@ pub(super) struct Definitions {
     /// The types made so far.
     pub types: Vec<TypeDef>,
     /// Contradictions of definitions.
-    pub doubts: Vec<Doubt>,
+    pub doubts: Doubts,
     /// Those of a name, each over another integer.
     pub made: HashMap<(Kind, String), Vec<(Type, TypeId)>>,
     /// Names that definitions refer to, with their places.

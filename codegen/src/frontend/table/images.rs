@@ -7,8 +7,8 @@ use super::tree::{cited, Reader};
 use super::{process, types};
 use crate::diagnostics::{codes, Diagnostic};
 use crate::ir::{
-    Access, Binding, CompactString, Device, Direction, Group, GroupKind, Item, ObjectCode, PdoEntry, PdoEntryKind,
-    ProcessImage, Type, TypeDef,
+    Access, Binding, CompactString, Device, Direction, Group, GroupKind, ImageBinding, Item, ObjectCode, PdoEntry,
+    PdoEntryKind, ProcessImage, Type, TypeDef,
 };
 use crate::text::brief;
 
@@ -67,7 +67,8 @@ pub(super) fn image(reader: &mut Reader<'_, '_>, rows: &mut Rows, table: &At<Ima
 }
 
 fn binding(image: &CompactString, placed: &Placed) -> Binding {
-    Binding::Image { image: image.clone(), bit_offset: placed.bit_offset, bits: placed.bits, ty: placed.ty }
+    let image = image.clone();
+    Binding::Image(Box::new(ImageBinding { image, bit_offset: placed.bit_offset, bits: placed.bits, ty: placed.ty }))
 }
 
 fn entry(item: &Item) -> PdoEntry {

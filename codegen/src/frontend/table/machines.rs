@@ -55,10 +55,10 @@ pub(super) fn machine(
         status_item: table.status.as_ref().map(text).unwrap_or_default(),
         control_item: table.control.as_ref().map(text).unwrap_or_default(),
         state_type,
-        states,
+        states: states.into(),
         initial: table.initial.as_ref().map(text),
-        commands,
-        transitions,
+        commands: commands.into(),
+        transitions: transitions.into(),
         outcomes: rows,
         documentation: reader.documentation(table.doc.as_deref(), cite),
     });

@@ -10,7 +10,7 @@ use super::tree::{cited, Reader};
 use super::{place, types, value};
 use crate::diagnostics::codes;
 use crate::ir::{
-    Access, Availability, Binding, CompactString, Completion, Device, Doubt, Item, Message, MessageExample,
+    Access, Availability, Binding, CompactString, Completion, Device, Doubts, Item, Message, MessageExample,
     MessageField, MessageValue, ParameterSpace, Type, Value,
 };
 use crate::text::brief;
@@ -118,7 +118,7 @@ fn counted(reader: &mut Reader<'_, '_>, fields: &[MessageField], tables: &[At<Fi
 }
 
 /// Frames as the manual prints them.
-fn example(reader: &mut Reader<'_, '_>, given: &At<ExampleTable>, doubts: &mut Vec<Doubt>) -> MessageExample {
+fn example(reader: &mut Reader<'_, '_>, given: &At<ExampleTable>, doubts: &mut Doubts) -> MessageExample {
     let own = &given.value;
     let (origin, cite) = (reader.origin(given), own.cite.as_ref().map(cited));
     doubts.extend(reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], origin, cite.as_deref()));

@@ -5,7 +5,7 @@ use super::format::{MatrixCell, MatrixRow, MatrixTable};
 use super::references::References;
 use super::tree::{cited, number_or_text, Reader};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{Availability, CommandOutcomes, CompactString, Documentation, Doubt, Outcome, StateOutcome};
+use crate::ir::{Availability, CommandOutcomes, CompactString, Documentation, Doubts, Outcome, StateOutcome};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -33,7 +33,7 @@ pub(super) fn read(
 }
 
 /// The doubts of the table and of its rows.
-pub(super) fn doubts(reader: &Reader<'_, '_>, table: &At<MatrixTable>) -> Vec<Doubt> {
+pub(super) fn doubts(reader: &Reader<'_, '_>, table: &At<MatrixTable>) -> Doubts {
     let own = &table.value;
     let cite = own.cite.as_ref().map(cited);
     let mut found = reader.doubts([own.doubt.as_ref(), own.doubts.as_ref()], reader.origin(table), cite.as_deref());

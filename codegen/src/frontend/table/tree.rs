@@ -10,7 +10,7 @@ use toml::de::{DeString, DeTable, DeValue, ValueDeserializer};
 use super::at::{At, Literal};
 use super::format::{DoubtTable, NumberOrText, OptionTable};
 use crate::diagnostics::{codes, Code, Diagnostic, Diagnostics};
-use crate::ir::{Documentation, Doubt, LocalText, Texts};
+use crate::ir::{Documentation, Doubt, Doubts, LocalText, Texts};
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::{brief, edit_distance};
 
@@ -202,7 +202,7 @@ impl<'a> Reader<'a, '_> {
         lists: [Option<&super::at::OneOrMany<DoubtTable>>; 2],
         origin: Origin,
         cite: Option<&str>,
-    ) -> Vec<Doubt> {
+    ) -> Doubts {
         let tables = lists.into_iter().flatten().flat_map(|list| &list.0);
         let doubt = |table: &DoubtTable| Doubt {
             says: table.says.clone(),

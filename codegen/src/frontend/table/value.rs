@@ -1,5 +1,7 @@
 //! Literals to values of a type.
 
+use thin_vec::ThinVec;
+
 use super::at::{At, Literal};
 use super::place;
 use super::tree::{text_of, Reader};
@@ -35,8 +37,12 @@ pub(super) fn value(reader: &mut Reader<'_, '_>, given: &At<Literal>, ty: Type) 
 const MAX_LISTED: i128 = 1024;
 
 /// The values of a list, and first and last of its ranges (`"3..7"`).
-pub(super) fn ranges(reader: &mut Reader<'_, '_>, (given, span): (&[Literal], Span), ty: Type) -> Vec<(Value, Value)> {
-    let mut found = Vec::with_capacity(given.len());
+pub(super) fn ranges(
+    reader: &mut Reader<'_, '_>,
+    (given, span): (&[Literal], Span),
+    ty: Type,
+) -> ThinVec<(Value, Value)> {
+    let mut found = ThinVec::with_capacity(given.len());
     for literal in given {
         let range = match literal {
             Literal::Text(text) if has_numbers(ty) => {

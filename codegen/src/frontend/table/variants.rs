@@ -1,5 +1,7 @@
 //! What differs of an item between models, or between buses.
 
+use thin_vec::ThinVec;
+
 use super::at::At;
 use super::format::{Row, VariantTable};
 use super::rows::{Rows, ACCESSES};
@@ -88,7 +90,7 @@ impl Rows {
 }
 
 /// Of a list, the least and the greatest are limits, too.
-fn limits(low: Option<Value>, high: Option<Value>, allowed: Vec<(Value, Value)>) -> Limits {
+fn limits(low: Option<Value>, high: Option<Value>, allowed: ThinVec<(Value, Value)>) -> Limits {
     let number = |value: &Value| value.as_int();
     let least = allowed.iter().map(|(first, _)| first).min_by_key(|value| number(value)).cloned();
     let greatest = allowed.iter().map(|(_, last)| last).max_by_key(|value| number(value)).cloned();

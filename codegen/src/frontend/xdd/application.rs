@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use super::reader::{note, Given, Read, Reader, Texts};
 use super::types::{self, RawType, TypeRef};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{CompactString, Device, Extension, LocalText};
+use crate::ir::{CompactString, Device, Extension, Extensions, LocalText};
 use crate::source::Span;
 use crate::syntax::xml::Tag;
 
@@ -51,7 +51,7 @@ pub(super) struct Parameter<'a> {
     pub actual: Option<Given<'a>>,
     pub allowed: Option<Box<Allowed<'a>>>,
     pub unit: Option<Box<Unit<'a>>>,
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
     /// Length of its element, which bounds what copies of it may cost.
     pub weight: usize,
     /// The structure and field, where it is a variable of one.
@@ -364,7 +364,7 @@ fn child<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, parameter: &mut Paramet
 }
 
 /// The `value` of defaultValue and its like; what else it says is kept.
-fn value<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<Option<Given<'a>>> {
+fn value<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<Option<Given<'a>>> {
     let [given] = reader.fields(tag, &["value"], extensions)?;
     while let Some(inner) = reader.cursor.child(tag)? {
         reader.keep(&inner, extensions)?;
@@ -372,11 +372,7 @@ fn value<'a>(reader: &mut Reader<'a, '_>, tag: &Tag<'a>, extensions: &mut Vec<Ex
     Ok(given)
 }
 
-fn read_allowed<'a>(
-    reader: &mut Reader<'a, '_>,
-    parent: &Tag<'a>,
-    extensions: &mut Vec<Extension>,
-) -> Read<Allowed<'a>> {
+fn read_allowed<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<Allowed<'a>> {
     let mut allowed = Allowed { template: reader.field(parent, "templateIDRef")?, ..Allowed::default() };
     while let Some(tag) = reader.cursor.child(parent)? {
         match tag.name {
@@ -409,7 +405,7 @@ fn read_allowed<'a>(
     Ok(allowed)
 }
 
-fn unit<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<Unit<'a>> {
+fn unit<'a>(reader: &mut Reader<'a, '_>, parent: &Tag<'a>, extensions: &mut Extensions) -> Read<Unit<'a>> {
     let [multiplier, uri] = reader.fields(parent, &["multiplier", "unitURI"], extensions)?;
     let mut unit = Unit { multiplier, uri, ..Unit::default() };
     while let Some(tag) = reader.cursor.child(parent)? {

@@ -2,7 +2,7 @@
 
 use super::reader::{note, Given, Read, Reader, Texts};
 use crate::frontend::canopen::number;
-use crate::ir::{CompactString, Device, Extension};
+use crate::ir::{CompactString, Device, Extension, Extensions};
 use crate::syntax::xml::Tag;
 
 /// The attributes of a profile body. Both bodies of a file have them; the first that says something counts.
@@ -96,7 +96,7 @@ fn number<'a>(
     reader: &mut Reader<'a, '_>,
     tag: &Tag<'a>,
     number: &mut Option<u32>,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) -> Read<()> {
     let Some(given) = reader.content(tag)? else { return Ok(()) };
     let value = parse(&given).and_then(|value| u32::try_from(value).ok());

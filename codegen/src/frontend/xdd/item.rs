@@ -8,8 +8,8 @@ use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::number;
 use crate::frontend::canopen::value::Role;
 use crate::ir::{
-    Access, Behaviour, Binding, CompactString, Configured, Extension, Item, Limits, Mappable, ObjectCode, Quantity,
-    Scale, Shape, Storage, Type, TypeDef, TypeId, Value,
+    Access, Behaviour, Binding, CompactString, Configured, Extension, Extensions, Item, Limits, Mappable, ObjectCode,
+    Quantity, Scale, Shape, Storage, Type, TypeDef, TypeId, Value,
 };
 
 /// What a sub-object takes from its object: the parameter of the whole, and the type of this component.
@@ -334,7 +334,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
 }
 
 /// The exact list, of which limits are only the outline.
-fn keep_allowed(allowed: &Allowed<'_>, extensions: &mut Vec<Extension>) {
+fn keep_allowed(allowed: &Allowed<'_>, extensions: &mut Extensions) {
     let text = |given: Option<&Given<'_>>| given.map_or_else(String::new, |given| given.text.to_string());
     let range = |range: &AllowedRange<'_>| format!("{}..{}", text(range.low.as_ref()), text(range.high.as_ref()));
     let ranges = allowed.ranges.iter().map(range);

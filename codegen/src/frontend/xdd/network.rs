@@ -8,7 +8,7 @@ use super::modules;
 use super::objects::ObjectList;
 use super::reader::{note, Given, Read, Reader};
 use crate::diagnostics::{codes, Diagnostic};
-use crate::ir::{CanOpenSettings, CanOpenSpans, Device, DynamicChannel, Extension};
+use crate::ir::{CanOpenSettings, CanOpenSpans, Device, DynamicChannel, Extensions};
 use crate::syntax::xml::Tag;
 
 /// ApplicationLayers: the object list, dummy entries, dynamic channels.
@@ -35,7 +35,7 @@ pub(super) fn application_layers<'a>(
     Ok(())
 }
 
-fn keep<const N: usize>(names: &[&str; N], fields: &[Option<Given<'_>>; N], extensions: &mut Vec<Extension>) {
+fn keep<const N: usize>(names: &[&str; N], fields: &[Option<Given<'_>>; N], extensions: &mut Extensions) {
     for (name, given) in names.iter().zip(fields) {
         note(name, given.as_ref(), extensions);
     }

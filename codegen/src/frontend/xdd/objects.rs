@@ -8,7 +8,7 @@ use super::types::underlying;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::deftype::defined_type;
 use crate::frontend::canopen::number;
-use crate::ir::{Category, Device, Extension, Group, GroupKind, ObjectCode, Shape, Type, TypeDef, TypeId};
+use crate::ir::{Category, Device, Extensions, Group, GroupKind, ObjectCode, Shape, Type, TypeDef, TypeId};
 use crate::limits;
 use crate::source::{Origin, Span};
 use crate::syntax::xml::{Cursor, Tag};
@@ -140,7 +140,7 @@ const OF_A_VALUE: [Key; 8] = [
 /// What an object or sub-object itself says.
 pub(super) struct Raw<'a> {
     fields: [Option<Given<'a>>; OBJECT.len()],
-    pub extensions: Vec<Extension>,
+    pub extensions: Extensions,
     pub origin: Origin,
 }
 
@@ -174,11 +174,11 @@ pub(super) struct Builder<'a, 'd, 'p> {
 
 impl<'a, 'p> Builder<'a, '_, 'p> {
     fn raw(&mut self, tag: &Tag<'a>, names: &[&str; OBJECT.len()]) -> Read<Raw<'a>> {
-        let mut extensions = Vec::new();
+        let mut extensions = Extensions::new();
         let origin = self.reader.cursor.origin(tag);
         let fields = self.reader.fields(tag, names, &mut extensions)?;
         let raw = Raw { fields, extensions, origin };
-        let mut extensions = Vec::new();
+        let mut extensions = Extensions::new();
         note("rangeSelector", raw.get(Key::RangeSelector), &mut extensions);
         extensions.extend(raw.extensions);
         Ok(Raw { extensions, ..raw })
@@ -281,7 +281,7 @@ impl<'a, 'p> Builder<'a, '_, 'p> {
     }
 
     /// Keeps attributes that mean nothing where they stand, unless they say so themselves.
-    fn unused(&mut self, raw: &Raw<'a>, keys: &[Key], extensions: &mut Vec<Extension>) {
+    fn unused(&mut self, raw: &Raw<'a>, keys: &[Key], extensions: &mut Extensions) {
         for &key in keys {
             let Some(given) = raw.get(key) else { continue };
             if matches!(given.text.as_ref(), "no" | "0") && matches!(key, Key::PdoMapping | Key::SubNumber) {

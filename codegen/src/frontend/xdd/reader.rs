@@ -7,7 +7,7 @@ use compact_str::{format_compact, CompactString};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::canopen::number;
 use crate::frontend::canopen::value::Converter;
-use crate::ir::{self, Documentation, Extension, LocalText};
+use crate::ir::{self, Documentation, Extension, Extensions, LocalText};
 use crate::source::Span;
 use crate::syntax::xml::{Attribute, Cursor, Event, Tag};
 use crate::text::brief as shortened;
@@ -72,7 +72,7 @@ impl<'a, 'd> Reader<'a, 'd> {
         &mut self,
         tag: &Tag<'a>,
         names: &[&str; N],
-        extensions: &mut Vec<Extension>,
+        extensions: &mut Extensions,
     ) -> Read<[Option<Given<'a>>; N]> {
         let mut fields = [const { None }; N];
         for attribute in tag.attributes() {
@@ -137,7 +137,7 @@ impl<'a, 'd> Reader<'a, 'd> {
     }
 
     /// Keeps an element that CiA 311 doesn't have at this place.
-    pub(super) fn unknown(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    pub(super) fn unknown(&mut self, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         if self.diagnostics.wants(&codes::UNKNOWN_ELEMENT) {
             self.diagnostics.push(
                 Diagnostic::new(&codes::UNKNOWN_ELEMENT, tag.name_span(), "CiA 311 has no such element here")
@@ -148,7 +148,7 @@ impl<'a, 'd> Reader<'a, 'd> {
     }
 
     /// Keeps the attributes and texts of an element and of those within it as `parent/element@attribute` extensions.
-    pub(super) fn keep(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    pub(super) fn keep(&mut self, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         self.keep_attributes(tag, extensions)?;
         while self.cursor.depth() >= tag.depth {
             match self.cursor.read()? {
@@ -171,14 +171,14 @@ impl<'a, 'd> Reader<'a, 'd> {
     }
 
     /// Reads an element that has no children in CiA 311 to its end.
-    pub(super) fn no_children(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    pub(super) fn no_children(&mut self, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         while let Some(child) = self.cursor.child(tag)? {
             self.unknown(&child, extensions)?;
         }
         Ok(())
     }
 
-    fn keep_attributes(&mut self, tag: &Tag<'a>, extensions: &mut Vec<Extension>) -> Read<()> {
+    fn keep_attributes(&mut self, tag: &Tag<'a>, extensions: &mut Extensions) -> Read<()> {
         for attribute in tag.attributes() {
             let attribute = attribute?;
             let is_english = attribute.name == "lang" && attribute.raw == "en";
@@ -259,7 +259,7 @@ impl<'a, 'd> Reader<'a, 'd> {
 }
 
 /// Keeps something that was read as an extension.
-pub(super) fn note(key: &str, given: Option<&Given<'_>>, extensions: &mut Vec<Extension>) {
+pub(super) fn note(key: &str, given: Option<&Given<'_>>, extensions: &mut Extensions) {
     if let Some(given) = given {
         extensions.push(Extension { key: key.into(), value: given.text.as_ref().into(), span: given.span });
     }

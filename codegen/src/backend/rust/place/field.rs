@@ -1,7 +1,7 @@
 //! A field of a fixed process image.
 
 use crate::backend::rust::scope::Scope;
-use crate::ir::{Binding, Direction, Type};
+use crate::ir::{Binding, Direction, ImageBinding, Type};
 
 /// A field of a fixed process image.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +18,8 @@ pub(super) struct Field<'i> {
 impl<'i> Field<'i> {
     /// The field of a value of type `base`, where the runtime reads such a one.
     pub fn of(scope: &Scope<'_>, base: Type, binding: &'i Binding) -> Option<Self> {
-        let Binding::Image { image, bit_offset, bits, ty } = binding else { return None };
+        let Binding::Image(binding) = binding else { return None };
+        let ImageBinding { image, bit_offset, bits, ty } = &**binding;
         let own = scope.image(image).filter(|_| is_field(base, *bit_offset, *bits))?;
         Some(Field {
             image,

@@ -78,9 +78,8 @@ fn through<'i>(scope: &Scope<'_>, item: &Item, net: Net, writes: bool) -> Option
 
 /// Whether an item is the same on every bus on which it has an address, and nowhere else.
 fn is_plain(item: &Item) -> bool {
-    let is_address = |binding: &Binding| {
-        !matches!(binding, Binding::Indirect(_) | Binding::Image { .. } | Binding::EscMemory { .. })
-    };
+    let is_address =
+        |binding: &Binding| !matches!(binding, Binding::Indirect(_) | Binding::Image(_) | Binding::EscMemory { .. });
     item.variants.is_empty() && item.bindings.iter().all(is_address)
 }
 

@@ -257,10 +257,11 @@ fn merge(tables: &mut Vec<CodeTable>) {
         tables.push(last);
         return;
     };
-    for row in last.rows {
-        match own.rows.iter_mut().find(|own| (own.code, own.last) == (row.code, row.last)) {
-            Some(own) => *own = row,
-            None => own.rows.push(row),
+    let rows = own.rows.to_mut();
+    for row in &last.rows {
+        match rows.iter_mut().find(|own| (own.code, own.last) == (row.code, row.last)) {
+            Some(own) => *own = row.clone(),
+            None => rows.push(row.clone()),
         }
     }
 }

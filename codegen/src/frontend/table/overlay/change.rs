@@ -12,7 +12,9 @@ use super::super::tree::{cited, Reader};
 use super::apply::Applied;
 use super::{in_range, PatchRow, Target};
 use crate::diagnostics::codes;
-use crate::ir::{Documentation, Extension, Group, GroupKind, Item, ObjectBuses, ObjectCode, Type, TypeDef, TypeId};
+use crate::ir::{
+    Documentation, Extension, Extensions, Group, GroupKind, Item, ObjectBuses, ObjectCode, Type, TypeDef, TypeId,
+};
 use crate::source::Span;
 use crate::text::brief;
 
@@ -21,7 +23,7 @@ pub(super) struct Place<'c> {
     pub groups: &'c mut Vec<Group>,
     pub types: &'c mut Vec<TypeDef>,
     /// Where what is taken away leaves its reason.
-    pub extensions: &'c mut Vec<Extension>,
+    pub extensions: &'c mut Extensions,
     /// The buses of objects that are added.
     pub buses: ObjectBuses,
 }
@@ -379,7 +381,7 @@ fn explain(
     why: &str,
     span: Span,
     documentation: &mut Option<Box<Documentation>>,
-    extensions: &mut Vec<Extension>,
+    extensions: &mut Extensions,
 ) {
     let own = documentation.get_or_insert_default();
     if !own.text.is_empty() {

@@ -10,12 +10,12 @@ use super::super::rows::{Named, Rows};
 use super::super::spaces::Buses;
 use super::super::tree::Reader;
 use super::super::types;
-use super::super::{code_tables, device, machines, process};
+use super::super::{device, process};
 use super::{at_place, in_range, item_name, name_conditions, Patch, PatchRow, Profile, Target};
 use crate::diagnostics::Diagnostics;
 use crate::ir::{
     Binding, CompactString, Device, Direction, Group, IoData, Item, Module, Pdo, PdoEntry, PdoEntryKind, Shape,
-    Submodule, Type, TypeDef, TypeId,
+    StateMachine, Submodule, Type, TypeDef, TypeId,
 };
 use crate::source::{FileId, Origin};
 
@@ -63,26 +63,20 @@ impl<'p> Completion<'p> {
     /// Completes a device.
     pub(crate) fn device(&mut self, device: &mut Device) {
         self.objects(&mut device.groups, &mut device.types, &mut device.process_data.pdos);
-        let patch = self.patch();
-        for (name, table) in &patch.codes {
-            if !device.code_tables.iter().any(|own| own.name == name.value) {
-                self.with_reader(|reader, _| code_tables::table(reader, name, table, device));
-                if let Some(own) = device.code_tables.last_mut() {
-                    own.origin = Origin::default();
-                }
+        for table in &self.profile.codes {
+            if !device.code_tables.iter().any(|own| own.name == table.name) {
+                device.code_tables.push(table.clone());
             }
         }
-        for (name, table) in &patch.machines {
-            // Whether its items exist is looked at below.
-            self.with_reader(|reader, _| machines::machine(reader, name, table, device, &mut Vec::new()));
-            let Some(mut machine) = device.machines.pop() else { continue };
+        for machine in &self.profile.machines {
             let exists = |name: &CompactString| at_place(&device.groups, name).is_some();
-            let exist = exists(&machine.status_item) && exists(&machine.control_item);
-            machine.status_item = item_name(&device.groups, &machine.status_item);
-            machine.control_item = item_name(&device.groups, &machine.control_item);
-            let is_own = device.machines.iter().any(|own| own.status_item == machine.status_item);
-            if exist && !is_own {
-                device.machines.push(machine);
+            if !exists(&machine.status_item) || !exists(&machine.control_item) {
+                continue;
+            }
+            let status_item = item_name(&device.groups, &machine.status_item);
+            if !device.machines.iter().any(|own| own.status_item == status_item) {
+                let control_item = item_name(&device.groups, &machine.control_item);
+                device.machines.push(StateMachine { status_item, control_item, ..machine.clone() });
             }
         }
     }

@@ -23,11 +23,11 @@ use super::place::{self, Objects};
 use super::rows::Rows;
 use super::spaces::Buses;
 use super::tree::Reader;
-use super::Table;
+use super::{code_tables, machines, Table};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{CompactString, Group, Item, ObjectCode, Type};
+use crate::ir::{CodeTable, CompactString, Device, Group, Item, ObjectCode, StateMachine, Type};
 use crate::limits::MAX_DERIVED_ITEMS;
-use crate::source::{FileId, Source, Span};
+use crate::source::{FileId, Origin, Source, Span};
 use crate::text::brief;
 
 /// What a table says of objects that another file describes.
@@ -99,6 +99,20 @@ impl Patch {
             doubts: table.list(reader, "doubts"),
             language: reader.language.clone(),
         }
+    }
+
+    /// Codes and state machines, as a device without anything has them; they stand nowhere in its description.
+    fn behaviour(&self, reader: &mut Reader<'_, '_>) -> (Vec<CodeTable>, Vec<StateMachine>) {
+        let mut device = Device::default();
+        for (name, table) in &self.codes {
+            code_tables::table(reader, name, table, &mut device);
+        }
+        device.code_tables.iter_mut().for_each(|own| own.origin = Origin::default());
+        for (name, table) in &self.machines {
+            // Whether its items exist is another matter with each device.
+            machines::machine(reader, name, table, &mut device, &mut Vec::new());
+        }
+        (device.code_tables, device.machines)
     }
 
     /// What rows need to be filled in.
@@ -188,6 +202,9 @@ pub(crate) struct Profile {
     /// The object that shows that a device follows it.
     pub when: Option<u16>,
     patch: Patch,
+    /// Its codes and state machines, which are the same for every device.
+    codes: Vec<CodeTable>,
+    machines: Vec<StateMachine>,
 }
 
 impl Profile {
@@ -211,8 +228,9 @@ impl Profile {
             index
         });
         let patch = Patch::read(&mut reader, &mut table, &PROFILE_KEYS);
+        let (codes, machines) = patch.behaviour(&mut reader);
         drop(table);
-        Some(Profile { head: head.value, when, patch, source })
+        Some(Profile { head: head.value, when, patch, codes, machines, source })
     }
 
     /// Whether these objects are those of something that follows the profile. Without an object that would show it, they are.
