@@ -1755,12 +1755,9 @@ pub mod types {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "AlControl", self.0 as u64);
             let bits = rt::DebugBits::field(bits, "request", 0xF, &self.request());
-            let bits = rt::DebugBits::flag(bits, "acknowledge", 0x10);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "application_specific",
-                0xFF00,
-                &self.application_specific(),
+                &[("acknowledge", 0x10), ("application_specific", 0xFF00)],
             );
             bits.finish()
         }
@@ -1838,12 +1835,9 @@ pub mod types {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "AlStatus", self.0 as u64);
             let bits = rt::DebugBits::field(bits, "current", 0xF, &self.current());
-            let bits = rt::DebugBits::flag(bits, "error", 0x10);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "application_specific",
-                0xFF00,
-                &self.application_specific(),
+                &[("error", 0x10), ("application_specific", 0xFF00)],
             );
             bits.finish()
         }
@@ -1982,19 +1976,20 @@ pub mod types {
     impl core::fmt::Debug for InterruptEnable {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "InterruptEnable", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "al_control_event", 0x1);
-            let bits = rt::DebugBits::flag(bits, "dc_sync0", 0x4);
-            let bits = rt::DebugBits::flag(bits, "dc_sync1", 0x8);
-            let bits = rt::DebugBits::flag(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "sync_manager_activation_changed",
-                0x10,
+                &[
+                    ("al_control_event", 0x1),
+                    ("dc_sync0", 0x4),
+                    ("dc_sync1", 0x8),
+                    ("sync_manager_activation_changed", 0x10),
+                    ("eeprom_emulation", 0x20),
+                    ("sync_manager_0", 0x100),
+                    ("sync_manager_1", 0x200),
+                    ("sync_manager_2", 0x400),
+                    ("sync_manager_3", 0x800),
+                ],
             );
-            let bits = rt::DebugBits::flag(bits, "eeprom_emulation", 0x20);
-            let bits = rt::DebugBits::flag(bits, "sync_manager_0", 0x100);
-            let bits = rt::DebugBits::flag(bits, "sync_manager_1", 0x200);
-            let bits = rt::DebugBits::flag(bits, "sync_manager_2", 0x400);
-            let bits = rt::DebugBits::flag(bits, "sync_manager_3", 0x800);
             bits.finish()
         }
     }
@@ -2132,19 +2127,20 @@ pub mod types {
     impl core::fmt::Debug for AlEventRequest {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "AlEventRequest", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "al_control_event", 0x1);
-            let bits = rt::DebugBits::flag(bits, "dc_sync0", 0x4);
-            let bits = rt::DebugBits::flag(bits, "dc_sync1", 0x8);
-            let bits = rt::DebugBits::flag(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "sync_manager_activation_changed",
-                0x10,
+                &[
+                    ("al_control_event", 0x1),
+                    ("dc_sync0", 0x4),
+                    ("dc_sync1", 0x8),
+                    ("sync_manager_activation_changed", 0x10),
+                    ("eeprom_emulation", 0x20),
+                    ("sync_manager_0", 0x100),
+                    ("sync_manager_1", 0x200),
+                    ("sync_manager_2", 0x400),
+                    ("sync_manager_3", 0x800),
+                ],
             );
-            let bits = rt::DebugBits::flag(bits, "eeprom_emulation", 0x20);
-            let bits = rt::DebugBits::flag(bits, "sync_manager_0", 0x100);
-            let bits = rt::DebugBits::flag(bits, "sync_manager_1", 0x200);
-            let bits = rt::DebugBits::flag(bits, "sync_manager_2", 0x400);
-            let bits = rt::DebugBits::flag(bits, "sync_manager_3", 0x800);
             bits.finish()
         }
     }
@@ -2264,12 +2260,13 @@ pub mod types {
     impl core::fmt::Debug for ControlWord {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ControlWord", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "switch_on", 0x1);
+            let bits = rt::DebugBits::plain(bits, &[("switch_on", 0x1)]);
             let bits = rt::DebugBits::inverted(bits, "disable_voltage", 0x2);
             let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x4);
-            let bits = rt::DebugBits::flag(bits, "enable_operation", 0x8);
-            let bits = rt::DebugBits::flag(bits, "fault_reset", 0x80);
-            let bits = rt::DebugBits::flag(bits, "halt", 0x100);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[("enable_operation", 0x8), ("fault_reset", 0x80), ("halt", 0x100)],
+            );
             bits.finish()
         }
     }
@@ -2477,16 +2474,26 @@ pub mod types {
     impl core::fmt::Debug for StatusWord {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "StatusWord", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "ready_to_switch_on", 0x1);
-            let bits = rt::DebugBits::flag(bits, "switched_on", 0x2);
-            let bits = rt::DebugBits::flag(bits, "operation_enabled", 0x4);
-            let bits = rt::DebugBits::flag(bits, "fault", 0x8);
-            let bits = rt::DebugBits::flag(bits, "voltage_enabled", 0x10);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("ready_to_switch_on", 0x1),
+                    ("switched_on", 0x2),
+                    ("operation_enabled", 0x4),
+                    ("fault", 0x8),
+                    ("voltage_enabled", 0x10),
+                ],
+            );
             let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x20);
-            let bits = rt::DebugBits::flag(bits, "switch_on_disabled", 0x40);
-            let bits = rt::DebugBits::flag(bits, "warning", 0x80);
-            let bits = rt::DebugBits::flag(bits, "target_reached", 0x400);
-            let bits = rt::DebugBits::flag(bits, "internal_limit_active", 0x800);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("switch_on_disabled", 0x40),
+                    ("warning", 0x80),
+                    ("target_reached", 0x400),
+                    ("internal_limit_active", 0x800),
+                ],
+            );
             bits.finish()
         }
     }
@@ -2584,10 +2591,15 @@ pub mod types {
     impl core::fmt::Debug for LatchControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "LatchControl", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "enable_latch_1_rising", 0x1);
-            let bits = rt::DebugBits::flag(bits, "enable_latch_1_falling", 0x2);
-            let bits = rt::DebugBits::flag(bits, "enable_latch_2_rising", 0x4);
-            let bits = rt::DebugBits::flag(bits, "enable_latch_2_falling", 0x8);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("enable_latch_1_rising", 0x1),
+                    ("enable_latch_1_falling", 0x2),
+                    ("enable_latch_2_rising", 0x4),
+                    ("enable_latch_2_falling", 0x8),
+                ],
+            );
             let bits = rt::DebugBits::field(bits, "read", 0x1F00, &self.read());
             bits.finish()
         }
@@ -2725,15 +2737,25 @@ pub mod types {
     impl core::fmt::Debug for LatchStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "LatchStatus", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "latch_1_rising_valid", 0x1);
-            let bits = rt::DebugBits::flag(bits, "latch_1_falling_valid", 0x2);
-            let bits = rt::DebugBits::flag(bits, "latch_2_rising_valid", 0x4);
-            let bits = rt::DebugBits::flag(bits, "latch_2_falling_valid", 0x8);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("latch_1_rising_valid", 0x1),
+                    ("latch_1_falling_valid", 0x2),
+                    ("latch_2_rising_valid", 0x4),
+                    ("latch_2_falling_valid", 0x8),
+                ],
+            );
             let bits = rt::DebugBits::field(bits, "acquired", 0xF00, &self.acquired());
-            let bits = rt::DebugBits::flag(bits, "digital_input_4", 0x1000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_3", 0x2000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_2", 0x4000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_1", 0x8000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("digital_input_4", 0x1000),
+                    ("digital_input_3", 0x2000),
+                    ("digital_input_2", 0x4000),
+                    ("digital_input_1", 0x8000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -2808,14 +2830,10 @@ pub mod types {
     impl core::fmt::Debug for PdoMapping {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "PdoMapping", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "length", 0xFF, &self.length());
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "sub_index",
-                0xFF00,
-                &self.sub_index(),
+                &[("length", 0xFF), ("sub_index", 0xFF00), ("index", 0xFFFF0000)],
             );
-            let bits = rt::DebugBits::field(bits, "index", 0xFFFF0000, &self.index());
             bits.finish()
         }
     }
@@ -2878,8 +2896,10 @@ pub mod types {
     impl core::fmt::Debug for MailboxRouting {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "MailboxRouting", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "channel", 0x3F, &self.channel());
-            let bits = rt::DebugBits::field(bits, "priority", 0xC0, &self.priority());
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[("channel", 0x3F), ("priority", 0xC0)],
+            );
             bits.finish()
         }
     }
@@ -3007,12 +3027,7 @@ pub mod types {
     impl core::fmt::Debug for CoeHeader {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "CoeHeader", self.0 as u64);
-            let bits = rt::DebugBits::field(
-                bits,
-                "pdo_number",
-                0x1FF,
-                &self.pdo_number(),
-            );
+            let bits = rt::DebugBits::plain(bits, &[("pdo_number", 0x1FF)]);
             let bits = rt::DebugBits::field(bits, "service", 0xF000, &self.service());
             bits.finish()
         }
@@ -3106,15 +3121,15 @@ pub mod types {
     impl core::fmt::Debug for DigitalInputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "DigitalInputs", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "negative_limit_switch", 0x1);
-            let bits = rt::DebugBits::flag(bits, "positive_limit_switch", 0x2);
-            let bits = rt::DebugBits::flag(bits, "home_switch", 0x4);
-            let bits = rt::DebugBits::flag(bits, "interlock", 0x8);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "manufacturer_specific",
-                0xFFFF0000,
-                &self.manufacturer_specific(),
+                &[
+                    ("negative_limit_switch", 0x1),
+                    ("positive_limit_switch", 0x2),
+                    ("home_switch", 0x4),
+                    ("interlock", 0x8),
+                    ("manufacturer_specific", 0xFFFF0000),
+                ],
             );
             bits.finish()
         }
@@ -3178,12 +3193,9 @@ pub mod types {
     impl core::fmt::Debug for DigitalOutputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "DigitalOutputs", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "brake", 0x1);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "manufacturer_specific",
-                0xFFFF0000,
-                &self.manufacturer_specific(),
+                &[("brake", 0x1), ("manufacturer_specific", 0xFFFF0000)],
             );
             bits.finish()
         }

@@ -675,17 +675,19 @@ pub mod types {
     impl core::fmt::Debug for Controlword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Controlword", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "switch_on", 0x1);
-            let bits = rt::DebugBits::flag(bits, "enable_voltage", 0x2);
-            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x4);
-            let bits = rt::DebugBits::flag(bits, "enable_operation", 0x8);
-            let bits = rt::DebugBits::flag(bits, "fault_reset", 0x80);
-            let bits = rt::DebugBits::flag(bits, "halt", 0x100);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "manufacturer_specific",
-                0xF800,
-                &self.manufacturer_specific(),
+                &[("switch_on", 0x1), ("enable_voltage", 0x2)],
+            );
+            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x4);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("enable_operation", 0x8),
+                    ("fault_reset", 0x80),
+                    ("halt", 0x100),
+                    ("manufacturer_specific", 0xF800),
+                ],
             );
             bits.finish()
         }
@@ -1021,23 +1023,28 @@ pub mod types {
     impl core::fmt::Debug for Statusword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Statusword", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "ready_to_switch_on", 0x1);
-            let bits = rt::DebugBits::flag(bits, "switched_on", 0x2);
-            let bits = rt::DebugBits::flag(bits, "operation_enabled", 0x4);
-            let bits = rt::DebugBits::flag(bits, "fault", 0x8);
-            let bits = rt::DebugBits::flag(bits, "voltage_enabled", 0x10);
-            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x20);
-            let bits = rt::DebugBits::flag(bits, "switch_on_disabled", 0x40);
-            let bits = rt::DebugBits::flag(bits, "warning", 0x80);
-            let bits = rt::DebugBits::flag(bits, "manufacturer_specific_8", 0x100);
-            let bits = rt::DebugBits::flag(bits, "remote", 0x200);
-            let bits = rt::DebugBits::flag(bits, "target_reached", 0x400);
-            let bits = rt::DebugBits::flag(bits, "internal_limit_active", 0x800);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "manufacturer_specific_14",
-                0xC000,
-                &self.manufacturer_specific_14(),
+                &[
+                    ("ready_to_switch_on", 0x1),
+                    ("switched_on", 0x2),
+                    ("operation_enabled", 0x4),
+                    ("fault", 0x8),
+                    ("voltage_enabled", 0x10),
+                ],
+            );
+            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x20);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("switch_on_disabled", 0x40),
+                    ("warning", 0x80),
+                    ("manufacturer_specific_8", 0x100),
+                    ("remote", 0x200),
+                    ("target_reached", 0x400),
+                    ("internal_limit_active", 0x800),
+                    ("manufacturer_specific_14", 0xC000),
+                ],
             );
             bits.finish()
         }
@@ -1263,12 +1270,9 @@ pub mod types {
     impl core::fmt::Debug for DeviceType {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "DeviceType", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "profile", 0xFFFF, &self.profile());
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "additional_information",
-                0xFFFF0000,
-                &self.additional_information(),
+                &[("profile", 0xFFFF), ("additional_information", 0xFFFF0000)],
             );
             bits.finish()
         }
@@ -1388,13 +1392,18 @@ pub mod types {
     impl core::fmt::Debug for ErrorRegister {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ErrorRegister", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "generic", 0x1);
-            let bits = rt::DebugBits::flag(bits, "current", 0x2);
-            let bits = rt::DebugBits::flag(bits, "voltage", 0x4);
-            let bits = rt::DebugBits::flag(bits, "temperature", 0x8);
-            let bits = rt::DebugBits::flag(bits, "communication", 0x10);
-            let bits = rt::DebugBits::flag(bits, "device_profile", 0x20);
-            let bits = rt::DebugBits::flag(bits, "manufacturer_specific", 0x80);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("generic", 0x1),
+                    ("current", 0x2),
+                    ("voltage", 0x4),
+                    ("temperature", 0x8),
+                    ("communication", 0x10),
+                    ("device_profile", 0x20),
+                    ("manufacturer_specific", 0x80),
+                ],
+            );
             bits.finish()
         }
     }
@@ -1467,14 +1476,10 @@ pub mod types {
     impl core::fmt::Debug for MappingEntry {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "MappingEntry", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "length", 0xFF, &self.length());
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "sub_index",
-                0xFF00,
-                &self.sub_index(),
+                &[("length", 0xFF), ("sub_index", 0xFF00), ("index", 0xFFFF0000)],
             );
-            let bits = rt::DebugBits::field(bits, "index", 0xFFFF0000, &self.index());
             bits.finish()
         }
     }
@@ -1537,17 +1542,9 @@ pub mod types {
     impl core::fmt::Debug for ErrorFieldEntry {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ErrorFieldEntry", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "error_code",
-                0xFFFF,
-                &self.error_code(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "additional_information",
-                0xFFFF0000,
-                &self.additional_information(),
+                &[("error_code", 0xFFFF), ("additional_information", 0xFFFF0000)],
             );
             bits.finish()
         }
@@ -1621,14 +1618,14 @@ pub mod types {
     impl core::fmt::Debug for SyncIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "SyncIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "identifier",
-                0x1FFFFFFF,
-                &self.identifier(),
+                &[
+                    ("identifier", 0x1FFFFFFF),
+                    ("extended", 0x20000000),
+                    ("generates", 0x40000000),
+                ],
             );
-            let bits = rt::DebugBits::flag(bits, "extended", 0x20000000);
-            let bits = rt::DebugBits::flag(bits, "generates", 0x40000000);
             bits.finish()
         }
     }
@@ -1707,13 +1704,10 @@ pub mod types {
     impl core::fmt::Debug for EmergencyIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "EmergencyIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "identifier",
-                0x1FFFFFFF,
-                &self.identifier(),
+                &[("identifier", 0x1FFFFFFF), ("extended", 0x20000000)],
             );
-            let bits = rt::DebugBits::flag(bits, "extended", 0x20000000);
             let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
             bits.finish()
         }
@@ -1777,8 +1771,10 @@ pub mod types {
     impl core::fmt::Debug for RevisionNumber {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "RevisionNumber", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "minor", 0xFFFF, &self.minor());
-            let bits = rt::DebugBits::field(bits, "major", 0xFFFF0000, &self.major());
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[("minor", 0xFFFF), ("major", 0xFFFF0000)],
+            );
             bits.finish()
         }
     }
@@ -1851,13 +1847,10 @@ pub mod types {
     impl core::fmt::Debug for ReceivePdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ReceivePdoIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "identifier",
-                0x1FFFFFFF,
-                &self.identifier(),
+                &[("identifier", 0x1FFFFFFF), ("extended", 0x20000000)],
             );
-            let bits = rt::DebugBits::flag(bits, "extended", 0x20000000);
             let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
             bits.finish()
         }
@@ -1941,13 +1934,10 @@ pub mod types {
     impl core::fmt::Debug for TransmitPdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "TransmitPdoIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "identifier",
-                0x1FFFFFFF,
-                &self.identifier(),
+                &[("identifier", 0x1FFFFFFF), ("extended", 0x20000000)],
             );
-            let bits = rt::DebugBits::flag(bits, "extended", 0x20000000);
             let bits = rt::DebugBits::inverted(bits, "remote_request", 0x40000000);
             let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
             bits.finish()

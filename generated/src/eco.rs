@@ -4100,11 +4100,16 @@ pub mod types {
     impl core::fmt::Debug for DriveCommand {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "DriveCommand", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "torque_enable", 0x1);
-            let bits = rt::DebugBits::flag(bits, "motion_enable", 0x2);
-            let bits = rt::DebugBits::flag(bits, "stop", 0x4);
-            let bits = rt::DebugBits::flag(bits, "alarm_reset", 0x8);
-            let bits = rt::DebugBits::flag(bits, "latch_reset", 0x10);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("torque_enable", 0x1),
+                    ("motion_enable", 0x2),
+                    ("stop", 0x4),
+                    ("alarm_reset", 0x8),
+                    ("latch_reset", 0x10),
+                ],
+            );
             bits.finish()
         }
     }
@@ -4353,11 +4358,16 @@ pub mod types {
     impl core::fmt::Debug for DriveStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "DriveStatus", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "torque_enabled", 0x1);
-            let bits = rt::DebugBits::flag(bits, "motion_enabled", 0x2);
-            let bits = rt::DebugBits::flag(bits, "stopping", 0x4);
-            let bits = rt::DebugBits::flag(bits, "alarm", 0x8);
-            let bits = rt::DebugBits::flag(bits, "position_latched", 0x10);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("torque_enabled", 0x1),
+                    ("motion_enabled", 0x2),
+                    ("stopping", 0x4),
+                    ("alarm", 0x8),
+                    ("position_latched", 0x10),
+                ],
+            );
             bits.finish()
         }
     }
@@ -4669,18 +4679,23 @@ pub mod types {
     impl core::fmt::Debug for DigitalInputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "DigitalInputs", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "position_latch", 0x1);
-            let bits = rt::DebugBits::flag(bits, "start", 0x2);
-            let bits = rt::DebugBits::flag(bits, "input_2", 0x4);
-            let bits = rt::DebugBits::flag(bits, "input_3", 0x8);
-            let bits = rt::DebugBits::flag(bits, "input_4", 0x10);
-            let bits = rt::DebugBits::flag(bits, "select", 0x20);
-            let bits = rt::DebugBits::flag(bits, "input_6", 0x40);
-            let bits = rt::DebugBits::flag(bits, "input_7", 0x80);
-            let bits = rt::DebugBits::flag(bits, "negative_limit_switch", 0x100);
-            let bits = rt::DebugBits::flag(bits, "positive_limit_switch", 0x200);
-            let bits = rt::DebugBits::flag(bits, "home_switch", 0x400);
-            let bits = rt::DebugBits::flag(bits, "input_11", 0x800);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("position_latch", 0x1),
+                    ("start", 0x2),
+                    ("input_2", 0x4),
+                    ("input_3", 0x8),
+                    ("input_4", 0x10),
+                    ("select", 0x20),
+                    ("input_6", 0x40),
+                    ("input_7", 0x80),
+                    ("negative_limit_switch", 0x100),
+                    ("positive_limit_switch", 0x200),
+                    ("home_switch", 0x400),
+                    ("input_11", 0x800),
+                ],
+            );
             bits.finish()
         }
     }
@@ -4778,11 +4793,16 @@ pub mod types {
     impl core::fmt::Debug for DigitalOutputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "DigitalOutputs", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "output_0", 0x1);
-            let bits = rt::DebugBits::flag(bits, "output_1", 0x2);
-            let bits = rt::DebugBits::flag(bits, "fan", 0x2);
-            let bits = rt::DebugBits::flag(bits, "brake", 0x4);
-            let bits = rt::DebugBits::flag(bits, "output_3", 0x8);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("output_0", 0x1),
+                    ("output_1", 0x2),
+                    ("fan", 0x2),
+                    ("brake", 0x4),
+                    ("output_3", 0x8),
+                ],
+            );
             bits.finish()
         }
     }
@@ -4903,13 +4923,18 @@ pub mod types {
     impl core::fmt::Debug for ErrorRegister {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ErrorRegister", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "generic_error", 0x1);
-            let bits = rt::DebugBits::flag(bits, "current", 0x2);
-            let bits = rt::DebugBits::flag(bits, "voltage", 0x4);
-            let bits = rt::DebugBits::flag(bits, "temperature", 0x8);
-            let bits = rt::DebugBits::flag(bits, "communication_error", 0x10);
-            let bits = rt::DebugBits::flag(bits, "device_profile_specific", 0x20);
-            let bits = rt::DebugBits::flag(bits, "manufacturer_specific", 0x80);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("generic_error", 0x1),
+                    ("current", 0x2),
+                    ("voltage", 0x4),
+                    ("temperature", 0x8),
+                    ("communication_error", 0x10),
+                    ("device_profile_specific", 0x20),
+                    ("manufacturer_specific", 0x80),
+                ],
+            );
             bits.finish()
         }
     }
@@ -4984,14 +5009,10 @@ pub mod types {
     impl core::fmt::Debug for MappedObject {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "MappedObject", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "length", 0xFF, &self.length());
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "sub_index",
-                0xFF00,
-                &self.sub_index(),
+                &[("length", 0xFF), ("sub_index", 0xFF00), ("index", 0xFFFF0000)],
             );
-            let bits = rt::DebugBits::field(bits, "index", 0xFFFF0000, &self.index());
             bits.finish()
         }
     }
@@ -5148,14 +5169,21 @@ pub mod types {
     impl core::fmt::Debug for Controlword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Controlword", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "switch_on", 0x1);
-            let bits = rt::DebugBits::flag(bits, "enable_voltage", 0x2);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[("switch_on", 0x1), ("enable_voltage", 0x2)],
+            );
             let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x4);
-            let bits = rt::DebugBits::flag(bits, "enable_operation", 0x8);
-            let bits = rt::DebugBits::flag(bits, "fault_reset", 0x80);
-            let bits = rt::DebugBits::flag(bits, "halt", 0x100);
-            let bits = rt::DebugBits::flag(bits, "show_master_speed", 0x1000);
-            let bits = rt::DebugBits::flag(bits, "latch_reset", 0x4000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("enable_operation", 0x8),
+                    ("fault_reset", 0x80),
+                    ("halt", 0x100),
+                    ("show_master_speed", 0x1000),
+                    ("latch_reset", 0x4000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -5437,20 +5465,30 @@ pub mod types {
     impl core::fmt::Debug for Statusword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Statusword", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "ready_to_switch_on", 0x1);
-            let bits = rt::DebugBits::flag(bits, "switched_on", 0x2);
-            let bits = rt::DebugBits::flag(bits, "operation_enabled", 0x4);
-            let bits = rt::DebugBits::flag(bits, "fault", 0x8);
-            let bits = rt::DebugBits::flag(bits, "voltage_enabled", 0x10);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("ready_to_switch_on", 0x1),
+                    ("switched_on", 0x2),
+                    ("operation_enabled", 0x4),
+                    ("fault", 0x8),
+                    ("voltage_enabled", 0x10),
+                ],
+            );
             let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x20);
-            let bits = rt::DebugBits::flag(bits, "switch_on_disabled", 0x40);
-            let bits = rt::DebugBits::flag(bits, "warning", 0x80);
-            let bits = rt::DebugBits::flag(bits, "latch_input", 0x100);
-            let bits = rt::DebugBits::flag(bits, "remote", 0x200);
-            let bits = rt::DebugBits::flag(bits, "target_reached", 0x400);
-            let bits = rt::DebugBits::flag(bits, "internal_limit_active", 0x800);
-            let bits = rt::DebugBits::flag(bits, "position_latched", 0x4000);
-            let bits = rt::DebugBits::flag(bits, "velocity_forced_to_zero", 0x8000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("switch_on_disabled", 0x40),
+                    ("warning", 0x80),
+                    ("latch_input", 0x100),
+                    ("remote", 0x200),
+                    ("target_reached", 0x400),
+                    ("internal_limit_active", 0x800),
+                    ("position_latched", 0x4000),
+                    ("velocity_forced_to_zero", 0x8000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -5631,25 +5669,21 @@ pub mod types {
     impl core::fmt::Debug for SupportedDriveModes {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "SupportedDriveModes", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "profile_position", 0x1);
-            let bits = rt::DebugBits::flag(bits, "velocity", 0x2);
-            let bits = rt::DebugBits::flag(bits, "profile_velocity", 0x4);
-            let bits = rt::DebugBits::flag(bits, "profile_torque", 0x8);
-            let bits = rt::DebugBits::flag(bits, "homing", 0x20);
-            let bits = rt::DebugBits::flag(bits, "interpolated_position", 0x40);
-            let bits = rt::DebugBits::flag(bits, "cyclic_synchronous_position", 0x80);
-            let bits = rt::DebugBits::flag(bits, "cyclic_synchronous_velocity", 0x100);
-            let bits = rt::DebugBits::flag(bits, "cyclic_synchronous_torque", 0x200);
-            let bits = rt::DebugBits::flag(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "cyclic_synchronous_torque_with_angle",
-                0x400,
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "manufacturer_specific",
-                0xFFFF0000,
-                &self.manufacturer_specific(),
+                &[
+                    ("profile_position", 0x1),
+                    ("velocity", 0x2),
+                    ("profile_velocity", 0x4),
+                    ("profile_torque", 0x8),
+                    ("homing", 0x20),
+                    ("interpolated_position", 0x40),
+                    ("cyclic_synchronous_position", 0x80),
+                    ("cyclic_synchronous_velocity", 0x100),
+                    ("cyclic_synchronous_torque", 0x200),
+                    ("cyclic_synchronous_torque_with_angle", 0x400),
+                    ("manufacturer_specific", 0xFFFF0000),
+                ],
             );
             bits.finish()
         }
@@ -5713,12 +5747,9 @@ pub mod types {
     impl core::fmt::Debug for DeviceType {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "DeviceType", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "profile", 0xFFFF, &self.profile());
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "additional_information",
-                0xFFFF0000,
-                &self.additional_information(),
+                &[("profile", 0xFFFF), ("additional_information", 0xFFFF0000)],
             );
             bits.finish()
         }
@@ -5782,17 +5813,9 @@ pub mod types {
     impl core::fmt::Debug for ErrorFieldEntry {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ErrorFieldEntry", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "error_code",
-                0xFFFF,
-                &self.error_code(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "additional_information",
-                0xFFFF0000,
-                &self.additional_information(),
+                &[("error_code", 0xFFFF), ("additional_information", 0xFFFF0000)],
             );
             bits.finish()
         }
@@ -5866,14 +5889,14 @@ pub mod types {
     impl core::fmt::Debug for SyncIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "SyncIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "identifier",
-                0x1FFFFFFF,
-                &self.identifier(),
+                &[
+                    ("identifier", 0x1FFFFFFF),
+                    ("extended", 0x20000000),
+                    ("generates", 0x40000000),
+                ],
             );
-            let bits = rt::DebugBits::flag(bits, "extended", 0x20000000);
-            let bits = rt::DebugBits::flag(bits, "generates", 0x40000000);
             bits.finish()
         }
     }
@@ -5952,13 +5975,10 @@ pub mod types {
     impl core::fmt::Debug for EmergencyIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "EmergencyIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "identifier",
-                0x1FFFFFFF,
-                &self.identifier(),
+                &[("identifier", 0x1FFFFFFF), ("extended", 0x20000000)],
             );
-            let bits = rt::DebugBits::flag(bits, "extended", 0x20000000);
             let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
             bits.finish()
         }
@@ -6032,13 +6052,10 @@ pub mod types {
     impl core::fmt::Debug for ReceivePdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ReceivePdoIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "identifier",
-                0x1FFFFFFF,
-                &self.identifier(),
+                &[("identifier", 0x1FFFFFFF), ("extended", 0x20000000)],
             );
-            let bits = rt::DebugBits::flag(bits, "extended", 0x20000000);
             let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
             bits.finish()
         }
@@ -6122,13 +6139,10 @@ pub mod types {
     impl core::fmt::Debug for TransmitPdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "TransmitPdoIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "identifier",
-                0x1FFFFFFF,
-                &self.identifier(),
+                &[("identifier", 0x1FFFFFFF), ("extended", 0x20000000)],
             );
-            let bits = rt::DebugBits::flag(bits, "extended", 0x20000000);
             let bits = rt::DebugBits::inverted(bits, "remote_request", 0x40000000);
             let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
             bits.finish()

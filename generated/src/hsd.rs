@@ -8718,14 +8718,19 @@ pub mod types {
     impl core::fmt::Debug for BitA {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "BitA", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "software_limits", 0x1);
-            let bits = rt::DebugBits::flag(bits, "inverted_direction", 0x8);
-            let bits = rt::DebugBits::flag(bits, "cmd_reset_only", 0x40);
-            let bits = rt::DebugBits::flag(bits, "negative_limit_cam", 0x100);
-            let bits = rt::DebugBits::flag(bits, "positive_limit_cam", 0x200);
-            let bits = rt::DebugBits::flag(bits, "alarm_at_limit_cams", 0x400);
-            let bits = rt::DebugBits::flag(bits, "no_bus_synchronisation", 0x800);
-            let bits = rt::DebugBits::flag(bits, "no_controlled_braking", 0x1000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("software_limits", 0x1),
+                    ("inverted_direction", 0x8),
+                    ("cmd_reset_only", 0x40),
+                    ("negative_limit_cam", 0x100),
+                    ("positive_limit_cam", 0x200),
+                    ("alarm_at_limit_cams", 0x400),
+                    ("no_bus_synchronisation", 0x800),
+                    ("no_controlled_braking", 0x1000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -8802,9 +8807,10 @@ pub mod types {
     impl core::fmt::Debug for InvertedInputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "InvertedInputs", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "input_1", 0x1);
-            let bits = rt::DebugBits::flag(bits, "input_2", 0x2);
-            let bits = rt::DebugBits::flag(bits, "input_3", 0x4);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[("input_1", 0x1), ("input_2", 0x2), ("input_3", 0x4)],
+            );
             bits.finish()
         }
     }
@@ -8939,14 +8945,19 @@ pub mod types {
     impl core::fmt::Debug for TestSlim {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "TestSlim", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "software_limits", 0x1);
-            let bits = rt::DebugBits::flag(bits, "inverted_direction", 0x8);
-            let bits = rt::DebugBits::flag(bits, "cmd_reset_only", 0x40);
-            let bits = rt::DebugBits::flag(bits, "negative_limit_cam", 0x100);
-            let bits = rt::DebugBits::flag(bits, "positive_limit_cam", 0x200);
-            let bits = rt::DebugBits::flag(bits, "alarm_at_limit_cams", 0x400);
-            let bits = rt::DebugBits::flag(bits, "no_bus_synchronisation", 0x800);
-            let bits = rt::DebugBits::flag(bits, "no_controlled_braking", 0x1000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("software_limits", 0x1),
+                    ("inverted_direction", 0x8),
+                    ("cmd_reset_only", 0x40),
+                    ("negative_limit_cam", 0x100),
+                    ("positive_limit_cam", 0x200),
+                    ("alarm_at_limit_cams", 0x400),
+                    ("no_bus_synchronisation", 0x800),
+                    ("no_controlled_braking", 0x1000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -9031,10 +9042,15 @@ pub mod types {
     impl core::fmt::Debug for BitStato {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "BitStato", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "position_not_selected", 0x1);
-            let bits = rt::DebugBits::flag(bits, "command_complete", 0x2);
-            let bits = rt::DebugBits::flag(bits, "message_pending", 0x4);
-            let bits = rt::DebugBits::flag(bits, "alarm", 0x8);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("position_not_selected", 0x1),
+                    ("command_complete", 0x2),
+                    ("message_pending", 0x4),
+                    ("alarm", 0x8),
+                ],
+            );
             bits.finish()
         }
     }

@@ -15448,23 +15448,16 @@ pub mod types {
     impl core::fmt::Debug for DeviceType {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "DeviceType", self.0 as u64);
-            let bits = rt::DebugBits::field(
-                bits,
-                "device_profile_number",
-                0xFFFF,
-                &self.device_profile_number(),
-            );
+            let bits = rt::DebugBits::plain(bits, &[("device_profile_number", 0xFFFF)]);
             let bits = rt::DebugBits::field(
                 bits,
                 "drive_type",
                 0xFF0000,
                 &self.drive_type(),
             );
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "manufacturer_specific",
-                0xFF000000,
-                &self.manufacturer_specific(),
+                &[("manufacturer_specific", 0xFF000000)],
             );
             bits.finish()
         }
@@ -15550,9 +15543,14 @@ pub mod types {
     impl core::fmt::Debug for ErrorRegister {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ErrorRegister", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "generic_error", 0x1);
-            let bits = rt::DebugBits::flag(bits, "communication_error", 0x10);
-            let bits = rt::DebugBits::flag(bits, "device_profile_error", 0x20);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("generic_error", 0x1),
+                    ("communication_error", 0x10),
+                    ("device_profile_error", 0x20),
+                ],
+            );
             bits.finish()
         }
     }
@@ -15638,17 +15636,9 @@ pub mod types {
     impl core::fmt::Debug for CobIdSync {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "CobIdSync", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "identifier",
-                0x7FF,
-                &self.identifier(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "extended_identifier",
-                0x1FFFF800,
-                &self.extended_identifier(),
+                &[("identifier", 0x7FF), ("extended_identifier", 0x1FFFF800)],
             );
             let bits = rt::DebugBits::field(
                 bits,
@@ -15737,17 +15727,9 @@ pub mod types {
     impl core::fmt::Debug for CobIdEmergency {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "CobIdEmergency", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "identifier",
-                0x7FF,
-                &self.identifier(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "extended_identifier",
-                0x1FFFF800,
-                &self.extended_identifier(),
+                &[("identifier", 0x7FF), ("extended_identifier", 0x1FFFF800)],
             );
             let bits = rt::DebugBits::field(
                 bits,
@@ -15825,13 +15807,10 @@ pub mod types {
     impl core::fmt::Debug for ConsumerHeartbeat {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ConsumerHeartbeat", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "heartbeat_time",
-                0xFFFF,
-                &self.heartbeat_time(),
+                &[("heartbeat_time", 0xFFFF), ("node_id", 0xFF0000)],
             );
-            let bits = rt::DebugBits::field(bits, "node_id", 0xFF0000, &self.node_id());
             bits.finish()
         }
     }
@@ -15896,8 +15875,10 @@ pub mod types {
     impl core::fmt::Debug for RevisionNumber {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "RevisionNumber", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "minor", 0xFFFF, &self.minor());
-            let bits = rt::DebugBits::field(bits, "major", 0xFFFF0000, &self.major());
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[("minor", 0xFFFF), ("major", 0xFFFF0000)],
+            );
             bits.finish()
         }
     }
@@ -15992,17 +15973,9 @@ pub mod types {
     impl core::fmt::Debug for CobIdPdo {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "CobIdPdo", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "identifier",
-                0x7FF,
-                &self.identifier(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "extended_identifier",
-                0x1FFFF800,
-                &self.extended_identifier(),
+                &[("identifier", 0x7FF), ("extended_identifier", 0x1FFFF800)],
             );
             let bits = rt::DebugBits::field(
                 bits,
@@ -16096,14 +16069,10 @@ pub mod types {
     impl core::fmt::Debug for PdoMapping {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "PdoMapping", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "length", 0xFF, &self.length());
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "sub_index",
-                0xFF00,
-                &self.sub_index(),
+                &[("length", 0xFF), ("sub_index", 0xFF00), ("index", 0xFFFF0000)],
             );
-            let bits = rt::DebugBits::field(bits, "index", 0xFFFF0000, &self.index());
             bits.finish()
         }
     }
@@ -16168,8 +16137,10 @@ pub mod types {
     impl core::fmt::Debug for ErrorCode {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ErrorCode", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "detail", 0xFF, &self.detail());
-            let bits = rt::DebugBits::field(bits, "error", 0xFF00, &self.error());
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[("detail", 0xFF), ("error", 0xFF00)],
+            );
             bits.finish()
         }
     }
@@ -16287,11 +16258,13 @@ pub mod types {
     impl core::fmt::Debug for Controlword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Controlword", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "switch_on", 0x1);
+            let bits = rt::DebugBits::plain(bits, &[("switch_on", 0x1)]);
             let bits = rt::DebugBits::inverted(bits, "disable_voltage", 0x2);
             let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x4);
-            let bits = rt::DebugBits::flag(bits, "enable_operation", 0x8);
-            let bits = rt::DebugBits::flag(bits, "fault_reset", 0x80);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[("enable_operation", 0x8), ("fault_reset", 0x80)],
+            );
             bits.finish()
         }
     }
@@ -16568,18 +16541,28 @@ pub mod types {
     impl core::fmt::Debug for Statusword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Statusword", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "ready_to_switch_on", 0x1);
-            let bits = rt::DebugBits::flag(bits, "switched_on", 0x2);
-            let bits = rt::DebugBits::flag(bits, "operation_enabled", 0x4);
-            let bits = rt::DebugBits::flag(bits, "fault", 0x8);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("ready_to_switch_on", 0x1),
+                    ("switched_on", 0x2),
+                    ("operation_enabled", 0x4),
+                    ("fault", 0x8),
+                ],
+            );
             let bits = rt::DebugBits::inverted(bits, "voltage_disabled", 0x10);
             let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x20);
-            let bits = rt::DebugBits::flag(bits, "switch_on_disabled", 0x40);
-            let bits = rt::DebugBits::flag(bits, "warning", 0x80);
-            let bits = rt::DebugBits::flag(bits, "motor_moving", 0x100);
-            let bits = rt::DebugBits::flag(bits, "remote", 0x200);
-            let bits = rt::DebugBits::flag(bits, "target_reached", 0x400);
-            let bits = rt::DebugBits::flag(bits, "internal_limit_active", 0x800);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("switch_on_disabled", 0x40),
+                    ("warning", 0x80),
+                    ("motor_moving", 0x100),
+                    ("remote", 0x200),
+                    ("target_reached", 0x400),
+                    ("internal_limit_active", 0x800),
+                ],
+            );
             bits.finish()
         }
     }
@@ -17110,7 +17093,7 @@ pub mod types {
                 0x4,
                 &self.probe_1_negative_edge_stored(),
             );
-            let bits = rt::DebugBits::flag(bits, "probe_1_update", 0x80);
+            let bits = rt::DebugBits::plain(bits, &[("probe_1_update", 0x80)]);
             let bits = rt::DebugBits::field(
                 bits,
                 "probe_2_enabled",
@@ -17129,7 +17112,7 @@ pub mod types {
                 0x400,
                 &self.probe_2_negative_edge_stored(),
             );
-            let bits = rt::DebugBits::flag(bits, "probe_2_update", 0x8000);
+            let bits = rt::DebugBits::plain(bits, &[("probe_2_update", 0x8000)]);
             bits.finish()
         }
     }
@@ -17365,25 +17348,30 @@ pub mod types {
     impl core::fmt::Debug for ProfileDigitalInputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ProfileDigitalInputs", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "negative_limit_switch", 0x1);
-            let bits = rt::DebugBits::flag(bits, "positive_limit_switch", 0x2);
-            let bits = rt::DebugBits::flag(bits, "home_switch", 0x4);
-            let bits = rt::DebugBits::flag(bits, "digital_input_0", 0x10000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_1", 0x20000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_2", 0x40000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_3", 0x80000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_4", 0x100000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_5", 0x200000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_6", 0x400000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_7", 0x800000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_8", 0x1000000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_9", 0x2000000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_10", 0x4000000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_11", 0x8000000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_12", 0x10000000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_13", 0x20000000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_14", 0x40000000);
-            let bits = rt::DebugBits::flag(bits, "digital_input_15", 0x80000000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("negative_limit_switch", 0x1),
+                    ("positive_limit_switch", 0x2),
+                    ("home_switch", 0x4),
+                    ("digital_input_0", 0x10000),
+                    ("digital_input_1", 0x20000),
+                    ("digital_input_2", 0x40000),
+                    ("digital_input_3", 0x80000),
+                    ("digital_input_4", 0x100000),
+                    ("digital_input_5", 0x200000),
+                    ("digital_input_6", 0x400000),
+                    ("digital_input_7", 0x800000),
+                    ("digital_input_8", 0x1000000),
+                    ("digital_input_9", 0x2000000),
+                    ("digital_input_10", 0x4000000),
+                    ("digital_input_11", 0x8000000),
+                    ("digital_input_12", 0x10000000),
+                    ("digital_input_13", 0x20000000),
+                    ("digital_input_14", 0x40000000),
+                    ("digital_input_15", 0x80000000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -17510,14 +17498,19 @@ pub mod types {
     impl core::fmt::Debug for ProfileDigitalOutputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ProfileDigitalOutputs", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "digital_output_0", 0x10000);
-            let bits = rt::DebugBits::flag(bits, "digital_output_1", 0x20000);
-            let bits = rt::DebugBits::flag(bits, "digital_output_2", 0x40000);
-            let bits = rt::DebugBits::flag(bits, "digital_output_3", 0x80000);
-            let bits = rt::DebugBits::flag(bits, "digital_output_4", 0x100000);
-            let bits = rt::DebugBits::flag(bits, "digital_output_5", 0x200000);
-            let bits = rt::DebugBits::flag(bits, "digital_output_6", 0x400000);
-            let bits = rt::DebugBits::flag(bits, "digital_output_7", 0x800000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("digital_output_0", 0x10000),
+                    ("digital_output_1", 0x20000),
+                    ("digital_output_2", 0x40000),
+                    ("digital_output_3", 0x80000),
+                    ("digital_output_4", 0x100000),
+                    ("digital_output_5", 0x200000),
+                    ("digital_output_6", 0x400000),
+                    ("digital_output_7", 0x800000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -17635,13 +17628,18 @@ pub mod types {
     impl core::fmt::Debug for SupportedDriveModes {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "SupportedDriveModes", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "profile_position", 0x1);
-            let bits = rt::DebugBits::flag(bits, "velocity", 0x2);
-            let bits = rt::DebugBits::flag(bits, "profile_velocity", 0x4);
-            let bits = rt::DebugBits::flag(bits, "profile_torque", 0x8);
-            let bits = rt::DebugBits::flag(bits, "homing", 0x20);
-            let bits = rt::DebugBits::flag(bits, "interpolated_position", 0x40);
-            let bits = rt::DebugBits::flag(bits, "aec_velocity", 0x10000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("profile_position", 0x1),
+                    ("velocity", 0x2),
+                    ("profile_velocity", 0x4),
+                    ("profile_torque", 0x8),
+                    ("homing", 0x20),
+                    ("interpolated_position", 0x40),
+                    ("aec_velocity", 0x10000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -17694,7 +17692,7 @@ pub mod types {
     impl core::fmt::Debug for SavedPosition {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "SavedPosition", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "position_saved", 0x1);
+            let bits = rt::DebugBits::plain(bits, &[("position_saved", 0x1)]);
             bits.finish()
         }
     }
@@ -17897,27 +17895,37 @@ pub mod types {
     impl core::fmt::Debug for Status {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Status", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "enabled", 0x1);
-            let bits = rt::DebugBits::flag(bits, "alarm_active", 0x2);
-            let bits = rt::DebugBits::flag(bits, "axis_homed", 0x4);
-            let bits = rt::DebugBits::flag(bits, "theoretical_motion", 0x8);
-            let bits = rt::DebugBits::flag(bits, "accelerating", 0x10);
-            let bits = rt::DebugBits::flag(bits, "constant_speed", 0x20);
-            let bits = rt::DebugBits::flag(bits, "decelerating", 0x40);
-            let bits = rt::DebugBits::flag(bits, "closed_loop_report", 0x80);
-            let bits = rt::DebugBits::flag(bits, "homing_failed", 0x100);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("enabled", 0x1),
+                    ("alarm_active", 0x2),
+                    ("axis_homed", 0x4),
+                    ("theoretical_motion", 0x8),
+                    ("accelerating", 0x10),
+                    ("constant_speed", 0x20),
+                    ("decelerating", 0x40),
+                    ("closed_loop_report", 0x80),
+                    ("homing_failed", 0x100),
+                ],
+            );
             let bits = rt::DebugBits::field(
                 bits,
                 "motor_current",
                 0x200,
                 &self.motor_current(),
             );
-            let bits = rt::DebugBits::flag(bits, "in_position", 0x400);
-            let bits = rt::DebugBits::flag(bits, "following_error", 0x800);
-            let bits = rt::DebugBits::flag(bits, "moved_while_disabled", 0x1000);
-            let bits = rt::DebugBits::flag(bits, "anticlockwise", 0x2000);
-            let bits = rt::DebugBits::flag(bits, "outside_software_limits", 0x4000);
-            let bits = rt::DebugBits::flag(bits, "homing_in_progress", 0x8000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("in_position", 0x400),
+                    ("following_error", 0x800),
+                    ("moved_while_disabled", 0x1000),
+                    ("anticlockwise", 0x2000),
+                    ("outside_software_limits", 0x4000),
+                    ("homing_in_progress", 0x8000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -18120,22 +18128,27 @@ pub mod types {
     impl core::fmt::Debug for Status1 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Status1", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "alarms_in_buffer", 0x1);
-            let bits = rt::DebugBits::flag(bits, "warning_present", 0x2);
-            let bits = rt::DebugBits::flag(bits, "power_off_signal", 0x4);
-            let bits = rt::DebugBits::flag(bits, "stop_in_progress", 0x8);
-            let bits = rt::DebugBits::flag(bits, "task_in_progress", 0x10);
-            let bits = rt::DebugBits::flag(bits, "lower_software_limit_hit", 0x20);
-            let bits = rt::DebugBits::flag(bits, "upper_software_limit_hit", 0x40);
-            let bits = rt::DebugBits::flag(bits, "backward_limit_switch_latched", 0x80);
-            let bits = rt::DebugBits::flag(bits, "forward_limit_switch_latched", 0x100);
-            let bits = rt::DebugBits::flag(bits, "voltage_limit", 0x200);
-            let bits = rt::DebugBits::flag(bits, "regulators_saturated", 0x400);
-            let bits = rt::DebugBits::flag(bits, "current_limit_active", 0x800);
-            let bits = rt::DebugBits::flag(bits, "encoder_phasing_in_progress", 0x1000);
-            let bits = rt::DebugBits::flag(bits, "rextencvel_updated", 0x2000);
-            let bits = rt::DebugBits::flag(bits, "rextencotovel_updated", 0x4000);
-            let bits = rt::DebugBits::flag(bits, "sto_active", 0x8000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("alarms_in_buffer", 0x1),
+                    ("warning_present", 0x2),
+                    ("power_off_signal", 0x4),
+                    ("stop_in_progress", 0x8),
+                    ("task_in_progress", 0x10),
+                    ("lower_software_limit_hit", 0x20),
+                    ("upper_software_limit_hit", 0x40),
+                    ("backward_limit_switch_latched", 0x80),
+                    ("forward_limit_switch_latched", 0x100),
+                    ("voltage_limit", 0x200),
+                    ("regulators_saturated", 0x400),
+                    ("current_limit_active", 0x800),
+                    ("encoder_phasing_in_progress", 0x1000),
+                    ("rextencvel_updated", 0x2000),
+                    ("rextencotovel_updated", 0x4000),
+                    ("sto_active", 0x8000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -18284,16 +18297,21 @@ pub mod types {
     impl core::fmt::Debug for ClosedLoopStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ClosedLoopStatus", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "encoder_phased", 0x1);
-            let bits = rt::DebugBits::flag(bits, "theoretical_motion", 0x2);
-            let bits = rt::DebugBits::flag(bits, "in_position", 0x4);
-            let bits = rt::DebugBits::flag(bits, "position_alarm", 0x8);
-            let bits = rt::DebugBits::flag(bits, "following_alarm", 0x10);
-            let bits = rt::DebugBits::flag(bits, "positioning_timeout", 0x40);
-            let bits = rt::DebugBits::flag(bits, "real_motion", 0x80);
-            let bits = rt::DebugBits::flag(bits, "current_limit", 0x100);
-            let bits = rt::DebugBits::flag(bits, "speed_limit", 0x200);
-            let bits = rt::DebugBits::flag(bits, "acceleration_limit", 0x400);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("encoder_phased", 0x1),
+                    ("theoretical_motion", 0x2),
+                    ("in_position", 0x4),
+                    ("position_alarm", 0x8),
+                    ("following_alarm", 0x10),
+                    ("positioning_timeout", 0x40),
+                    ("real_motion", 0x80),
+                    ("current_limit", 0x100),
+                    ("speed_limit", 0x200),
+                    ("acceleration_limit", 0x400),
+                ],
+            );
             bits.finish()
         }
     }
@@ -18388,10 +18406,15 @@ pub mod types {
     impl core::fmt::Debug for ModeFlags1 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ModeFlags1", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "wait_for_end_of_movement", 0x1);
-            let bits = rt::DebugBits::flag(bits, "update_jog_immediately", 0x2);
-            let bits = rt::DebugBits::flag(bits, "cam_table_positioning", 0x4);
-            let bits = rt::DebugBits::flag(bits, "clear_closed_loop_deviation", 0x1000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("wait_for_end_of_movement", 0x1),
+                    ("update_jog_immediately", 0x2),
+                    ("cam_table_positioning", 0x4),
+                    ("clear_closed_loop_deviation", 0x1000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -18675,12 +18698,17 @@ pub mod types {
     impl core::fmt::Debug for ModeFlags {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ModeFlags", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "wait_for_end_of_movement", 0x1);
-            let bits = rt::DebugBits::flag(bits, "update_jog_velocity_immediately", 0x2);
-            let bits = rt::DebugBits::flag(bits, "lower_limit_enabled", 0x4);
-            let bits = rt::DebugBits::flag(bits, "upper_limit_enabled", 0x8);
-            let bits = rt::DebugBits::flag(bits, "backward_limit_switch_enabled", 0x10);
-            let bits = rt::DebugBits::flag(bits, "forward_limit_switch_enabled", 0x20);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("wait_for_end_of_movement", 0x1),
+                    ("update_jog_velocity_immediately", 0x2),
+                    ("lower_limit_enabled", 0x4),
+                    ("upper_limit_enabled", 0x8),
+                    ("backward_limit_switch_enabled", 0x10),
+                    ("forward_limit_switch_enabled", 0x20),
+                ],
+            );
             let bits = rt::DebugBits::field(
                 bits,
                 "actual_position_after_homing",
@@ -18717,24 +18745,17 @@ pub mod types {
                 0x800,
                 &self.external_encoder_after_home_offset(),
             );
-            let bits = rt::DebugBits::flag(bits, "automatic_offset_correction", 0x1000);
-            let bits = rt::DebugBits::flag(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "automatic_current_pid_correction",
-                0x2000,
-            );
-            let bits = rt::DebugBits::flag(bits, "unidirectional_gear", 0x4000);
-            let bits = rt::DebugBits::flag(bits, "gear_forward_only", 0x8000);
-            let bits = rt::DebugBits::flag(bits, "gear_backward_only", 0x10000);
-            let bits = rt::DebugBits::flag(
-                bits,
-                "take_encoder_position_at_current_on",
-                0x20000,
-            );
-            let bits = rt::DebugBits::flag(
-                bits,
-                "hold_requested_position_at_current_off",
-                0x40000,
+                &[
+                    ("automatic_offset_correction", 0x1000),
+                    ("automatic_current_pid_correction", 0x2000),
+                    ("unidirectional_gear", 0x4000),
+                    ("gear_forward_only", 0x8000),
+                    ("gear_backward_only", 0x10000),
+                    ("take_encoder_position_at_current_on", 0x20000),
+                    ("hold_requested_position_at_current_off", 0x40000),
+                ],
             );
             let bits = rt::DebugBits::field(
                 bits,
@@ -18917,17 +18938,22 @@ pub mod types {
     impl core::fmt::Debug for HardwareConfig {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "HardwareConfig", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "motor_encoder_direction", 0x2);
-            let bits = rt::DebugBits::flag(bits, "motor_direction", 0x4);
-            let bits = rt::DebugBits::flag(bits, "reset_encoder_phased_flag", 0x8);
-            let bits = rt::DebugBits::flag(bits, "analog_input_0_bipolar", 0x10);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("motor_encoder_direction", 0x2),
+                    ("motor_direction", 0x4),
+                    ("reset_encoder_phased_flag", 0x8),
+                    ("analog_input_0_bipolar", 0x10),
+                ],
+            );
             let bits = rt::DebugBits::field(
                 bits,
                 "motor_encoder_kind",
                 0x20,
                 &self.motor_encoder_kind(),
             );
-            let bits = rt::DebugBits::flag(bits, "ssi_encoder_preset", 0x40);
+            let bits = rt::DebugBits::plain(bits, &[("ssi_encoder_preset", 0x40)]);
             let bits = rt::DebugBits::field(
                 bits,
                 "ssi_encoder_complement",
@@ -18947,12 +18973,13 @@ pub mod types {
                 &self.ssi_encoder_alignment(),
             );
             let bits = rt::DebugBits::field(bits, "pwm_range", 0x800, &self.pwm_range());
-            let bits = rt::DebugBits::flag(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "realign_entering_interpolation",
-                0x1000,
+                &[
+                    ("realign_entering_interpolation", 0x1000),
+                    ("realign_in_interpolation", 0x2000),
+                ],
             );
-            let bits = rt::DebugBits::flag(bits, "realign_in_interpolation", 0x2000);
             bits.finish()
         }
     }
@@ -19155,22 +19182,27 @@ pub mod types {
     impl core::fmt::Debug for Command {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Command", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "disable_drive", 0x1);
-            let bits = rt::DebugBits::flag(bits, "enable_drive", 0x2);
-            let bits = rt::DebugBits::flag(bits, "abort", 0x4);
-            let bits = rt::DebugBits::flag(bits, "stop", 0x8);
-            let bits = rt::DebugBits::flag(bits, "estop", 0x10);
-            let bits = rt::DebugBits::flag(bits, "jog_clockwise", 0x20);
-            let bits = rt::DebugBits::flag(bits, "jog_anticlockwise", 0x40);
-            let bits = rt::DebugBits::flag(bits, "new_set_point_go", 0x80);
-            let bits = rt::DebugBits::flag(bits, "new_set_point_gor", 0x100);
-            let bits = rt::DebugBits::flag(bits, "home", 0x200);
-            let bits = rt::DebugBits::flag(bits, "gear", 0x400);
-            let bits = rt::DebugBits::flag(bits, "cam_start_stop", 0x800);
-            let bits = rt::DebugBits::flag(bits, "cam", 0x1000);
-            let bits = rt::DebugBits::flag(bits, "task", 0x2000);
-            let bits = rt::DebugBits::flag(bits, "bestop", 0x4000);
-            let bits = rt::DebugBits::flag(bits, "shift_stop", 0x8000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("disable_drive", 0x1),
+                    ("enable_drive", 0x2),
+                    ("abort", 0x4),
+                    ("stop", 0x8),
+                    ("estop", 0x10),
+                    ("jog_clockwise", 0x20),
+                    ("jog_anticlockwise", 0x40),
+                    ("new_set_point_go", 0x80),
+                    ("new_set_point_gor", 0x100),
+                    ("home", 0x200),
+                    ("gear", 0x400),
+                    ("cam_start_stop", 0x800),
+                    ("cam", 0x1000),
+                    ("task", 0x2000),
+                    ("bestop", 0x4000),
+                    ("shift_stop", 0x8000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -19295,20 +19327,17 @@ pub mod types {
     impl core::fmt::Debug for Command1 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Command1", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "current_step_on_phase_a", 0x1);
-            let bits = rt::DebugBits::flag(bits, "test_phases", 0x2);
-            let bits = rt::DebugBits::flag(bits, "winding_mode", 0x4);
-            let bits = rt::DebugBits::flag(bits, "smit_mode", 0x8);
-            let bits = rt::DebugBits::flag(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "realign_positions_in_smart_mode",
-                0x10,
-            );
-            let bits = rt::DebugBits::flag(bits, "step_direction_cam_mode", 0x40);
-            let bits = rt::DebugBits::flag(
-                bits,
-                "regain_motor_position_in_smart_mode",
-                0x80,
+                &[
+                    ("current_step_on_phase_a", 0x1),
+                    ("test_phases", 0x2),
+                    ("winding_mode", 0x4),
+                    ("smit_mode", 0x8),
+                    ("realign_positions_in_smart_mode", 0x10),
+                    ("step_direction_cam_mode", 0x40),
+                    ("regain_motor_position_in_smart_mode", 0x80),
+                ],
             );
             bits.finish()
         }
@@ -19485,19 +19514,24 @@ pub mod types {
     impl core::fmt::Debug for CommandState {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "CommandState", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "positioning_abort", 0x4);
-            let bits = rt::DebugBits::flag(bits, "stop_on_ramp", 0x8);
-            let bits = rt::DebugBits::flag(bits, "estop_active", 0x10);
-            let bits = rt::DebugBits::flag(bits, "jog_positive", 0x20);
-            let bits = rt::DebugBits::flag(bits, "jog_negative", 0x40);
-            let bits = rt::DebugBits::flag(bits, "new_set_point_go", 0x80);
-            let bits = rt::DebugBits::flag(bits, "new_set_point_gor", 0x100);
-            let bits = rt::DebugBits::flag(bits, "home", 0x200);
-            let bits = rt::DebugBits::flag(bits, "gear", 0x400);
-            let bits = rt::DebugBits::flag(bits, "cam_start_stop_mode", 0x800);
-            let bits = rt::DebugBits::flag(bits, "cam_mode", 0x1000);
-            let bits = rt::DebugBits::flag(bits, "task_mode", 0x2000);
-            let bits = rt::DebugBits::flag(bits, "bestop_active", 0x4000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("positioning_abort", 0x4),
+                    ("stop_on_ramp", 0x8),
+                    ("estop_active", 0x10),
+                    ("jog_positive", 0x20),
+                    ("jog_negative", 0x40),
+                    ("new_set_point_go", 0x80),
+                    ("new_set_point_gor", 0x100),
+                    ("home", 0x200),
+                    ("gear", 0x400),
+                    ("cam_start_stop_mode", 0x800),
+                    ("cam_mode", 0x1000),
+                    ("task_mode", 0x2000),
+                    ("bestop_active", 0x4000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -19618,13 +19652,18 @@ pub mod types {
     impl core::fmt::Debug for CommandState1 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "CommandState1", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "current_step_done", 0x1);
-            let bits = rt::DebugBits::flag(bits, "phase_test_done", 0x2);
-            let bits = rt::DebugBits::flag(bits, "winding_mode_active", 0x8);
-            let bits = rt::DebugBits::flag(bits, "smit_mode_active", 0x10);
-            let bits = rt::DebugBits::flag(bits, "smart_mode_realignment_done", 0x20);
-            let bits = rt::DebugBits::flag(bits, "step_direction_cam_mode_active", 0x80);
-            let bits = rt::DebugBits::flag(bits, "smart_mode_position_regained", 0x100);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("current_step_done", 0x1),
+                    ("phase_test_done", 0x2),
+                    ("winding_mode_active", 0x8),
+                    ("smit_mode_active", 0x10),
+                    ("smart_mode_realignment_done", 0x20),
+                    ("step_direction_cam_mode_active", 0x80),
+                    ("smart_mode_position_regained", 0x100),
+                ],
+            );
             bits.finish()
         }
     }
@@ -19755,14 +19794,19 @@ pub mod types {
     impl core::fmt::Debug for HomingStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "HomingStatus", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "homing_in_progress", 0x1);
-            let bits = rt::DebugBits::flag(bits, "drive_not_enabled", 0x2);
-            let bits = rt::DebugBits::flag(bits, "maximum_distance_reached", 0x4);
-            let bits = rt::DebugBits::flag(bits, "backward_limit_switch_error", 0x8);
-            let bits = rt::DebugBits::flag(bits, "forward_limit_switch_error", 0x10);
-            let bits = rt::DebugBits::flag(bits, "interrupted", 0x20);
-            let bits = rt::DebugBits::flag(bits, "unknown_error", 0x40);
-            let bits = rt::DebugBits::flag(bits, "mechanical_stop_in_foc_open", 0x80);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("homing_in_progress", 0x1),
+                    ("drive_not_enabled", 0x2),
+                    ("maximum_distance_reached", 0x4),
+                    ("backward_limit_switch_error", 0x8),
+                    ("forward_limit_switch_error", 0x10),
+                    ("interrupted", 0x20),
+                    ("unknown_error", 0x40),
+                    ("mechanical_stop_in_foc_open", 0x80),
+                ],
+            );
             bits.finish()
         }
     }
@@ -19875,21 +19919,17 @@ pub mod types {
     impl core::fmt::Debug for BestopSetup {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "BestopSetup", self.0 as u64);
-            let bits = rt::DebugBits::field(
-                bits,
-                "bit_number",
-                0x1F,
-                &self.bit_number(),
-            );
+            let bits = rt::DebugBits::plain(bits, &[("bit_number", 0x1F)]);
             let bits = rt::DebugBits::field(bits, "condition", 0x20, &self.condition());
             let bits = rt::DebugBits::field(bits, "type", 0x40, &self.r#type());
-            let bits = rt::DebugBits::flag(bits, "stop_on_rising_motor_index", 0x80);
-            let bits = rt::DebugBits::flag(bits, "stop_on_falling_motor_index", 0x100);
-            let bits = rt::DebugBits::flag(bits, "stop_on_rising_external_index", 0x200);
-            let bits = rt::DebugBits::flag(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "stop_on_falling_external_index",
-                0x400,
+                &[
+                    ("stop_on_rising_motor_index", 0x80),
+                    ("stop_on_falling_motor_index", 0x100),
+                    ("stop_on_rising_external_index", 0x200),
+                    ("stop_on_falling_external_index", 0x400),
+                ],
             );
             bits.finish()
         }
@@ -20174,22 +20214,27 @@ pub mod types {
     impl core::fmt::Debug for Alarm {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Alarm", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "hardware_overcurrent", 0x1);
-            let bits = rt::DebugBits::flag(bits, "software_overcurrent", 0x2);
-            let bits = rt::DebugBits::flag(bits, "i2_t", 0x4);
-            let bits = rt::DebugBits::flag(bits, "position_error", 0x8);
-            let bits = rt::DebugBits::flag(bits, "following_error", 0x10);
-            let bits = rt::DebugBits::flag(bits, "digital_output_overload", 0x20);
-            let bits = rt::DebugBits::flag(bits, "overtemperature", 0x40);
-            let bits = rt::DebugBits::flag(bits, "overvoltage", 0x80);
-            let bits = rt::DebugBits::flag(bits, "undervoltage", 0x100);
-            let bits = rt::DebugBits::flag(bits, "motor_encoder_phasing_error", 0x200);
-            let bits = rt::DebugBits::flag(bits, "phase_a_disconnected", 0x400);
-            let bits = rt::DebugBits::flag(bits, "phase_b_disconnected", 0x800);
-            let bits = rt::DebugBits::flag(bits, "positioning_timeout", 0x1000);
-            let bits = rt::DebugBits::flag(bits, "homing_error", 0x2000);
-            let bits = rt::DebugBits::flag(bits, "encoder_inverted", 0x4000);
-            let bits = rt::DebugBits::flag(bits, "encoder_fault", 0x8000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("hardware_overcurrent", 0x1),
+                    ("software_overcurrent", 0x2),
+                    ("i2_t", 0x4),
+                    ("position_error", 0x8),
+                    ("following_error", 0x10),
+                    ("digital_output_overload", 0x20),
+                    ("overtemperature", 0x40),
+                    ("overvoltage", 0x80),
+                    ("undervoltage", 0x100),
+                    ("motor_encoder_phasing_error", 0x200),
+                    ("phase_a_disconnected", 0x400),
+                    ("phase_b_disconnected", 0x800),
+                    ("positioning_timeout", 0x1000),
+                    ("homing_error", 0x2000),
+                    ("encoder_inverted", 0x4000),
+                    ("encoder_fault", 0x8000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -20365,19 +20410,24 @@ pub mod types {
     impl core::fmt::Debug for Warning {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Warning", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "hardware_overcurrent", 0x1);
-            let bits = rt::DebugBits::flag(bits, "software_overcurrent", 0x2);
-            let bits = rt::DebugBits::flag(bits, "i2_t", 0x4);
-            let bits = rt::DebugBits::flag(bits, "position_error", 0x8);
-            let bits = rt::DebugBits::flag(bits, "following_error", 0x10);
-            let bits = rt::DebugBits::flag(bits, "digital_output_overload", 0x20);
-            let bits = rt::DebugBits::flag(bits, "overtemperature", 0x40);
-            let bits = rt::DebugBits::flag(bits, "overvoltage", 0x80);
-            let bits = rt::DebugBits::flag(bits, "undervoltage", 0x100);
-            let bits = rt::DebugBits::flag(bits, "current_limited_by_voltage", 0x200);
-            let bits = rt::DebugBits::flag(bits, "regulator_saturated", 0x400);
-            let bits = rt::DebugBits::flag(bits, "current_limit_active", 0x800);
-            let bits = rt::DebugBits::flag(bits, "positioning_timeout", 0x1000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("hardware_overcurrent", 0x1),
+                    ("software_overcurrent", 0x2),
+                    ("i2_t", 0x4),
+                    ("position_error", 0x8),
+                    ("following_error", 0x10),
+                    ("digital_output_overload", 0x20),
+                    ("overtemperature", 0x40),
+                    ("overvoltage", 0x80),
+                    ("undervoltage", 0x100),
+                    ("current_limited_by_voltage", 0x200),
+                    ("regulator_saturated", 0x400),
+                    ("current_limit_active", 0x800),
+                    ("positioning_timeout", 0x1000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -20440,8 +20490,10 @@ pub mod types {
     impl core::fmt::Debug for AlarmAcknowledge {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "AlarmAcknowledge", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "acknowledge", 0x1);
-            let bits = rt::DebugBits::flag(bits, "reset_alarm_counter", 0x2);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[("acknowledge", 0x1), ("reset_alarm_counter", 0x2)],
+            );
             bits.finish()
         }
     }
@@ -20706,28 +20758,33 @@ pub mod types {
     impl core::fmt::Debug for Alarm32 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Alarm32", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "hardware_overcurrent", 0x1);
-            let bits = rt::DebugBits::flag(bits, "software_overcurrent", 0x2);
-            let bits = rt::DebugBits::flag(bits, "i2_t", 0x4);
-            let bits = rt::DebugBits::flag(bits, "position_error", 0x8);
-            let bits = rt::DebugBits::flag(bits, "following_error", 0x10);
-            let bits = rt::DebugBits::flag(bits, "digital_output_overload", 0x20);
-            let bits = rt::DebugBits::flag(bits, "overtemperature", 0x40);
-            let bits = rt::DebugBits::flag(bits, "overvoltage", 0x80);
-            let bits = rt::DebugBits::flag(bits, "undervoltage", 0x100);
-            let bits = rt::DebugBits::flag(bits, "motor_encoder_phasing_error", 0x200);
-            let bits = rt::DebugBits::flag(bits, "phase_a_disconnected", 0x400);
-            let bits = rt::DebugBits::flag(bits, "phase_b_disconnected", 0x800);
-            let bits = rt::DebugBits::flag(bits, "positioning_timeout", 0x1000);
-            let bits = rt::DebugBits::flag(bits, "homing_error", 0x2000);
-            let bits = rt::DebugBits::flag(bits, "encoder_inverted", 0x4000);
-            let bits = rt::DebugBits::flag(bits, "encoder_fault", 0x8000);
-            let bits = rt::DebugBits::flag(bits, "sync_missing", 0x40000);
-            let bits = rt::DebugBits::flag(bits, "ssp_fault", 0x80000);
-            let bits = rt::DebugBits::flag(bits, "logic_undervoltage", 0x100000);
-            let bits = rt::DebugBits::flag(bits, "sto_a_test_failed", 0x200000);
-            let bits = rt::DebugBits::flag(bits, "sto_b_test_failed", 0x400000);
-            let bits = rt::DebugBits::flag(bits, "safe_state_output_fault", 0x800000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("hardware_overcurrent", 0x1),
+                    ("software_overcurrent", 0x2),
+                    ("i2_t", 0x4),
+                    ("position_error", 0x8),
+                    ("following_error", 0x10),
+                    ("digital_output_overload", 0x20),
+                    ("overtemperature", 0x40),
+                    ("overvoltage", 0x80),
+                    ("undervoltage", 0x100),
+                    ("motor_encoder_phasing_error", 0x200),
+                    ("phase_a_disconnected", 0x400),
+                    ("phase_b_disconnected", 0x800),
+                    ("positioning_timeout", 0x1000),
+                    ("homing_error", 0x2000),
+                    ("encoder_inverted", 0x4000),
+                    ("encoder_fault", 0x8000),
+                    ("sync_missing", 0x40000),
+                    ("ssp_fault", 0x80000),
+                    ("logic_undervoltage", 0x100000),
+                    ("sto_a_test_failed", 0x200000),
+                    ("sto_b_test_failed", 0x400000),
+                    ("safe_state_output_fault", 0x800000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -20925,21 +20982,26 @@ pub mod types {
     impl core::fmt::Debug for Warning32 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Warning32", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "hardware_overcurrent", 0x1);
-            let bits = rt::DebugBits::flag(bits, "software_overcurrent", 0x2);
-            let bits = rt::DebugBits::flag(bits, "i2_t", 0x4);
-            let bits = rt::DebugBits::flag(bits, "position_error", 0x8);
-            let bits = rt::DebugBits::flag(bits, "following_error", 0x10);
-            let bits = rt::DebugBits::flag(bits, "digital_output_overload", 0x20);
-            let bits = rt::DebugBits::flag(bits, "overtemperature", 0x40);
-            let bits = rt::DebugBits::flag(bits, "overvoltage", 0x80);
-            let bits = rt::DebugBits::flag(bits, "undervoltage", 0x100);
-            let bits = rt::DebugBits::flag(bits, "current_limited_by_voltage", 0x200);
-            let bits = rt::DebugBits::flag(bits, "regulator_saturated", 0x400);
-            let bits = rt::DebugBits::flag(bits, "current_limit_active", 0x800);
-            let bits = rt::DebugBits::flag(bits, "positioning_timeout", 0x1000);
-            let bits = rt::DebugBits::flag(bits, "sync_missing", 0x40000);
-            let bits = rt::DebugBits::flag(bits, "sto_fault", 0x80000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("hardware_overcurrent", 0x1),
+                    ("software_overcurrent", 0x2),
+                    ("i2_t", 0x4),
+                    ("position_error", 0x8),
+                    ("following_error", 0x10),
+                    ("digital_output_overload", 0x20),
+                    ("overtemperature", 0x40),
+                    ("overvoltage", 0x80),
+                    ("undervoltage", 0x100),
+                    ("current_limited_by_voltage", 0x200),
+                    ("regulator_saturated", 0x400),
+                    ("current_limit_active", 0x800),
+                    ("positioning_timeout", 0x1000),
+                    ("sync_missing", 0x40000),
+                    ("sto_fault", 0x80000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -21062,14 +21124,19 @@ pub mod types {
     impl core::fmt::Debug for LimitSwitches {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "LimitSwitches", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "forward_limit_switch", 0x1);
-            let bits = rt::DebugBits::flag(bits, "backward_limit_switch", 0x2);
-            let bits = rt::DebugBits::flag(bits, "motor_encoder_index", 0x4);
-            let bits = rt::DebugBits::flag(bits, "motor_encoder_channel_a", 0x8);
-            let bits = rt::DebugBits::flag(bits, "motor_encoder_channel_b", 0x10);
-            let bits = rt::DebugBits::flag(bits, "external_encoder_index", 0x20);
-            let bits = rt::DebugBits::flag(bits, "external_encoder_channel_a", 0x40);
-            let bits = rt::DebugBits::flag(bits, "external_encoder_channel_b", 0x80);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("forward_limit_switch", 0x1),
+                    ("backward_limit_switch", 0x2),
+                    ("motor_encoder_index", 0x4),
+                    ("motor_encoder_channel_a", 0x8),
+                    ("motor_encoder_channel_b", 0x10),
+                    ("external_encoder_index", 0x20),
+                    ("external_encoder_channel_a", 0x40),
+                    ("external_encoder_channel_b", 0x80),
+                ],
+            );
             bits.finish()
         }
     }
@@ -21272,22 +21339,27 @@ pub mod types {
     impl core::fmt::Debug for DigitalInputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "DigitalInputs", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "input_0", 0x1);
-            let bits = rt::DebugBits::flag(bits, "input_1", 0x2);
-            let bits = rt::DebugBits::flag(bits, "input_2", 0x4);
-            let bits = rt::DebugBits::flag(bits, "input_3", 0x8);
-            let bits = rt::DebugBits::flag(bits, "input_4", 0x10);
-            let bits = rt::DebugBits::flag(bits, "input_5", 0x20);
-            let bits = rt::DebugBits::flag(bits, "input_6", 0x40);
-            let bits = rt::DebugBits::flag(bits, "input_7", 0x80);
-            let bits = rt::DebugBits::flag(bits, "input_8", 0x100);
-            let bits = rt::DebugBits::flag(bits, "input_9", 0x200);
-            let bits = rt::DebugBits::flag(bits, "input_10", 0x400);
-            let bits = rt::DebugBits::flag(bits, "input_11", 0x800);
-            let bits = rt::DebugBits::flag(bits, "input_12", 0x1000);
-            let bits = rt::DebugBits::flag(bits, "input_13", 0x2000);
-            let bits = rt::DebugBits::flag(bits, "input_14", 0x4000);
-            let bits = rt::DebugBits::flag(bits, "input_15", 0x8000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("input_0", 0x1),
+                    ("input_1", 0x2),
+                    ("input_2", 0x4),
+                    ("input_3", 0x8),
+                    ("input_4", 0x10),
+                    ("input_5", 0x20),
+                    ("input_6", 0x40),
+                    ("input_7", 0x80),
+                    ("input_8", 0x100),
+                    ("input_9", 0x200),
+                    ("input_10", 0x400),
+                    ("input_11", 0x800),
+                    ("input_12", 0x1000),
+                    ("input_13", 0x2000),
+                    ("input_14", 0x4000),
+                    ("input_15", 0x8000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -21846,14 +21918,19 @@ pub mod types {
     impl core::fmt::Debug for DigitalOutputs {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "DigitalOutputs", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "output_0", 0x1);
-            let bits = rt::DebugBits::flag(bits, "output_1", 0x2);
-            let bits = rt::DebugBits::flag(bits, "output_2", 0x4);
-            let bits = rt::DebugBits::flag(bits, "output_3", 0x8);
-            let bits = rt::DebugBits::flag(bits, "output_4", 0x10);
-            let bits = rt::DebugBits::flag(bits, "output_5", 0x20);
-            let bits = rt::DebugBits::flag(bits, "output_6", 0x40);
-            let bits = rt::DebugBits::flag(bits, "output_7", 0x80);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("output_0", 0x1),
+                    ("output_1", 0x2),
+                    ("output_2", 0x4),
+                    ("output_3", 0x8),
+                    ("output_4", 0x10),
+                    ("output_5", 0x20),
+                    ("output_6", 0x40),
+                    ("output_7", 0x80),
+                ],
+            );
             bits.finish()
         }
     }
@@ -22197,9 +22274,14 @@ pub mod types {
     impl core::fmt::Debug for AnalogueInputDisable {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "AnalogueInputDisable", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "disable_input_0", 0x1);
-            let bits = rt::DebugBits::flag(bits, "disable_input_1", 0x2);
-            let bits = rt::DebugBits::flag(bits, "disable_input_2", 0x4);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("disable_input_0", 0x1),
+                    ("disable_input_1", 0x2),
+                    ("disable_input_2", 0x4),
+                ],
+            );
             bits.finish()
         }
     }
@@ -22272,9 +22354,14 @@ pub mod types {
     impl core::fmt::Debug for EncoderPeriods {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "EncoderPeriods", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "encoder_1_has_new_period", 0x1);
-            let bits = rt::DebugBits::flag(bits, "encoder_2_has_new_period", 0x2);
-            let bits = rt::DebugBits::flag(bits, "encoder_3_has_new_period", 0x4);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("encoder_1_has_new_period", 0x1),
+                    ("encoder_2_has_new_period", 0x2),
+                    ("encoder_3_has_new_period", 0x4),
+                ],
+            );
             bits.finish()
         }
     }
@@ -22337,8 +22424,13 @@ pub mod types {
     impl core::fmt::Debug for OldEncoderPeriods {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "OldEncoderPeriods", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "motor_encoder_has_new_period", 0x1);
-            let bits = rt::DebugBits::flag(bits, "external_encoder_has_new_period", 0x2);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("motor_encoder_has_new_period", 0x1),
+                    ("external_encoder_has_new_period", 0x2),
+                ],
+            );
             bits.finish()
         }
     }
@@ -22467,11 +22559,16 @@ pub mod types {
             let bits = rt::DebugBits::field(bits, "complement", 0x1, &self.complement());
             let bits = rt::DebugBits::field(bits, "code", 0x2, &self.code());
             let bits = rt::DebugBits::field(bits, "alignment", 0xC, &self.alignment());
-            let bits = rt::DebugBits::flag(bits, "enable_reading", 0x10);
-            let bits = rt::DebugBits::flag(bits, "check_presence_at_start", 0x20);
-            let bits = rt::DebugBits::flag(bits, "phase_without_moving", 0x40);
-            let bits = rt::DebugBits::flag(bits, "hardware_preset", 0x80);
-            let bits = rt::DebugBits::flag(bits, "hardware_complement", 0x100);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("enable_reading", 0x10),
+                    ("check_presence_at_start", 0x20),
+                    ("phase_without_moving", 0x40),
+                    ("hardware_preset", 0x80),
+                    ("hardware_complement", 0x100),
+                ],
+            );
             bits.finish()
         }
     }
@@ -22549,9 +22646,14 @@ pub mod types {
     impl core::fmt::Debug for AbsoluteEncoderControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "AbsoluteEncoderControl", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "reset_phasing_valid", 0x1);
-            let bits = rt::DebugBits::flag(bits, "reset_zero_offset", 0x2);
-            let bits = rt::DebugBits::flag(bits, "preset", 0x80);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("reset_phasing_valid", 0x1),
+                    ("reset_zero_offset", 0x2),
+                    ("preset", 0x80),
+                ],
+            );
             bits.finish()
         }
     }
@@ -22614,7 +22716,7 @@ pub mod types {
     impl core::fmt::Debug for VariableCommand {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "VariableCommand", self.0 as u64);
-            let bits = rt::DebugBits::field(bits, "variable", 0xFF, &self.variable());
+            let bits = rt::DebugBits::plain(bits, &[("variable", 0xFF)]);
             let bits = rt::DebugBits::field(bits, "action", 0x8000, &self.action());
             bits.finish()
         }
@@ -22824,29 +22926,26 @@ pub mod types {
     impl core::fmt::Debug for EepromStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "EepromStatus", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "busy", 0x1);
-            let bits = rt::DebugBits::flag(bits, "invalid_command", 0x2);
-            let bits = rt::DebugBits::flag(bits, "reading_registers_failed", 0x4);
-            let bits = rt::DebugBits::flag(bits, "writing_registers_failed", 0x8);
-            let bits = rt::DebugBits::flag(bits, "reading_variables_failed", 0x10);
-            let bits = rt::DebugBits::flag(bits, "writing_variables_failed", 0x20);
-            let bits = rt::DebugBits::flag(bits, "reading_program_failed", 0x40);
-            let bits = rt::DebugBits::flag(bits, "writing_program_failed", 0x80);
-            let bits = rt::DebugBits::flag(bits, "reading_password_failed", 0x100);
-            let bits = rt::DebugBits::flag(bits, "writing_password_failed", 0x200);
-            let bits = rt::DebugBits::flag(bits, "reading_task_failed", 0x400);
-            let bits = rt::DebugBits::flag(bits, "writing_task_failed", 0x800);
-            let bits = rt::DebugBits::flag(bits, "reading_alarm_buffer_failed", 0x1000);
-            let bits = rt::DebugBits::flag(bits, "writing_alarm_buffer_failed", 0x2000);
-            let bits = rt::DebugBits::flag(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "reading_current_sensor_offsets_failed",
-                0x4000,
-            );
-            let bits = rt::DebugBits::flag(
-                bits,
-                "writing_current_sensor_offsets_failed",
-                0x8000,
+                &[
+                    ("busy", 0x1),
+                    ("invalid_command", 0x2),
+                    ("reading_registers_failed", 0x4),
+                    ("writing_registers_failed", 0x8),
+                    ("reading_variables_failed", 0x10),
+                    ("writing_variables_failed", 0x20),
+                    ("reading_program_failed", 0x40),
+                    ("writing_program_failed", 0x80),
+                    ("reading_password_failed", 0x100),
+                    ("writing_password_failed", 0x200),
+                    ("reading_task_failed", 0x400),
+                    ("writing_task_failed", 0x800),
+                    ("reading_alarm_buffer_failed", 0x1000),
+                    ("writing_alarm_buffer_failed", 0x2000),
+                    ("reading_current_sensor_offsets_failed", 0x4000),
+                    ("writing_current_sensor_offsets_failed", 0x8000),
+                ],
             );
             bits.finish()
         }
@@ -23056,29 +23155,26 @@ pub mod types {
     impl core::fmt::Debug for EepromStatus32 {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "EepromStatus32", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "busy", 0x1);
-            let bits = rt::DebugBits::flag(bits, "invalid_command", 0x2);
-            let bits = rt::DebugBits::flag(bits, "reading_registers_failed", 0x4);
-            let bits = rt::DebugBits::flag(bits, "writing_registers_failed", 0x8);
-            let bits = rt::DebugBits::flag(bits, "reading_variables_failed", 0x10);
-            let bits = rt::DebugBits::flag(bits, "writing_variables_failed", 0x20);
-            let bits = rt::DebugBits::flag(bits, "reading_program_failed", 0x40);
-            let bits = rt::DebugBits::flag(bits, "writing_program_failed", 0x80);
-            let bits = rt::DebugBits::flag(bits, "reading_password_failed", 0x100);
-            let bits = rt::DebugBits::flag(bits, "writing_password_failed", 0x200);
-            let bits = rt::DebugBits::flag(bits, "reading_task_failed", 0x400);
-            let bits = rt::DebugBits::flag(bits, "writing_task_failed", 0x800);
-            let bits = rt::DebugBits::flag(bits, "reading_alarm_buffer_failed", 0x1000);
-            let bits = rt::DebugBits::flag(bits, "writing_alarm_buffer_failed", 0x2000);
-            let bits = rt::DebugBits::flag(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "reading_current_sensor_offsets_failed",
-                0x4000,
-            );
-            let bits = rt::DebugBits::flag(
-                bits,
-                "writing_current_sensor_offsets_failed",
-                0x8000,
+                &[
+                    ("busy", 0x1),
+                    ("invalid_command", 0x2),
+                    ("reading_registers_failed", 0x4),
+                    ("writing_registers_failed", 0x8),
+                    ("reading_variables_failed", 0x10),
+                    ("writing_variables_failed", 0x20),
+                    ("reading_program_failed", 0x40),
+                    ("writing_program_failed", 0x80),
+                    ("reading_password_failed", 0x100),
+                    ("writing_password_failed", 0x200),
+                    ("reading_task_failed", 0x400),
+                    ("writing_task_failed", 0x800),
+                    ("reading_alarm_buffer_failed", 0x1000),
+                    ("writing_alarm_buffer_failed", 0x2000),
+                    ("reading_current_sensor_offsets_failed", 0x4000),
+                    ("writing_current_sensor_offsets_failed", 0x8000),
+                ],
             );
             bits.finish()
         }
@@ -23146,8 +23242,10 @@ pub mod types {
     impl core::fmt::Debug for EnableMask {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "EnableMask", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "configuration_set", 0x1);
-            let bits = rt::DebugBits::flag(bits, "mask_error", 0x8000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[("configuration_set", 0x1), ("mask_error", 0x8000)],
+            );
             bits.finish()
         }
     }
@@ -23200,7 +23298,7 @@ pub mod types {
     impl core::fmt::Debug for HardwareOptions {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "HardwareOptions", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "sto_present", 0x1);
+            let bits = rt::DebugBits::plain(bits, &[("sto_present", 0x1)]);
             bits.finish()
         }
     }
@@ -23487,11 +23585,12 @@ pub mod types {
     impl core::fmt::Debug for Ds402Compatibility {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Ds402Compatibility", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "current_off_on_controlword_xxx7", 0x1);
-            let bits = rt::DebugBits::flag(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "csp_and_csv_on_controlword_xxx_f",
-                0x2,
+                &[
+                    ("current_off_on_controlword_xxx7", 0x1),
+                    ("csp_and_csv_on_controlword_xxx_f", 0x2),
+                ],
             );
             bits.finish()
         }
@@ -23605,13 +23704,18 @@ pub mod types {
     impl core::fmt::Debug for ModuloCommand {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ModuloCommand", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "always_forward", 0x1);
-            let bits = rt::DebugBits::flag(bits, "always_backward", 0x2);
-            let bits = rt::DebugBits::flag(bits, "shortest_way", 0x4);
-            let bits = rt::DebugBits::flag(bits, "encoder_1_wraps", 0x8);
-            let bits = rt::DebugBits::flag(bits, "encoder_2_wraps", 0x10);
-            let bits = rt::DebugBits::flag(bits, "encoder_3_wraps", 0x20);
-            let bits = rt::DebugBits::flag(bits, "absolute_encoder_wraps", 0x40);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("always_forward", 0x1),
+                    ("always_backward", 0x2),
+                    ("shortest_way", 0x4),
+                    ("encoder_1_wraps", 0x8),
+                    ("encoder_2_wraps", 0x10),
+                    ("encoder_3_wraps", 0x20),
+                    ("absolute_encoder_wraps", 0x40),
+                ],
+            );
             bits.finish()
         }
     }
@@ -23704,11 +23808,16 @@ pub mod types {
     impl core::fmt::Debug for LineUpCommand {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "LineUpCommand", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "positioner", 0x1);
-            let bits = rt::DebugBits::flag(bits, "encoder_1", 0x2);
-            let bits = rt::DebugBits::flag(bits, "encoder_2", 0x4);
-            let bits = rt::DebugBits::flag(bits, "encoder_3", 0x8);
-            let bits = rt::DebugBits::flag(bits, "absolute_encoder", 0x10);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("positioner", 0x1),
+                    ("encoder_1", 0x2),
+                    ("encoder_2", 0x4),
+                    ("encoder_3", 0x8),
+                    ("absolute_encoder", 0x10),
+                ],
+            );
             bits.finish()
         }
     }
@@ -23781,9 +23890,14 @@ pub mod types {
     impl core::fmt::Debug for LineUpDefinition {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "LineUpDefinition", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "axis_position", 0x1);
-            let bits = rt::DebugBits::flag(bits, "motor_encoder", 0x2);
-            let bits = rt::DebugBits::flag(bits, "external_encoder", 0x4);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("axis_position", 0x1),
+                    ("motor_encoder", 0x2),
+                    ("external_encoder", 0x4),
+                ],
+            );
             bits.finish()
         }
     }
@@ -24198,7 +24312,7 @@ pub mod types {
                 0x2,
                 &self.probe_1_value_stored(),
             );
-            let bits = rt::DebugBits::flag(bits, "probe_1_update", 0x80);
+            let bits = rt::DebugBits::plain(bits, &[("probe_1_update", 0x80)]);
             let bits = rt::DebugBits::field(
                 bits,
                 "probe_2_enabled",
@@ -24211,7 +24325,7 @@ pub mod types {
                 0x200,
                 &self.probe_2_value_stored(),
             );
-            let bits = rt::DebugBits::flag(bits, "probe_2_update", 0x8000);
+            let bits = rt::DebugBits::plain(bits, &[("probe_2_update", 0x8000)]);
             bits.finish()
         }
     }
@@ -24394,7 +24508,7 @@ pub mod types {
                 0x4,
                 &self.probe_1_negative_edge_stored(),
             );
-            let bits = rt::DebugBits::flag(bits, "probe_1_update", 0x80);
+            let bits = rt::DebugBits::plain(bits, &[("probe_1_update", 0x80)]);
             let bits = rt::DebugBits::field(
                 bits,
                 "probe_2_enabled",
@@ -24413,7 +24527,7 @@ pub mod types {
                 0x400,
                 &self.probe_2_negative_edge_stored(),
             );
-            let bits = rt::DebugBits::flag(bits, "probe_2_update", 0x8000);
+            let bits = rt::DebugBits::plain(bits, &[("probe_2_update", 0x8000)]);
             bits.finish()
         }
     }
@@ -24490,8 +24604,10 @@ pub mod types {
     impl core::fmt::Debug for CamControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "CamControl", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "reset", 0x1);
-            let bits = rt::DebugBits::flag(bits, "single_turn", 0x2);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[("reset", 0x1), ("single_turn", 0x2)],
+            );
             bits.finish()
         }
     }
@@ -24595,11 +24711,16 @@ pub mod types {
     impl core::fmt::Debug for CamStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "CamStatus", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "reset_done", 0x1);
-            let bits = rt::DebugBits::flag(bits, "moving", 0x2);
-            let bits = rt::DebugBits::flag(bits, "accelerating", 0x4);
-            let bits = rt::DebugBits::flag(bits, "constant_speed", 0x8);
-            let bits = rt::DebugBits::flag(bits, "decelerating", 0x10);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("reset_done", 0x1),
+                    ("moving", 0x2),
+                    ("accelerating", 0x4),
+                    ("constant_speed", 0x8),
+                    ("decelerating", 0x10),
+                ],
+            );
             bits.finish()
         }
     }
@@ -24687,9 +24808,14 @@ pub mod types {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "CamStartStopControl", self.0 as u64);
             let bits = rt::DebugBits::field(bits, "run", 0x1, &self.run());
-            let bits = rt::DebugBits::flag(bits, "disable_start_delay", 0x2);
-            let bits = rt::DebugBits::flag(bits, "disable_stop_delay", 0x4);
-            let bits = rt::DebugBits::flag(bits, "simulated_encoder", 0x8);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("disable_start_delay", 0x2),
+                    ("disable_stop_delay", 0x4),
+                    ("simulated_encoder", 0x8),
+                ],
+            );
             bits.finish()
         }
     }
@@ -24785,11 +24911,16 @@ pub mod types {
     impl core::fmt::Debug for CamStartStopStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "CamStartStopStatus", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "enabled", 0x1);
-            let bits = rt::DebugBits::flag(bits, "running", 0x2);
-            let bits = rt::DebugBits::flag(bits, "accelerating", 0x4);
-            let bits = rt::DebugBits::flag(bits, "constant_speed", 0x8);
-            let bits = rt::DebugBits::flag(bits, "decelerating", 0x10);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("enabled", 0x1),
+                    ("running", 0x2),
+                    ("accelerating", 0x4),
+                    ("constant_speed", 0x8),
+                    ("decelerating", 0x10),
+                ],
+            );
             bits.finish()
         }
     }
@@ -24892,12 +25023,17 @@ pub mod types {
     impl core::fmt::Debug for WindingControl {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "WindingControl", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "enable_winding_cam", 0x1);
-            let bits = rt::DebugBits::flag(bits, "enable_stop_sequence", 0x2);
-            let bits = rt::DebugBits::flag(bits, "enable_tying_sequence", 0x4);
-            let bits = rt::DebugBits::flag(bits, "disable_encoder_reading", 0x8);
-            let bits = rt::DebugBits::flag(bits, "reset_error", 0x10);
-            let bits = rt::DebugBits::flag(bits, "start_direction", 0x20);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("enable_winding_cam", 0x1),
+                    ("enable_stop_sequence", 0x2),
+                    ("enable_tying_sequence", 0x4),
+                    ("disable_encoder_reading", 0x8),
+                    ("reset_error", 0x10),
+                    ("start_direction", 0x20),
+                ],
+            );
             bits.finish()
         }
     }
@@ -25055,17 +25191,22 @@ pub mod types {
     impl core::fmt::Debug for WindingStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "WindingStatus", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "winding_cam_enabled", 0x1);
-            let bits = rt::DebugBits::flag(bits, "stop_sequence_requested", 0x2);
-            let bits = rt::DebugBits::flag(bits, "tying_sequence_requested", 0x4);
-            let bits = rt::DebugBits::flag(bits, "encoder_disabled", 0x8);
-            let bits = rt::DebugBits::flag(bits, "motor_direction", 0x10);
-            let bits = rt::DebugBits::flag(bits, "sequence_finished", 0x20);
-            let bits = rt::DebugBits::flag(bits, "error", 0x40);
-            let bits = rt::DebugBits::flag(bits, "tying_sequence_done", 0x80);
-            let bits = rt::DebugBits::flag(bits, "accelerating", 0x2000);
-            let bits = rt::DebugBits::flag(bits, "constant_speed", 0x4000);
-            let bits = rt::DebugBits::flag(bits, "decelerating", 0x8000);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("winding_cam_enabled", 0x1),
+                    ("stop_sequence_requested", 0x2),
+                    ("tying_sequence_requested", 0x4),
+                    ("encoder_disabled", 0x8),
+                    ("motor_direction", 0x10),
+                    ("sequence_finished", 0x20),
+                    ("error", 0x40),
+                    ("tying_sequence_done", 0x80),
+                    ("accelerating", 0x2000),
+                    ("constant_speed", 0x4000),
+                    ("decelerating", 0x8000),
+                ],
+            );
             bits.finish()
         }
     }
@@ -25133,7 +25274,7 @@ pub mod types {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "UserPidControl", self.0 as u64);
             let bits = rt::DebugBits::field(bits, "run", 0x1, &self.run());
-            let bits = rt::DebugBits::flag(bits, "reset", 0x2);
+            let bits = rt::DebugBits::plain(bits, &[("reset", 0x2)]);
             bits.finish()
         }
     }
@@ -25203,7 +25344,7 @@ pub mod types {
     impl core::fmt::Debug for ProgramStatus {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ProgramStatus", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "running", 0x1);
+            let bits = rt::DebugBits::plain(bits, &[("running", 0x1)]);
             let bits = rt::DebugBits::field(bits, "valid", 0x2, &self.valid());
             bits.finish()
         }
@@ -25297,11 +25438,16 @@ pub mod types {
     impl core::fmt::Debug for ProgramConditionCodes {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ProgramConditionCodes", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "carry", 0x1);
-            let bits = rt::DebugBits::flag(bits, "overflow", 0x2);
-            let bits = rt::DebugBits::flag(bits, "zero", 0x4);
-            let bits = rt::DebugBits::flag(bits, "negative", 0x8);
-            let bits = rt::DebugBits::flag(bits, "interrupts_masked", 0x10);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("carry", 0x1),
+                    ("overflow", 0x2),
+                    ("zero", 0x4),
+                    ("negative", 0x8),
+                    ("interrupts_masked", 0x10),
+                ],
+            );
             bits.finish()
         }
     }
@@ -25364,17 +25510,9 @@ pub mod types {
     impl core::fmt::Debug for ErrorFieldEntry {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "ErrorFieldEntry", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "error_code",
-                0xFFFF,
-                &self.error_code(),
-            );
-            let bits = rt::DebugBits::field(
-                bits,
-                "additional_information",
-                0xFFFF0000,
-                &self.additional_information(),
+                &[("error_code", 0xFFFF), ("additional_information", 0xFFFF0000)],
             );
             bits.finish()
         }
@@ -25458,14 +25596,14 @@ pub mod types {
     impl core::fmt::Debug for SdoIdentifier {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "SdoIdentifier", self.0 as u64);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "identifier",
-                0x1FFFFFFF,
-                &self.identifier(),
+                &[
+                    ("identifier", 0x1FFFFFFF),
+                    ("extended", 0x20000000),
+                    ("dynamic", 0x40000000),
+                ],
             );
-            let bits = rt::DebugBits::flag(bits, "extended", 0x20000000);
-            let bits = rt::DebugBits::flag(bits, "dynamic", 0x40000000);
             let bits = rt::DebugBits::inverted(bits, "valid", 0x80000000);
             bits.finish()
         }

@@ -461,17 +461,19 @@ pub mod types {
     impl core::fmt::Debug for Controlword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Controlword", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "switch_on", 0x1);
-            let bits = rt::DebugBits::flag(bits, "enable_voltage", 0x2);
-            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x4);
-            let bits = rt::DebugBits::flag(bits, "enable_operation", 0x8);
-            let bits = rt::DebugBits::flag(bits, "fault_reset", 0x80);
-            let bits = rt::DebugBits::flag(bits, "halt", 0x100);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "manufacturer_specific",
-                0xF800,
-                &self.manufacturer_specific(),
+                &[("switch_on", 0x1), ("enable_voltage", 0x2)],
+            );
+            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x4);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("enable_operation", 0x8),
+                    ("fault_reset", 0x80),
+                    ("halt", 0x100),
+                    ("manufacturer_specific", 0xF800),
+                ],
             );
             bits.finish()
         }
@@ -801,23 +803,28 @@ pub mod types {
     impl core::fmt::Debug for Statusword {
         fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
             let bits = rt::DebugBits::new(f, "Statusword", self.0 as u64);
-            let bits = rt::DebugBits::flag(bits, "ready_to_switch_on", 0x1);
-            let bits = rt::DebugBits::flag(bits, "switched_on", 0x2);
-            let bits = rt::DebugBits::flag(bits, "operation_enabled", 0x4);
-            let bits = rt::DebugBits::flag(bits, "fault", 0x8);
-            let bits = rt::DebugBits::flag(bits, "voltage_enabled", 0x10);
-            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x20);
-            let bits = rt::DebugBits::flag(bits, "switch_on_disabled", 0x40);
-            let bits = rt::DebugBits::flag(bits, "warning", 0x80);
-            let bits = rt::DebugBits::flag(bits, "manufacturer_specific_8", 0x100);
-            let bits = rt::DebugBits::flag(bits, "remote", 0x200);
-            let bits = rt::DebugBits::flag(bits, "target_reached", 0x400);
-            let bits = rt::DebugBits::flag(bits, "internal_limit_active", 0x800);
-            let bits = rt::DebugBits::field(
+            let bits = rt::DebugBits::plain(
                 bits,
-                "manufacturer_specific_14",
-                0xC000,
-                &self.manufacturer_specific_14(),
+                &[
+                    ("ready_to_switch_on", 0x1),
+                    ("switched_on", 0x2),
+                    ("operation_enabled", 0x4),
+                    ("fault", 0x8),
+                    ("voltage_enabled", 0x10),
+                ],
+            );
+            let bits = rt::DebugBits::inverted(bits, "quick_stop", 0x20);
+            let bits = rt::DebugBits::plain(
+                bits,
+                &[
+                    ("switch_on_disabled", 0x40),
+                    ("warning", 0x80),
+                    ("manufacturer_specific_8", 0x100),
+                    ("remote", 0x200),
+                    ("target_reached", 0x400),
+                    ("internal_limit_active", 0x800),
+                    ("manufacturer_specific_14", 0xC000),
+                ],
             );
             bits.finish()
         }

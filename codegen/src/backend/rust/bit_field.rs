@@ -62,7 +62,7 @@ pub(super) struct FieldModel {
     /// All bits with `value` in its place.
     pub set: String,
     /// How `Debug` prints it.
-    debug: String,
+    debug: FieldDebug,
     /// Its first bit, and its row in the table of the bit field.
     row: Row,
 }
@@ -340,8 +340,34 @@ fn debug(name: &str, native: &str, fields: &[FieldModel], options: &RustOptions)
         gate,
         title: literal::string(name),
         raw: if native == "u64" { "self.0".into() } else { "self.0 as u64".into() },
-        calls: fields.iter().map(|field| field.debug.clone()).collect(),
+        calls: calls(fields),
     })
+}
+
+/// One call for all plain fields in a row, and one for each other.
+fn calls(fields: &[FieldModel]) -> Vec<String> {
+    let are_plain = |one: &FieldModel, other: &FieldModel| {
+        matches!((&one.debug, &other.debug), (FieldDebug::Plain(_), FieldDebug::Plain(_)))
+    };
+    let call = |run: &[FieldModel]| {
+        let plain = run.iter().filter_map(|field| match &field.debug {
+            FieldDebug::Plain(pair) => Some(pair.as_str()),
+            FieldDebug::Call(_) => None,
+        });
+        match run.first().map(|field| &field.debug) {
+            Some(FieldDebug::Call(call)) => call.clone(),
+            _ => format!("plain(«bits¦ &[«{}»]»)", plain.collect::<Vec<_>>().join("¦ ")),
+        }
+    };
+    fields.chunk_by(are_plain).map(call).collect()
+}
+
+/// How `Debug` shows a field.
+pub(super) enum FieldDebug {
+    /// By its name and its bits.
+    Plain(String),
+    /// By a call of its own.
+    Call(String),
 }
 
 /// What the code of every field depends on.
@@ -396,9 +422,14 @@ impl Context<'_, '_> {
         let getter = names_unique::escaped(name);
         let (text, place) = (literal::string(name), hexadecimal(mask(entry.bits.into()) << entry.offset));
         let debug = match entry.meaning {
-            BitMeaning::Flag { inverted: false } if entry.bits == 1 => format!("flag(«bits¦ {text}¦ {place}»)"),
-            BitMeaning::Flag { inverted: true } if entry.bits == 1 => format!("inverted(«bits¦ {text}¦ {place}»)"),
-            _ => format!("field(«bits¦ {text}¦ {place}¦ &self.{getter}()»)"),
+            BitMeaning::Flag { inverted: true } if entry.bits == 1 => {
+                FieldDebug::Call(format!("inverted(«bits¦ {text}¦ {place}»)"))
+            }
+            BitMeaning::Flag { .. } if entry.bits == 1 => FieldDebug::Plain(format!("(«{text}¦ {place}»)")),
+            _ if code.is_named || entry.bits < 2 => {
+                FieldDebug::Call(format!("field(«bits¦ {text}¦ {place}¦ &self.{getter}()»)"))
+            }
+            _ => FieldDebug::Plain(format!("(«{text}¦ {place}»)")),
         };
         let title = format!("[`{name}`](Self::{name})");
         let (docs, Code { ty, get, set, is_named }) = (self.docs(entry), code);
