@@ -13,7 +13,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # The input is that of the other measurements.
-printf '#[path = "%s/codegen/benches/inputs/eds.rs"] mod inputs;\n' "$root" > "$work/eds.rs"
+printf '#[allow(dead_code)] #[path = "%s/codegen/benches/inputs/eds.rs"] mod inputs;\n' "$root" > "$work/eds.rs"
 echo 'fn main() { print!("{}", inputs::eds(std::env::args().nth(1).unwrap().parse().unwrap())) }' >> "$work/eds.rs"
 rustc --edition 2021 -O -o "$work/eds" "$work/eds.rs"
 

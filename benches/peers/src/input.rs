@@ -71,7 +71,7 @@ pub fn of_three_sizes(folder: &Path) -> Vec<Input> {
         eds("EDS, small, 36 entries", 4),
         eds("EDS, typical, 990 entries", 110),
         eds("EDS, huge, 10,000 records of 8", 10_000),
-        esi("ESI, small, 37 entries", 1, SMALL_DEVICE),
+        esi("ESI, small, 37 entries", 1, esi::SMALL),
         esi("ESI, typical, 4 devices of 256 entries", 4, esi::DRIVE),
         esi("ESI, huge, 175 devices of 256 entries", 175, esi::DRIVE),
         gsdml("GSDML, small, 40 parameters", 1, 2),
@@ -80,16 +80,13 @@ pub fn of_three_sizes(folder: &Path) -> Vec<Input> {
     ]
 }
 
-const SMALL_DEVICE: esi::Shape = esi::Shape { records: 3, single: 10 };
-
 /// The same description at 1, 10, 100 and 1,000 times the size, for each way in which one grows.
 pub fn growing(kind: Kind, size: usize) -> Vec<u8> {
     match kind {
-        Kind::Eds => eds::eds(10 * size).into_bytes(),
-        Kind::Esi => esi::esi(size, SMALL_DEVICE).into_bytes(),
-        Kind::Gsdml if size == 1 => gsdml::gsdml(1, 5),
-        Kind::Gsdml => gsdml::gsdml(size / 5, gsdml::DRIVE),
-        Kind::Table => table::table(10 * size).into_bytes(),
+        Kind::Eds => eds::growing(size),
+        Kind::Esi => esi::growing(size),
+        Kind::Gsdml => gsdml::growing(size),
+        Kind::Table => table::growing(size),
     }
 }
 

@@ -9,12 +9,12 @@ pub struct Contestant<'a> {
     run: Box<dyn FnMut(u32) -> Result<Duration, String> + 'a>,
 }
 
-/// Times of one run each.
+/// Times of a run: means of rounds.
 #[derive(Clone, Debug)]
 pub struct Sample {
     pub least: Duration,
     pub median: Duration,
-    pub runs: usize,
+    pub rounds: usize,
 }
 
 /// Rounds where there is time for them.
@@ -37,13 +37,15 @@ impl<'a> Contestant<'a> {
         mut run: impl FnMut(I) -> Result<T, String> + 'a,
     ) -> Self {
         let run = move |repetitions: u32| {
-            let inputs: Vec<I> = (0..repetitions).map(|_| input()).collect();
-            let mut made = Vec::with_capacity(inputs.len());
-            let start = Instant::now();
-            for input in inputs {
-                made.push(black_box(run(input)?));
+            let mut total = Duration::ZERO;
+            for _ in 0..repetitions {
+                let input = input();
+                let start = Instant::now();
+                let made = black_box(run(input)?);
+                total += start.elapsed();
+                drop(made);
             }
-            Ok(start.elapsed())
+            Ok(total)
         };
         Contestant { name: name.into(), run: Box::new(run) }
     }
@@ -82,8 +84,9 @@ pub fn in_turns(contestants: &mut [Contestant<'_>]) -> Vec<Result<Sample, String
     progress.into_iter().map(|progress| progress.map(|progress| sample(progress.times))).collect()
 }
 
-/// One run that isn't counted tells how many a round needs.
+/// A run that isn't counted tells how many a round needs. One before it does what is done once in a program, such as reading profiles.
 fn first_run(contestant: &mut Contestant<'_>) -> Result<Progress, String> {
+    (contestant.run)(1)?;
     let time = (contestant.run)(1)?.max(Duration::from_nanos(100));
     let repetitions = (ROUND.as_nanos() / time.as_nanos()).clamp(1, 1_000) as u32;
     Ok(Progress { repetitions, times: Vec::new(), spent: Duration::ZERO })
@@ -91,5 +94,5 @@ fn first_run(contestant: &mut Contestant<'_>) -> Result<Progress, String> {
 
 fn sample(mut times: Vec<Duration>) -> Sample {
     times.sort_unstable();
-    Sample { least: times[0], median: times[times.len() / 2], runs: times.len() }
+    Sample { least: times[0], median: times[times.len() / 2], rounds: times.len() }
 }

@@ -1,4 +1,4 @@
-//! How much memory something takes at most, counted where it is allocated.
+//! How much memory something asks for at most: the sizes of its blocks, without what the allocator adds to them.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicBool, AtomicIsize, Ordering::Relaxed};
@@ -43,7 +43,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// Bytes that `work` has allocated at most, and those that what it made still has.
+/// Bytes that `work` has asked for at most, and those that what it made still has.
 pub fn peak<T>(work: impl FnOnce() -> T) -> (usize, usize) {
     NOW.store(0, Relaxed);
     MOST.store(0, Relaxed);

@@ -29,7 +29,7 @@ impl Table {
 
     pub fn print(&self) {
         println!("\n{}\n", self.title);
-        println!("| who | {} | runs | Lexibus is so many times as fast | target |", self.unit());
+        println!("| who | {} | rounds | Lexibus is so many times as fast | target |", self.unit());
         println!("|---|---|---|---|---|");
         for (number, line) in self.lines.iter().enumerate() {
             let (name, sample) = match &line.outcome {
@@ -46,7 +46,7 @@ impl Table {
                 (None, _) => String::new(),
             };
             let ratio = ratio.map(|ratio| format!("{ratio:.2}")).unwrap_or_default();
-            println!("| {name} | {} | {} | {ratio} | {verdict} |", self.figures(sample), sample.runs);
+            println!("| {name} | {} | {} | {ratio} | {verdict} |", self.figures(sample), sample.rounds);
         }
     }
 
@@ -76,7 +76,7 @@ impl Table {
                 "name": line.name,
                 "best_s": sample.least.as_secs_f64(),
                 "median_s": sample.median.as_secs_f64(),
-                "runs": sample.runs,
+                "rounds": sample.rounds,
                 "ratio": self.ratio(line),
                 "target": line.target,
             }),

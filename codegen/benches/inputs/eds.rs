@@ -17,6 +17,11 @@ pub fn eds(records: usize) -> String {
     text
 }
 
+/// So many times 10 records.
+pub fn growing(size: usize) -> Vec<u8> {
+    eds(10 * size).into_bytes()
+}
+
 fn record(text: &mut String, index: usize) {
     let _ = writeln!(text, "\n[{index:04X}]\nParameterName=Axis parameter set {index}\nObjectType=0x9\nSubNumber=9");
     let _ = writeln!(text, "\n[{index:04X}sub0]\nParameterName=Highest sub-index supported\nObjectType=0x7");

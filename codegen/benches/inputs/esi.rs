@@ -12,6 +12,9 @@ pub struct Shape {
 /// The dictionary of a drive, of 256 entries.
 pub const DRIVE: Shape = Shape { records: 24, single: 40 };
 
+/// That of a small device, of 37 entries.
+pub const SMALL: Shape = Shape { records: 3, single: 10 };
+
 /// A file of so many devices, in the words and with the proportions of real ones.
 pub fn esi(devices: usize, shape: Shape) -> String {
     let mut text = String::from(
@@ -25,6 +28,11 @@ pub fn esi(devices: usize, shape: Shape) -> String {
     }
     text += "    </Devices>\n  </Descriptions>\n</EtherCATInfo>\n";
     text
+}
+
+/// So many small devices.
+pub fn growing(size: usize) -> Vec<u8> {
+    esi(size, SMALL).into_bytes()
 }
 
 fn device(text: &mut String, number: usize, shape: Shape) {

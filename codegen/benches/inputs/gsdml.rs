@@ -55,6 +55,14 @@ pub fn gsdml(submodules: usize, records: usize) -> Vec<u8> {
     text.into_bytes()
 }
 
+/// So many times 100 parameters.
+pub fn growing(size: usize) -> Vec<u8> {
+    match size {
+        1 => gsdml(1, 5),
+        _ => gsdml(size / 5, DRIVE),
+    }
+}
+
 fn device(text: &mut String, submodules: usize) {
     text.push_str("      <DeviceAccessPointList>\n        <DeviceAccessPointItem ID=\"DAP_1\" ");
     text.push_str(

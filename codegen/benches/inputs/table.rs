@@ -6,6 +6,11 @@ use std::fmt::Write;
 pub const FIELDS: [(&str, u32, u32); 6] =
     [("enable", 0, 1), ("invert", 1, 1), ("fault", 2, 1), ("gain", 4, 4), ("limit", 8, 8), ("offset", 16, 16)];
 
+/// So many times 10 registers.
+pub fn growing(size: usize) -> Vec<u8> {
+    table(10 * size).into_bytes()
+}
+
 /// A table of so many registers of 32 bits, each with six bit fields of its own.
 pub fn table(registers: usize) -> String {
     let mut text =

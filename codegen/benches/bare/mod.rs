@@ -1,0 +1,88 @@
+//! What an XML reader can't do without, to compare with: a loop over the events of `quick-xml`, with the position of each, and the
+//! same with the attributes taken apart.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use lexibus_codegen::compile::{self, Compilation, Options};
+use lexibus_codegen::source::Source;
+use quick_xml::events::Event;
+use quick_xml::Reader;
+
+/// All events of a file up to its end or an error, and where each ends.
+pub fn events(bytes: &[u8]) -> usize {
+    let mut reader = Reader::from_reader(bytes);
+    let mut sum = 0;
+    loop {
+        match reader.read_event() {
+            Ok(Event::Eof) | Err(_) => return sum,
+            Ok(event) => sum += reader.buffer_position() as usize + event.len(),
+        }
+    }
+}
+
+/// The same, and the attributes of every tag, undecoded.
+fn attributes(bytes: &[u8]) -> usize {
+    let mut reader = Reader::from_reader(bytes);
+    let mut sum = 0;
+    loop {
+        match reader.read_event() {
+            Ok(Event::Eof) | Err(_) => return sum,
+            Ok(Event::Start(tag) | Event::Empty(tag)) => {
+                sum += tag.attributes().flatten().map(|attribute| attribute.value.len()).sum::<usize>();
+                sum += reader.buffer_position() as usize;
+            }
+            Ok(event) => sum += reader.buffer_position() as usize + event.len(),
+        }
+    }
+}
+
+/// Prints how long it takes from the bytes of all files to checked IR, beside both loops.
+pub fn report(name: &str, files: &[Vec<u8>]) {
+    let length: usize = files.iter().map(Vec::len).sum();
+    let repetitions = (200_000_000 / length.max(1)).clamp(5, 50);
+    let [mut bare, mut apart, mut full] = [Duration::MAX; 3];
+    // In turns, and the least of each, so that all have the same luck.
+    for _ in 0..repetitions {
+        bare = bare.min(time(|| files.iter().map(|file| events(file)).sum::<usize>()));
+        apart = apart.min(time(|| files.iter().map(|file| attributes(file)).sum::<usize>()));
+        let copies = files.to_vec();
+        full = full.min(time(|| copies.into_iter().map(check).collect::<Vec<_>>()));
+    }
+    let speed = |time: Duration| length as f64 / 1e6 / time.as_secs_f64();
+    let ratio = |time: Duration| time.as_secs_f64() / full.as_secs_f64();
+    println!("{name}: {:.1} MB", length as f64 / 1e6);
+    println!("  bytes to checked IR                    {:6.1} MB/s", speed(full));
+    println!("  events with positions                  {:6.1} MB/s, ratio {:.2}", speed(bare), ratio(bare));
+    println!("  the same, attributes taken apart       {:6.1} MB/s, ratio {:.2}", speed(apart), ratio(apart));
+}
+
+/// How long it takes, without dropping what is made.
+fn time<T>(work: impl FnOnce() -> T) -> Duration {
+    let start = Instant::now();
+    let result = divan::black_box(work());
+    let elapsed = start.elapsed();
+    drop(result);
+    elapsed
+}
+
+fn check(bytes: Vec<u8>) -> Compilation {
+    compile::check(Source::new("bench.xml", bytes), &Options::default())
+}
+
+/// The same for what lies in a folder of the corpus beside the repository, where there is one: files without a catalogue are left
+/// out, and all are compared as UTF-8, which is what `quick-xml` reads.
+pub fn report_corpus(folder: &str) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/corpus").join(folder);
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        println!("there is no corpus beside the repository");
+        return;
+    };
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let paths = paths.filter(|path| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("xml")));
+    let checked = paths.filter_map(|path| std::fs::read(path).ok()).map(check);
+    let checked = checked.filter(|compilation| compilation.catalog.is_some());
+    let text = |compilation: Compilation| Some(compilation.sources.first()?.text().as_bytes().to_vec());
+    let files: Vec<_> = checked.filter_map(text).collect();
+    report(&format!("corpus, {} files", files.len()), &files);
+}

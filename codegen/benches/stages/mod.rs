@@ -1,0 +1,46 @@
+//! The stages from the bytes of a description to Rust: what is measured of every format, on inputs that grow from 1 to 1,000
+//! times the size.
+
+use divan::counter::BytesCount;
+use divan::Bencher;
+use lexibus_codegen::compile::{self, Options};
+use lexibus_codegen::diagnostics::Diagnostics;
+use lexibus_codegen::passes;
+use lexibus_codegen::source::Source;
+use lexibus_codegen::RustOptions;
+
+/// Times the smallest input.
+pub const SIZES: [usize; 4] = [1, 10, 100, 1_000];
+
+/// Bytes to IR.
+pub fn read(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
+    bencher
+        .counter(BytesCount::new(bytes.len()))
+        .with_inputs(|| bytes.clone())
+        .bench_values(|bytes| compile::read(Source::new(name, bytes), &Options::default()));
+}
+
+/// IR to checked IR.
+pub fn passes(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
+    let count = BytesCount::new(bytes.len());
+    let catalog = compile::read(Source::new(name, bytes), &Options::default()).catalog.expect("a catalogue");
+    bencher.counter(count).with_inputs(|| catalog.clone()).bench_values(|mut catalog| {
+        passes::check(&mut catalog, &mut Diagnostics::default());
+        catalog
+    });
+}
+
+/// Bytes to checked IR, with profiles and the digest of the source.
+pub fn check(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
+    bencher
+        .counter(BytesCount::new(bytes.len()))
+        .with_inputs(|| bytes.clone())
+        .bench_values(|bytes| compile::check(Source::new(name, bytes), &Options::default()));
+}
+
+/// Checked IR to the Rust of all its devices; bytes are those of the description.
+pub fn emit(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
+    let count = BytesCount::new(bytes.len());
+    let compilation = compile::check(Source::new(name, bytes), &Options::default());
+    bencher.counter(count).bench(|| divan::black_box(&compilation).rust(&RustOptions::default()).expect("bindings"));
+}
