@@ -4,18 +4,24 @@
 
 mod arbitrary_ir;
 mod compile_support;
+mod docs_support;
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use arbitrary_ir::bytes::Bytes;
+use arbitrary_ir::outputs::Outputs;
 use compile_support::{compile_modules, document};
-use lexibus_codegen::compile::{Compilation, Options};
+use docs_support::{html_links, html_markup, markdown_links, markdown_markup};
+use lexibus_codegen::compile::{check, Compilation, Options};
+use lexibus_codegen::ir::{Catalog, Device, Format, Group};
+use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 
 /// How many catalogues are drawn where nobody asks for more.
 const DRAWN: u64 = 200;
 
-/// Of so many of them, all other outputs are made.
+/// Of so many of them, all other outputs are made where nobody asks for more.
 const OUTPUTS: usize = 30;
 
 /// So many of them are documented.
@@ -25,7 +31,7 @@ const DOCUMENTED: usize = 30;
 const BATCH: usize = 60;
 
 /// Bytes of a catalogue.
-const BYTES: usize = 6000;
+const BYTES: usize = 8000;
 
 fn seeds() -> Range<u64> {
     let Ok(wanted) = std::env::var("LEXIBUS_ARBITRARY") else { return 0..DRAWN };
@@ -99,19 +105,80 @@ fn what_passes_the_lints_compiles() {
     assert!(kept.len() as u64 * 10 >= drawn * 9, "only {} of {drawn} catalogues have no errors", kept.len());
 }
 
-#[test]
-fn no_output_of_what_was_read_panics() {
-    for seed in seeds().take(OUTPUTS) {
+/// What else is made of each catalogue.
+fn outputs() -> impl Iterator<Item = (u64, Compilation, Outputs)> {
+    some(OUTPUTS).map(|seed| {
         let (compilation, _) = drawn(seed);
-        assert!(arbitrary_ir::outputs::others(&compilation) > 0, "seed {seed}");
+        let outputs = arbitrary_ir::outputs::others(&compilation);
+        (seed, compilation, outputs)
+    })
+}
+
+/// So many seeds, or all of those that somebody asks for.
+fn some(most: usize) -> impl Iterator<Item = u64> {
+    let all = std::env::var_os("LEXIBUS_ARBITRARY").is_some();
+    seeds().take(if all { usize::MAX } else { most })
+}
+
+#[test]
+fn pages_have_no_markup_of_a_description_and_no_broken_link() {
+    let (mut links, mut pages) = (0, 0);
+    for (seed, _, made) in outputs() {
+        println!("seed {seed}");
+        html_markup(&made.html);
+        markdown_markup(&made.markdown);
+        links += html_links(&made.html) + markdown_links(&made.markdown);
+        pages += made.html.len() + made.markdown.len();
     }
+    assert!(pages > 10 && links > pages, "{links} links on {pages} pages");
+}
+
+/// The indices of a device's objects.
+fn indices(device: &Device) -> BTreeSet<u16> {
+    device.groups.iter().filter_map(Group::index).collect()
+}
+
+/// The catalogue that an export is read as.
+fn again(name: &str, text: &str) -> Catalog {
+    let read = check(Source::new(name, text.into()), &Options::default());
+    let told: Vec<String> = read.diagnostics.list().iter().map(|found| read.one_line(found)).collect();
+    read.catalog.unwrap_or_else(|| panic!("{name}: {told:?}\n{text}"))
+}
+
+#[test]
+fn exports_are_read_again() {
+    let mut read = [0; 3];
+    for (seed, compilation, made) in outputs() {
+        let catalog = compilation.catalog.as_ref().expect("a catalogue");
+        let dumped: serde_json::Value = serde_json::from_str(&made.dump).expect("JSON");
+        assert_eq!(dumped["devices"].as_array().map(Vec::len), Some(catalog.devices.len()), "seed {seed}");
+        for (at, text) in &made.eds {
+            let (own, again) = (indices(&catalog.devices[*at]), again("again.eds", text));
+            let exported = indices(&again.devices[0]);
+            // Registers become objects, and PDOs get objects that describe them.
+            let has_registers = catalog.files[0].format == Format::Table;
+            let is_made = |index: &&u16| has_registers || (0x1400..0x1C00).contains(*index);
+            let more: Vec<&u16> = exported.difference(&own).filter(|index| !is_made(index)).collect();
+            assert!(more.is_empty(), "seed {seed}: {more:04X?} in\n{text}");
+            read[0] += 1;
+        }
+        if let Some(text) = &made.esi {
+            assert!(again("again.xml", text).devices.len() <= catalog.devices.len(), "seed {seed}:\n{text}");
+            read[1] += 1;
+        }
+        if let Some(text) = &made.gsdml {
+            assert!(again("GSDML-again.xml", text).devices.len() <= catalog.devices.len(), "seed {seed}:\n{text}");
+            read[2] += 1;
+        }
+    }
+    assert!(read.iter().all(|&number| number > 0), "EDS, ESI, GSDML: {read:?}");
 }
 
 #[test]
 fn what_compiles_is_documented_without_a_broken_link() {
     let rust = RustOptions { table: Presence::Always, ..RustOptions::default() };
     let texts: Vec<(u64, String)> =
-        seeds().take(DOCUMENTED).filter_map(|seed| Some((seed, drawn(seed).0.rust(&rust)?))).collect();
+        some(DOCUMENTED).filter_map(|seed| Some((seed, drawn(seed).0.rust(&rust)?))).collect();
     let modules: Vec<&str> = texts.iter().map(|(_, text)| text.as_str()).collect();
     let seeds: Vec<u64> = texts.iter().map(|(seed, _)| *seed).collect();
     document(&format!("one of the seeds {seeds:?}"), &modules).unwrap_or_else(|message| panic!("{message}"));

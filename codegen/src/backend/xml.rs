@@ -11,6 +11,10 @@ pub(super) struct Xml {
     open: Vec<Open>,
     /// Characters that XML 1.0 doesn't allow, which were left out.
     pub(super) dropped: usize,
+    /// Attributes that were left out: what they are called is no name, or their element has one of that name.
+    pub(super) unnamed: usize,
+    /// The names of attributes that the element which was opened last has.
+    given: Vec<String>,
 }
 
 /// An element that isn't closed yet.
@@ -29,12 +33,14 @@ enum Content {
 
 impl Xml {
     pub(super) fn new() -> Self {
-        Xml { text: "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".into(), open: Vec::new(), dropped: 0 }
+        let text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".into();
+        Xml { text, open: Vec::new(), dropped: 0, unnamed: 0, given: Vec::new() }
     }
 
     /// Starts an element.
     pub(super) fn open(&mut self, name: impl Into<Cow<'static, str>>) {
         self.finish_tag(Content::Elements);
+        self.given.clear();
         let name = name.into();
         self.indent();
         self.text.push('<');
@@ -44,6 +50,11 @@ impl Xml {
 
     /// An attribute of the element that was opened last.
     pub(super) fn attribute(&mut self, name: &str, value: impl Display) {
+        if !is_name(name) || self.given.iter().any(|given| given == name) {
+            self.unnamed += 1;
+            return;
+        }
+        self.given.push(name.to_owned());
         let value = self.allowed(value.to_string());
         self.text.push(' ');
         self.text += name;
@@ -135,6 +146,13 @@ impl Xml {
     }
 }
 
+/// Whether an attribute can be called so (`Name` of XML 1.0; what isn't ASCII is taken for a letter).
+fn is_name(text: &str) -> bool {
+    let is_letter = |letter: char| letter.is_ascii_alphabetic() || matches!(letter, '_' | ':') || !letter.is_ascii();
+    text.starts_with(is_letter)
+        && text.chars().all(|letter| is_letter(letter) || letter.is_ascii_digit() || matches!(letter, '-' | '.'))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -150,6 +168,20 @@ mod tests {
         xml.leaf("E", "");
         assert_eq!(xml.dropped, 1);
         let expected = "<A b=\"&quot;&lt;&amp;&#10;\">\n  <C/>\n  <D>&lt;/D&gt;&amp;&#13;</D>\n  <E/>\n</A>\n";
+        assert_eq!(xml.finish(), format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{expected}"));
+    }
+
+    #[test]
+    fn attributes_have_names_of_their_own() {
+        let mut xml = Xml::new();
+        xml.open("A");
+        for name in ["b", "x:c-1", "b", "", "2", "a b", "x=\"\"", "ß", "<"] {
+            xml.attribute(name, 1);
+        }
+        xml.open("B");
+        xml.attribute("b", 2);
+        assert_eq!(xml.unnamed, 6);
+        let expected = "<A b=\"1\" x:c-1=\"1\" ß=\"1\">\n  <B b=\"2\"/>\n</A>\n";
         assert_eq!(xml.finish(), format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{expected}"));
     }
 }

@@ -1,9 +1,8 @@
 //! Devices with an object dictionary, registers or messages, and modules of theirs.
 
 use lexibus_codegen::ir::{
-    CanOpenSettings, Catalog, ClockMode, ClockTime, Commissioning, CompactString, Device, DistributedClocks, Eeprom,
-    EtherCatSettings, Fit, Fmmu, Format, Group, InitCommand, Mailbox, ModbusTable, Module, ModuleId, ModuleUse,
-    ObjectBuses, Places, ProcessData, RegisterSpace, Slot, SlotRules,
+    Binding, Catalog, CompactString, Device, Format, Graphic, Group, ModbusTable, Module, ModuleId, ModuleUse,
+    ObjectBuses, Places, ProcessData, RegisterSpace, SubExtension,
 };
 
 use super::bytes::Bytes;
@@ -13,14 +12,17 @@ use super::messages;
 use super::names;
 use super::process;
 use super::profinet::identity;
+use super::settings;
 use super::types;
 
 /// The devices of an EDS, an XDD, an ESI or a register table, and their modules.
 pub fn catalog(b: &mut Bytes<'_>, format: Format) -> Catalog {
-    let modules = if format == Format::Esi { b.few(2, 3, module) } else { Vec::new() };
+    let is_ethercat = format == Format::Esi;
+    let modules = if format == Format::Table { Vec::new() } else { b.few(2, 3, |b| module(b, is_ethercat)) };
     let devices = if b.one_in(5) { 2 } else { 1 };
     let devices = (0..devices).map(|_| device(b, format, modules.len())).collect();
-    Catalog { devices, modules, ..Catalog::default() }
+    let graphics = b.few(4, 2, |b| Graphic { id: names::name(b), file: names::path(b) });
+    Catalog { devices, modules, graphics, extensions: names::extensions(b), ..Catalog::default() }
 }
 
 fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
@@ -59,15 +61,14 @@ fn device(b: &mut Bytes<'_>, format: Format, modules: usize) -> Device {
         id: names::name(b),
         dictionary_only: b.one_in(20),
         identity: identity(b),
-        canopen: if is_ethercat { None } else { b.maybe(2, canopen) },
-        ethercat: is_ethercat.then(|| Box::new(ethercat(b))),
+        header: settings::header(b),
+        canopen: if is_ethercat { None } else { b.maybe(2, |b| Box::new(settings::canopen(b))) },
+        ethercat: is_ethercat.then(|| Box::new(settings::ethercat(b))),
         node_ids: b.maybe(4, |b| (b.within(0..=9), b.within(9..=255))),
         profiles: b.few(2, 2, |b| b.pick(&[402, 301, 401, 0])),
-        commissioning: b.maybe(8, |b| {
-            Box::new(Commissioning { node_id: b.maybe(2, |b| b.within(0..=130)), ..Commissioning::default() })
-        }),
+        commissioning: b.maybe(8, |b| Box::new(settings::commissioning(b))),
         process_data,
-        slots: b.few(4, 2, slot),
+        slots: b.few(4, 2, settings::slot),
         modules: (0..modules as u32).map(|at| ModuleUse { module: ModuleId(at), places: Places::default() }).collect(),
         parameter_spaces: spaces.iter().map(|own| messages::space(b, own.clone(), &message_names)).collect(),
         framing: if is_table { b.maybe(3, |b| Box::new(messages::framing(b, &messages))) } else { None },
@@ -117,112 +118,50 @@ fn modbus(b: &mut Bytes<'_>) -> ModbusTable {
     }
 }
 
-fn canopen(b: &mut Bytes<'_>) -> Box<CanOpenSettings> {
-    Box::new(CanOpenSettings {
-        bit_rates: b.list(3, |b| b.pick(&[10, 125, 1000])),
-        granularity: b.maybe(2, |b| b.pick(&[0, 1, 8, 64])),
-        rx_pdos: b.maybe(2, |b| b.within(0..=4)),
-        tx_pdos: b.maybe(2, |b| b.within(0..=4)),
-        lss: b.any(),
-        compact_pdo: b.any(),
-        dummies: b.list(2, |b| b.within(1..=7)),
-        dummies_given: b.any(),
-        ..CanOpenSettings::default()
-    })
-}
-
-fn ethercat(b: &mut Bytes<'_>) -> EtherCatSettings {
-    EtherCatSettings {
-        physics: b.pick(&["YY", "", "Y*/"]).into(),
-        group: names::name(b),
-        fmmus: b.list(3, |b| Fmmu {
-            purpose: b.pick(&["Outputs", "Inputs", "MBoxState", "odd\""]).into(),
-            sync_manager: b.maybe(2, |b| b.within(0..=4)),
-            sync_unit: b.maybe(4, |b| b.within(0..=2)),
-            op_only: b.any(),
-        }),
-        mailbox: b.maybe(2, |b| Box::new(Mailbox { data_link_layer: b.any(), ..Mailbox::default() })),
-        clocks: b.maybe(2, |b| {
-            Box::new(DistributedClocks { attributes: names::attributes(b), modes: b.list(3, clock_mode) })
-        }),
-        slots: b.maybe(3, |b| {
-            let [index_increment, pdo_increment] = [0; 2].map(|_| b.any());
-            Box::new(SlotRules { max_slots: b.any(), index_increment, pdo_increment, ..SlotRules::default() })
-        }),
-        eeprom: b.maybe(4, |b| {
-            let [config_data, boot_strap] = [0; 2].map(|_| b.list(8, Bytes::any));
-            Box::new(Eeprom { byte_size: b.any(), config_data, boot_strap, ..Eeprom::default() })
-        }),
-        ..EtherCatSettings::default()
-    }
-}
-
-fn clock_mode(b: &mut Bytes<'_>) -> ClockMode {
-    let [cycle_sync0, shift_sync0, cycle_sync1, shift_sync1] =
-        [0; 4].map(|_| ClockTime { nanoseconds: b.any(), factor: b.any(), input: b.any() });
-    let (name, description, assign_activate) = (names::name(b), names::text(b), b.any());
-    ClockMode {
-        name,
-        description,
-        assign_activate,
-        cycle_sync0,
-        shift_sync0,
-        cycle_sync1,
-        shift_sync1,
-        sync_managers: Vec::new(),
-    }
-}
-
-fn init_command(b: &mut Bytes<'_>) -> InitCommand {
-    InitCommand {
-        transitions: b.list(2, |b| b.pick(&["PS", "IP", "odd"]).into()),
-        index: b.within(0x2000..=0x2020),
-        sub_index: b.within(0..=3),
-        data: b.list(8, Bytes::any),
-        depends_on_slot: b.any(),
-        comment: names::text(b),
-        ..InitCommand::default()
-    }
-}
-
-fn slot(b: &mut Bytes<'_>) -> Slot {
-    Slot {
-        number: b.within(0..=3),
-        name: names::name(b),
-        instances: (b.within(0..=2), b.within(0..=4)),
-        names: names::texts(b),
-        fits: b.list(2, |b| match b.within(0..=2) {
-            0 => Fit::Ident(b.within(0..=3)),
-            1 => Fit::Class(names::name(b)),
-            _ => Fit::Name(names::name(b)),
-        }),
-        index_increment: b.any(),
-        pdo_increment: b.any(),
-        ..Slot::default()
-    }
-}
-
-/// A module of a modular slave.
-fn module(b: &mut Bytes<'_>) -> Module {
+/// A module of a modular slave, or of a bus coupler on CANopen.
+fn module(b: &mut Bytes<'_>, is_ethercat: bool) -> Module {
     let types = types::definitions(b, 5);
-    let around =
-        Around { types: &types, given: &[], images: &[], spaces: &[], buses: &[ObjectBuses::COE], is_table: false };
+    let buses: &[ObjectBuses] = if is_ethercat { &[ObjectBuses::COE] } else { &[ObjectBuses::CANOPEN] };
+    let around = Around { types: &types, given: &[], images: &[], spaces: &[], buses, is_table: false };
     let groups = items::objects(b, &around, 5);
-    let process_data = process::data(b, &groups, &types, true);
+    let fixed_objects = if is_ethercat { Vec::new() } else { items::objects(b, &around, 3) };
+    let sub_extensions = if is_ethercat { Vec::new() } else { b.list(2, |b| sub_extension(b, &around)) };
+    let process_data =
+        if is_ethercat { process::data(b, &groups, &types, is_ethercat) } else { ProcessData::default() };
     Module {
         number: b.within(0..=3),
         id: names::name(b),
         class: names::name(b),
         name: names::name(b),
         names: names::texts(b),
+        version: names::version(b),
+        revision: names::version(b),
         identity: identity(b),
+        comments: b.few(4, 2, names::text),
         documentation: names::documentation(b),
         types,
+        fixed_objects,
+        sub_extensions,
         groups,
         process_data,
         pdo_group: b.maybe(4, |b| b.within(0..=2)),
-        init_commands: b.few(3, 2, init_command),
+        init_commands: b.few(3, 2, settings::init_command),
+        profiles: b.few(4, 2, |b| b.pick(&[402, 0])),
         extensions: names::extensions(b),
+        // What PROFINET says of modules stands in `profinet`.
         ..Module::default()
+    }
+}
+
+/// Entries that each module adds to an object.
+fn sub_extension(b: &mut Bytes<'_>, around: &Around<'_>) -> SubExtension {
+    let index = b.within(0x2000..=0x2020);
+    let binding = Binding::Object { buses: b.pick(around.buses), index, sub_index: 1 };
+    SubExtension {
+        index,
+        count: b.within(0..=4),
+        per: b.maybe(4, |b| b.within(0..=2)),
+        extends_object: b.any(),
+        template: items::item(b, around, binding),
     }
 }

@@ -3,6 +3,7 @@
 use lexibus_codegen::ir::{
     Access, Availability, Behaviour, Condition, Conversion, ItemVariant, MachineUnit, Quantity, Storage, Type, Value,
 };
+use lexibus_codegen::source::Span;
 
 use super::bytes::Bytes;
 use super::names;
@@ -64,7 +65,8 @@ fn conversion(b: &mut Bytes<'_>, given: &[lexibus_codegen::ir::CompactString]) -
         given: b.few(3, 2, |b| (names::of(b, given), values::real(b))),
         model: b.maybe(4, names::model),
         by: b.maybe(4, values::real),
-        ..Conversion::default()
+        documentation: names::documentation(b),
+        at: Span::default(),
     }
 }
 

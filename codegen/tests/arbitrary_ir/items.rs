@@ -51,7 +51,8 @@ pub fn item(b: &mut Bytes<'_>, around: &Around<'_>, binding: Binding) -> Item {
         variants: b.few(6, 2, |b| facts::variant(b, base)).into(),
         configured: b.maybe(12, |b| {
             let value = b.maybe(2, |b| values::of(b, base));
-            Box::new(Configured { value, denotation: b.maybe(2, names::text), ..Configured::default() })
+            let [upload_file, download_file] = [0; 2].map(|_| b.maybe(4, names::path));
+            Box::new(Configured { value, denotation: b.maybe(2, names::text), upload_file, download_file })
         }),
         quantity: b.maybe(3, |b| Box::new(facts::quantity(b, around.given))),
         behaviour: b.maybe(4, |b| Box::new(facts::behaviour(b))),

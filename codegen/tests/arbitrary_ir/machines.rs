@@ -9,6 +9,7 @@ use lexibus_codegen::source::Origin;
 use super::bytes::Bytes;
 use super::facts::availability;
 use super::names;
+use super::profinet::identity;
 use super::values;
 
 /// A machine whose items go by one of these names.
@@ -145,7 +146,8 @@ pub fn variant(b: &mut Bytes<'_>) -> Variant {
         name: names::model(b),
         constants: b.list(3, |b| (names::name(b), values::any(b))),
         documentation: names::documentation(b),
-        ..Variant::default()
+        identity: identity(b),
+        origin: Origin::default(),
     }
 }
 

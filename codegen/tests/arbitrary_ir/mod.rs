@@ -12,6 +12,7 @@ mod names;
 pub mod outputs;
 mod process;
 mod profinet;
+mod settings;
 mod types;
 mod values;
 

@@ -22,7 +22,7 @@ const ORDINARY: [&str; 12] = [
 ];
 
 /// Keywords, what the prelude and generated code name, methods, and what is no name at all.
-const ODD: [&str; 135] = [
+const ODD: [&str; 142] = [
     "",
     " ",
     "_",
@@ -42,6 +42,13 @@ const ODD: [&str; 135] = [
     "\r\n",
     "\"",
     "\\",
+    "x\n[1018]\nParameterName=y",
+    "]]>",
+    "-->",
+    "</Name>",
+    "..",
+    "../../x",
+    "CON",
     "'",
     "*/",
     "/*",
@@ -221,6 +228,11 @@ pub fn version(b: &mut Bytes<'_>) -> CompactString {
     b.pick(&["1.0", "2.10", "", "V3\"", "*/"]).into()
 }
 
+/// Where a file is said to be.
+pub fn path(b: &mut Bytes<'_>) -> CompactString {
+    b.pick(&["drive.eds", "", "../../x", "/etc/x", "C:\\x\"", "x\n[1018]"]).into()
+}
+
 /// A model of a device.
 pub fn model(b: &mut Bytes<'_>) -> CompactString {
     b.pick(&["A1", "B*", "*", "type", "", "Some"]).into()
@@ -254,7 +266,10 @@ pub fn extensions(b: &mut Bytes<'_>) -> Extensions {
     b.few(16, 2, |b| Extension { key: name(b), value: text(b), span: Default::default() }).into()
 }
 
-/// Attributes as a source spells them.
+/// Attributes as a source spells them: their names are those of XML, and no two are the same.
 pub fn attributes(b: &mut Bytes<'_>) -> Vec<(CompactString, CompactString)> {
-    b.few(8, 2, |b| (name(b), text(b)))
+    let mut list = b.few(8, 2, |b| (b.pick(&["SubstituteLength", "type", "_1", "Größe", "x-y.z"]).into(), text(b)));
+    list.sort();
+    list.dedup_by(|one: &mut (CompactString, _), other| one.0 == other.0);
+    list
 }

@@ -1,22 +1,67 @@
-//! All that is made of a compilation.
+//! All that is made of a compilation beside Rust.
 
-use lexibus_codegen::backend::docs::{Format, Site};
+use lexibus_codegen::backend::docs::{Format, Page, Site};
+use lexibus_codegen::backend::esi::{Export, Refusal};
 use lexibus_codegen::backend::{eds, esi, gsdml, json};
 use lexibus_codegen::compile::Compilation;
 
-/// Runs every back end but that of Rust: files, pages and lists, as many as there are. An export that lacks a fact is none.
-pub fn others(compilation: &Compilation) -> usize {
+/// What each back end makes.
+pub struct Outputs {
+    pub html: Vec<Page>,
+    pub markdown: Vec<Page>,
+    /// The catalogue in full.
+    pub dump: String,
+    /// EDS and DCF, each with the number of its device.
+    pub eds: Vec<(usize, String)>,
+    pub esi: Option<String>,
+    pub gsdml: Option<String>,
+}
+
+/// Runs every back end but that of Rust.
+pub fn others(compilation: &Compilation) -> Outputs {
     json::info(compilation);
-    let mut made = 0;
-    for format in [Format::Html, Format::Markdown] {
-        let mut site = Site::new(format);
-        made += site.add_compilation("arbitrary", compilation).len() + site.finish().len();
-    }
-    let Some(catalog) = &compilation.catalog else { return made };
-    made += usize::from(!json::dump(catalog).is_empty());
+    let mut outputs = Outputs {
+        html: site(Format::Html, compilation),
+        markdown: site(Format::Markdown, compilation),
+        dump: String::new(),
+        eds: Vec::new(),
+        esi: None,
+        gsdml: None,
+    };
+    let Some(catalog) = &compilation.catalog else { return outputs };
+    outputs.dump = json::dump(catalog);
     for flavour in [eds::Flavour::Eds, eds::Flavour::Dcf] {
-        made += catalog.devices.iter().filter_map(|device| eds::export(catalog, device, flavour)).count();
+        let devices = catalog.devices.iter().enumerate();
+        let export = |(at, device)| Some((at, eds::export(catalog, device, flavour)?.text));
+        outputs.eds.extend(devices.filter_map(export));
     }
-    made += usize::from(esi::export(catalog, &Default::default()).is_ok());
-    made + usize::from(gsdml::export(catalog, &Default::default()).is_ok())
+    outputs.esi = completed(|options| esi::export(catalog, options), esi::Options::set);
+    outputs.gsdml = completed(|options| gsdml::export(catalog, options), gsdml::Options::set);
+    outputs
+}
+
+fn site(format: Format, compilation: &Compilation) -> Vec<Page> {
+    let mut site = Site::new(format);
+    let mut pages = site.add_compilation("arbitrary", compilation);
+    pages.extend(site.finish());
+    pages
+}
+
+/// An export that is given whatever fact it asks for; `None` where there is nothing to export.
+fn completed<O: Default>(
+    export: impl Fn(&O) -> Result<Export, Refusal>,
+    set: impl Fn(&mut O, &str, &str) -> Result<(), String>,
+) -> Option<String> {
+    let mut options = O::default();
+    if let Err(Refusal::Missing(facts)) = export(&options) {
+        for fact in facts {
+            let is_set = ["1", "true"].iter().any(|value| set(&mut options, fact.key, value).is_ok());
+            assert!(is_set, "`{}` takes neither a number nor a text", fact.key);
+        }
+    }
+    match export(&options) {
+        Ok(export) => Some(export.text),
+        Err(Refusal::Nothing) => None,
+        Err(missing) => panic!("{missing}"),
+    }
 }

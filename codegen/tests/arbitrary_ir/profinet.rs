@@ -1,11 +1,12 @@
 //! PROFINET: device access points, modules, submodules, their records, and diagnosis.
 
 use lexibus_codegen::ir::{
-    Access, Binding, Catalog, CompactString, Device, Direction, FParameter, FParameters, Group, GroupKind, Identity,
-    IoChannel, IoData, IoItem, IoLengths, Item, Menu, Module, ModuleId, ModuleUse, Numbers, ObjectCode, Places,
-    ProfinetSettings, Record, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse, SubslotName, Type, TypeDef, TypeId,
-    UnitDiagnosis, UnitDiagnosisField, VendorBlock,
+    Access, Binding, Catalog, CompactString, Device, Direction, FParameter, FParameters, Family, Graphic, Group,
+    GroupKind, Identity, IoChannel, IoData, IoItem, IoLengths, Item, LocalText, Menu, Module, ModuleId, ModuleUse,
+    Numbers, ObjectCode, Places, ProfinetSettings, Record, Submodule, SubmoduleId, SubmoduleKind, SubmoduleUse,
+    SubslotName, Type, TypeDef, TypeId, UnitDiagnosis, UnitDiagnosisField, VendorBlock,
 };
+use lexibus_codegen::source::Origin;
 
 use super::bytes::Bytes;
 use super::items::{item, Around};
@@ -28,7 +29,17 @@ pub fn catalog(b: &mut Bytes<'_>) -> Catalog {
         code_tables: b.list(2, machines::code_table),
         unit_diagnoses: b.list(2, |b| unit_diagnosis(b, &types)),
         types,
-        ..Catalog::default()
+        families: b.few(2, 2, |b| Family {
+            id: names::name(b),
+            name: names::name(b),
+            names: names::texts(b),
+            descriptions: b.list(2, |b| LocalText { language: names::name(b), text: names::text(b) }),
+            origin: Origin::default(),
+        }),
+        graphics: b.few(4, 2, |b| Graphic { id: names::name(b), file: names::path(b) }),
+        extensions: names::extensions(b),
+        // `arbitrary_ir` adds them.
+        files: Vec::new(),
     }
 }
 
@@ -153,9 +164,10 @@ fn submodule(b: &mut Bytes<'_>, types: &[TypeDef]) -> Submodule {
         records: b.list(3, |b| record(b, types)),
         f_parameters: b.maybe(5, |b| Box::new(f_parameters(b))),
         menus: b.few(4, 2, menu),
+        graphics: b.few(6, 2, |b| (names::name(b), names::name(b))),
         attributes: names::attributes(b),
         extensions: names::extensions(b),
-        ..Submodule::default()
+        origin: Origin::default(),
     }
 }
 
@@ -235,7 +247,7 @@ fn f_parameters(b: &mut Bytes<'_>) -> FParameters {
             changeable: b.any(),
             visible: b.any(),
         }),
-        ..FParameters::default()
+        origin: Origin::default(),
     }
 }
 
@@ -260,7 +272,7 @@ fn unit_diagnosis(b: &mut Bytes<'_>, types: &[TypeDef]) -> UnitDiagnosis {
             }
         }),
         extensions: names::extensions(b),
-        ..UnitDiagnosis::default()
+        origin: Origin::default(),
     }
 }
 

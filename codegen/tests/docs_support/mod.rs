@@ -144,3 +144,47 @@ pub fn id(html: &str) -> Option<&str> {
 pub fn pages(all: &[Page]) -> impl Iterator<Item = (&Page, Seen)> {
     all.iter().map(|page| (page, seen(page)))
 }
+
+/// Each page is where it belongs, whatever a description calls its devices.
+fn placed(pages: &[Page]) {
+    for Page { path, .. } in pages {
+        assert!(!path.contains("..") && !path.starts_with('/') && !path.contains(['<', '\\', ':']), "{path}");
+    }
+}
+
+/// A description adds no element to the pages of a site.
+///
+/// # Panics
+///
+/// Where one does.
+pub fn html_markup(all: &[Page]) {
+    placed(all);
+    for page in all.iter().filter(|page| page.path.ends_with(".html")) {
+        assert_eq!(page.text.matches("<script").count(), 1, "{}", page.path);
+        assert_eq!(page.text.matches("</title>").count(), 1, "{}", page.path);
+        assert!(!page.text.contains("<img"), "{}", page.path);
+        // A quote would end an attribute, and what is behind it would be another one.
+        for tag in page.text.split('<').skip(1).filter_map(|rest| rest.split('>').next()) {
+            let names = tag.split('"').step_by(2).collect::<String>();
+            assert!(!names.contains("onerror") && !names.contains("onload"), "{}: <{tag}>", page.path);
+        }
+    }
+}
+
+/// The same for pages of Markdown, read as GitHub and `mdBook` do.
+///
+/// # Panics
+///
+/// As for a site.
+pub fn markdown_markup(all: &[Page]) {
+    placed(all);
+    for (page, seen) in pages(all) {
+        for html in &seen.html {
+            let is_ours = html == "</a>" || html == "<br>" || html.starts_with("<!-- Written by lexibus docs");
+            assert!(is_ours || id(html).is_some_and(|id| !id.contains(['"', '<', '>'])), "{}: {html}", page.path);
+        }
+        assert!(seen.links.iter().all(|link| !link.contains("//")), "{}", page.path);
+        assert_eq!(seen.images, 0, "{}", page.path);
+        assert!(!seen.text.contains('|') || page.text.contains("\\|"), "{}", page.path);
+    }
+}

@@ -77,6 +77,7 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
         devices => info(&mut xml, &mut context, devices),
     }
     context.notes.add_many(NoteKind::Control, xml.dropped, Place::Device);
+    context.notes.add_many(NoteKind::Extension, xml.unnamed, Place::Device);
     let Context { notes, wanted, .. } = context;
     wanted.finish(xml.finish(), notes.finish())
 }

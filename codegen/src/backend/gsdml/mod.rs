@@ -70,6 +70,7 @@ pub fn export(catalog: &Catalog, options: &Options) -> Result<Export, Refusal> {
     let mut xml = Xml::new();
     root(&mut xml, &mut context);
     context.notes.add_many(NoteKind::Control, xml.dropped, Place::Device);
+    context.notes.add_many(NoteKind::Extension, xml.unnamed, Place::Device);
     let Context { notes, wanted, .. } = context;
     wanted.finish(xml.finish(), notes.finish())
 }
