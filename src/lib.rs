@@ -131,6 +131,8 @@ pub mod modbus;
 mod node_id;
 #[cfg(test)]
 mod now;
+#[cfg(feature = "serde")]
+pub mod octets;
 pub mod pdo;
 pub mod profinet;
 mod quantity;

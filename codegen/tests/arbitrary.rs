@@ -11,7 +11,7 @@ use std::ops::Range;
 
 use arbitrary_ir::bytes::Bytes;
 use arbitrary_ir::outputs::Outputs;
-use compile_support::{compile_modules, document};
+use compile_support::{check_with_traits, compile_modules, document};
 use docs_support::{html_links, html_markup, markdown_links, markdown_markup};
 use lexibus_codegen::compile::{check, Compilation, Options};
 use lexibus_codegen::ir::{Catalog, Device, Format, Group};
@@ -23,6 +23,9 @@ const DRAWN: u64 = 200;
 
 /// Of so many of them, all other outputs are made where nobody asks for more.
 const OUTPUTS: usize = 30;
+
+/// So many of them have the traits of other crates.
+const WITH_TRAITS: usize = 60;
 
 /// So many of them are documented.
 const DOCUMENTED: usize = 30;
@@ -103,6 +106,16 @@ fn what_passes_the_lints_compiles() {
     let failures: Vec<String> = kept.chunks(BATCH).filter_map(|batch| compile_modules(batch).err()).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
     assert!(kept.len() as u64 * 10 >= drawn * 9, "only {} of {drawn} catalogues have no errors", kept.len());
+}
+
+#[test]
+fn traits_of_other_crates_are_derived_for_it() {
+    let options = |seed| RustOptions { serde: Presence::Always, defmt: Presence::Always, ..drawn(seed).1 };
+    let module = |seed| Some((format!("seed_{seed}"), drawn(seed).0.rust(&options(seed))?));
+    let kept: Vec<(String, String)> = some(WITH_TRAITS).filter_map(module).collect();
+    check_with_traits(&kept).unwrap_or_else(|message| panic!("{message}"));
+    let count = |text: &str| kept.iter().map(|(_, module)| module.matches(text).count()).sum::<usize>();
+    assert!(count("serde::Serialize") > kept.len() && count("defmt::Format") > kept.len());
 }
 
 /// What else is made of each catalogue.

@@ -362,7 +362,7 @@ fn optional_implementations_are_gated() {
         "{text}"
     );
     assert!(text.contains("#[cfg_attr(feature = \"serde\", derive(serde::Serialize, serde::Deserialize))]"));
-    assert!(text.contains("serde(with = \"::lexibus::profinet::octets\")"), "{text}");
+    assert!(text.contains("serde(with = \"::lexibus::octets\")"), "{text}");
     assert!(!text.contains("Debug"));
     assert_canonical(&text);
     // A crate without these features would be warned of them; that is its own business.

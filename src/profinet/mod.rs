@@ -69,8 +69,6 @@ mod f_parameters;
 mod f_record;
 mod image;
 mod io;
-#[cfg(feature = "serde")]
-pub mod octets;
 pub mod parameter_access;
 mod plan;
 mod record;

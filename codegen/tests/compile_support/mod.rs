@@ -64,6 +64,41 @@ pub fn compile_modules(modules: &[(String, String)]) -> Result<(), String> {
     result
 }
 
+/// Checks modules, each with its name, as those of a crate that has serde and defmt, and the feature `optional`.
+///
+/// # Errors
+///
+/// What cargo printed.
+#[allow(dead_code)]
+pub fn check_with_traits(modules: &[(String, String)]) -> Result<(), String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("with-traits");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(folder.join("src")).expect("a folder for temporary files");
+    let manifest = format!(
+        "[package]\nname = \"with-traits\"\nversion = \"0.0.0\"\nedition = \"2021\"\n[workspace]\n\
+         [features]\ndefault = [\"optional\"]\noptional = []\n[dependencies]\n\
+         lexibus = {{ path = {root:?}, features = [\"serde\", \"defmt\"] }}\n\
+         serde = {{ version = \"1\", default-features = false, features = [\"derive\"] }}\ndefmt = \"1\"\n"
+    );
+    std::fs::write(folder.join("Cargo.toml"), manifest).expect("a manifest");
+    // The versions of the workspace, so that nothing is fetched anew.
+    std::fs::copy(root.join("Cargo.lock"), folder.join("Cargo.lock")).expect("the workspace's Cargo.lock");
+    let mut text = String::from("#![no_std]\n#![deny(warnings)]\n//! Bindings.\n");
+    for (name, bindings) in modules {
+        std::fs::write(folder.join("src").join(name).with_extension("rs"), bindings).expect("a module");
+        text += &format!("/// One.\npub mod {name};\n");
+    }
+    std::fs::write(folder.join("src/lib.rs"), text).expect("a crate root");
+    let output = Command::new(env!("CARGO"))
+        .args(["check", "--quiet"])
+        .current_dir(&folder)
+        .env("CARGO_TARGET_DIR", folder.with_extension("target"))
+        .output()
+        .expect("cargo runs");
+    output.status.success().then_some(()).ok_or_else(|| start(&String::from_utf8_lossy(&output.stderr)))
+}
+
 /// Compiles a crate up to its metadata.
 fn metadata(mut command: Command, edition: &str, stem: &Path, root: &Path) -> Result<(), String> {
     let output = command

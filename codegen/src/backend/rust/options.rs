@@ -52,7 +52,25 @@ impl Default for RustOptions {
     }
 }
 
+/// Traits of `serde` end at arrays of this length.
+pub(in crate::backend::rust) const SERDE_ARRAY: u32 = 32;
+
 impl RustOptions {
+    /// What tells `serde` how to handle a field of so many bytes, where its own traits don't.
+    pub(in crate::backend::rust) fn octets_attribute(&self, length: u32) -> Option<String> {
+        if length <= SERDE_ARRAY {
+            return None;
+        }
+        let path = super::literal::string(&format!("{}::octets", self.runtime));
+        match &self.serde {
+            Presence::Never => None,
+            Presence::Always => Some(format!("#[serde(with = {path})]")),
+            Presence::Feature(feature) => {
+                Some(format!("#[cfg_attr(feature = {}, serde(with = {path}))]", super::literal::string(feature)))
+            }
+        }
+    }
+
     /// The attribute lines in front of a generated type.
     pub(super) fn derives(&self, plain_data: bool) -> Vec<String> {
         let mut always = if plain_data { vec!["Clone", "Copy"] } else { Vec::new() };

@@ -60,6 +60,8 @@ pub(super) struct FieldModel {
     pub getter: String,
     pub setter: String,
     pub docs: Vec<String>,
+    /// What derived traits need to know of it.
+    pub attribute: Option<String>,
     pub ty: String,
     /// Its bits as an `u64`.
     pub encode: String,
@@ -154,7 +156,7 @@ fn model(scope: &Scope<'_>, pdo: &Pdo, struct_name: String, options: &RustOption
         return None;
     }
     let mapped: Vec<&PdoEntry> = pdo.entries.iter().filter(|entry| is_field(entry)).collect();
-    let fields = fields(scope, &mapped);
+    let fields = fields(scope, &mapped, options);
     let is_constant = !mapped.iter().any(|entry| matches!(field_type(scope, entry.ty, entry.bits), FieldType::Real(_)));
     let word = pdo.bits() <= WORD;
     Some(PdoModel {
@@ -295,7 +297,7 @@ pub(super) fn mapping_line(entry: &PdoEntry) -> String {
     format!("{path}(«{}»)", arguments.join("¦ "))
 }
 
-fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry]) -> Vec<FieldModel> {
+fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry], options: &RustOptions) -> Vec<FieldModel> {
     let texts: Vec<String> = mapped.iter().map(|entry| field_text(scope, entry)).collect();
     let wishes: Vec<Wish<'_>> = mapped
         .iter()
@@ -313,7 +315,8 @@ fn fields(scope: &Scope<'_>, mapped: &[&PdoEntry]) -> Vec<FieldModel> {
         .collect();
     let names = names_unique::unique_up_to(&wishes, &["self", "super", "crate"], Case::Snake, MAX_FIELD_NAME);
     let fields = mapped.iter().zip(&names).zip(&texts);
-    let mut fields: Vec<FieldModel> = fields.map(|((entry, name), text)| field(scope, entry, name, text)).collect();
+    let mut fields: Vec<FieldModel> =
+        fields.map(|((entry, name), text)| field(scope, entry, name, text, options)).collect();
     // Methods called `new` and `at` make the view, others are those of traits that every type may have, and a field may be called as the
     // setter of another.
     const TAKEN: [&str; 5] = ["new", "at", "clone", "into", "try_into"];
@@ -350,7 +353,7 @@ fn field_text(scope: &Scope<'_>, entry: &PdoEntry) -> String {
     }
 }
 
-fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str) -> FieldModel {
+fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str, options: &RustOptions) -> FieldModel {
     let name = names_unique::escaped(name);
     let own = format!("self.{name}");
     let kind = field_type(scope, entry.ty, entry.bits);
@@ -381,6 +384,10 @@ fn field(scope: &Scope<'_>, entry: &PdoEntry, name: &str, text: &str) -> FieldMo
         name,
         object,
         type_link,
+        attribute: match &kind {
+            FieldType::Bytes(length) => options.octets_attribute(*length),
+            _ => None,
+        },
         ty,
         encode,
         decode,

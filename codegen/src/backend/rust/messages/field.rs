@@ -5,6 +5,7 @@ use super::steps::number;
 use crate::backend::rust::docs;
 use crate::backend::rust::field_type::{field_type, FieldType};
 use crate::backend::rust::links::Here;
+use crate::backend::rust::options::SERDE_ARRAY;
 use crate::backend::rust::quantity;
 use crate::backend::rust::scope::Scope;
 use crate::backend::rust::value_type::{native, ValueType};
@@ -41,9 +42,6 @@ enum Kind {
 
 /// The type that checks a value, the value, and its range.
 type Check = (String, String, String);
-
-/// The longest array that `serde` knows.
-const SERDE_ARRAY: u32 = 32;
 
 /// The fields of these steps. `entry` is the name of the type of what is repeated, `lifetime` that of what is borrowed.
 pub(super) fn fields(scope: &Scope<'_>, steps: &[Step<'_>], entry: &str) -> Vec<Field> {

@@ -3,7 +3,7 @@
 use super::docs;
 use super::field::{Field, Use};
 use super::values::Values;
-use super::{Presence, RustOptions};
+use super::RustOptions;
 use crate::backend::rust::doc_table;
 use crate::ir::{Direction, IoData, PdoEntry, PdoEntryKind, Submodule};
 use crate::passes::names_unique::{self, Case, Wish};
@@ -13,9 +13,6 @@ const MAX_FIELD_NAME: usize = 30;
 
 /// Names that no field may have.
 const RESERVED: [&str; 8] = ["self", "super", "crate", "new", "view", "clone", "into", "try_into"];
-
-/// Traits of `serde` end at arrays of this length.
-const SERDE_ARRAY: u32 = 32;
 
 /// A struct of strictly less than this, up to the blank before its closing brace, stays on one line.
 const SHORT_STRUCT: usize = 34;
@@ -158,7 +155,7 @@ impl FieldModel {
             docs,
             cells: [field.place.words(), field.type_link()],
             ty: field.rust_type(),
-            attribute: field.byte_string().and_then(|length| serde_attribute(length, options)),
+            attribute: field.byte_string().and_then(|length| options.octets_attribute(length)),
             get: field.read("self.0"),
             read: field.read("data"),
             pack: field.write("data", "&mut data", &format!("self.{name}")),
@@ -171,21 +168,6 @@ impl FieldModel {
     /// The name of its setter.
     pub(super) fn setter(&self) -> String {
         names_unique::prefixed("set_", &self.name)
-    }
-}
-
-/// What tells `serde` how to handle a long array.
-fn serde_attribute(length: u32, options: &RustOptions) -> Option<String> {
-    if length <= SERDE_ARRAY {
-        return None;
-    }
-    let path = super::literal::string(&format!("{}::profinet::octets", options.runtime));
-    match &options.serde {
-        Presence::Never => None,
-        Presence::Always => Some(format!("#[serde(with = {path})]")),
-        Presence::Feature(feature) => {
-            Some(format!("#[cfg_attr(feature = {}, serde(with = {path}))]", super::literal::string(feature)))
-        }
     }
 }
 

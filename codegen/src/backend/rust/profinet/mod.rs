@@ -18,7 +18,7 @@ use askama::Template;
 
 use super::nested::module;
 use super::{header, layout, literal};
-use super::{Presence, RustOptions, INTERFACE_VERSION};
+use super::{RustOptions, INTERFACE_VERSION};
 use crate::ir::{Catalog, FileInfo};
 use descriptor::{DapModel, ModuleModel, SubmoduleModel};
 use diagnosis::UnitModel;
