@@ -24,7 +24,7 @@ fn xpath_reads_the_same_facts_from_esi() {
         }
         let Some(peer) = &answer.elements else { continue };
         let own = compilation.catalog.as_ref().map(elements).unwrap_or_default();
-        let case = Case::new(peer, &own);
+        let case = Case::new(file, peer, &own);
         tally.file(&file.name, peer, &own, |difference| reason(&case, &difference));
     }
     tally.finish(555_000);

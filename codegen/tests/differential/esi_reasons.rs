@@ -3,6 +3,7 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::corpus_support::File;
 use super::facts::{Difference, Elements, Facts};
 use super::tally::Reasons;
 
@@ -23,8 +24,9 @@ const PEER: &[(&str, &str)] = &[
 pub const REASONS: Reasons =
     Reasons { quirks: &["X01", "X02", "X11", "X13", "X14", "X15", "X16", "X17", "X19", "X21", "X22"], peer: PEER };
 
-/// What both read from a file.
+/// A file, and what both read from it.
 pub struct Case<'a> {
+    text: String,
     peer: &'a Elements,
     own: &'a Elements,
     /// The entries of PDOs as Lexibus has them, by the object that they map: owner, index and sub-index.
@@ -34,7 +36,7 @@ pub struct Case<'a> {
 }
 
 impl<'a> Case<'a> {
-    pub fn new(peer: &'a Elements, own: &'a Elements) -> Self {
+    pub fn new(file: &File, peer: &'a Elements, own: &'a Elements) -> Self {
         let mut mapped: HashMap<_, Vec<&Facts>> = HashMap::new();
         for (name, facts) in peer {
             let Some((owner, _)) = name.split_once("xPdo ").filter(|(_, rest)| rest.contains(" entry ")) else {
@@ -45,7 +47,7 @@ impl<'a> Case<'a> {
             entries.extend(own.get(name));
         }
         let described = peer.keys().filter_map(|name| Some(name.split_once(" object ")?.0)).collect();
-        Case { peer, own, mapped, described }
+        Case { text: file.text(), peer, own, mapped, described }
     }
 
     /// The type that Lexibus has for the object that an entry maps.
@@ -99,12 +101,15 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
         }
         "bits" => of_array(case.own.get(element)?.get("array")?, own?),
         "default" | "low" | "high" => of_value(case, difference),
-        _ => of_text(peer?, own?),
+        _ => of_text(case, peer?, own?),
     }
 }
 
-/// Why a text is another one, of what libxml2 recovered from a file that it rejects.
-fn of_text(peer: &str, own: &str) -> Option<&'static str> {
+/// Why a text is another one, of what libxml2 recovered from a file that it rejects: it is as it stands in the file.
+fn of_text(case: &Case<'_>, peer: &str, own: &str) -> Option<&'static str> {
+    if !case.text.contains(own) {
+        return None;
+    }
     let rest = own.strip_prefix(peer);
     if rest.is_some_and(|rest| rest.starts_with('&')) {
         return Some("a bare &");
