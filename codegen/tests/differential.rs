@@ -5,6 +5,8 @@
 mod corpus_support;
 #[path = "differential/eds.rs"]
 mod eds;
+#[path = "differential/eds_expected.rs"]
+mod eds_expected;
 #[path = "differential/eds_reasons.rs"]
 mod eds_reasons;
 #[path = "differential/esi.rs"]

@@ -1,8 +1,10 @@
-//! Why `canopen` and Lexibus may differ: each reason looks at the text of the file, read without either of them.
+//! Why `canopen` and Lexibus may differ: each reason looks at the text of the file, read without either of them, and at
+//! whether Lexibus has what the row of the table of quirks says.
 
 use super::corpus_support::number::{hex_digits, number, Number};
 use super::corpus_support::reading::{Part, Reading, Section};
 use super::corpus_support::{entry, header, lines, File};
+use super::eds_expected as expected;
 use super::facts::{Difference, Elements};
 use super::tally::Reasons;
 
@@ -32,12 +34,15 @@ pub struct Case<'a> {
     pub reading: Reading,
     pub peer: &'a Elements,
     pub own: &'a Elements,
+    node_id: u8,
 }
 
 impl Case<'_> {
-    pub fn new<'a>(file: &File, peer: &'a Elements, own: &'a Elements) -> Case<'a> {
+    /// Without a node-ID in the file, or with one that LSS takes for none, formulas are resolved with `node_id`.
+    pub fn new<'a>(file: &File, peer: &'a Elements, own: &'a Elements, node_id: u8) -> Case<'a> {
         let text = file.text();
-        Case { reading: Reading::of(&text), text, peer, own }
+        let given = peer.get("device").and_then(|facts| facts.get("node-ID")?.parse().ok()).filter(|id| *id != 255);
+        Case { reading: Reading::of(&text), text, peer, own, node_id: given.unwrap_or(node_id) }
     }
 
     /// The section of an element, and what it is: `1018` and `1018:01`.
@@ -62,31 +67,38 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
     }
     let (index, sub) = address(difference.element)?;
     match difference.fact {
-        None => missing(case, index, sub, difference.own.is_some()),
+        None => missing(case, index, sub, difference),
         Some(fact) => of_value(case, index, sub, fact, difference),
     }
 }
 
 /// What one of the two doesn't have at all.
-fn missing(case: &Case<'_>, index: u16, sub: Option<u8>, is_own: bool) -> Option<&'static str> {
-    let compact = case.reading.get(index, Part::Object).and_then(|object| object.number("compactsubobj"));
-    let is_pdo = (0x1400..0x1C00).contains(&index) && case.reading.get(index, Part::Object).is_none();
+fn missing(case: &Case<'_>, index: u16, sub: Option<u8>, difference: &Difference<'_>) -> Option<&'static str> {
+    difference.own?;
+    let object = case.reading.get(index, Part::Object);
+    let compact = object.and_then(|object| object.number("compactsubobj")).unwrap_or(-1);
     match sub {
-        _ if !is_own => None,
-        Some(sub) if compact.is_some_and(|count| i128::from(sub) <= count) => {
-            Some("E43").filter(|_| sub == 0 || is_like_first(case, index, sub))
+        Some(sub) if i128::from(sub) <= compact => {
+            let expected = expected::compact(&case.reading, index, sub, case.node_id);
+            Some("E43").filter(|_| case.own.get(difference.element) == expected.as_ref())
         }
-        _ => Some("E70").filter(|_| is_pdo && has_key(&case.text, "CompactPDO")),
+        _ => Some("E70").filter(|_| object.is_none() && is_announced(case, index, sub)),
     }
 }
 
-/// Whether an element that follows from CompactSubObj is what the first one is, which the library has as well.
-fn is_like_first(case: &Case<'_>, index: u16, sub: u8) -> bool {
-    let facts = |sub| {
-        let own = case.own.get(&format!("{index:04X}:{sub:02X}")).into_iter().flatten();
-        own.filter(|(name, _)| !matches!(name.as_str(), "name" | "value")).collect::<Vec<_>>()
+/// Whether an object that the file doesn't describe belongs to a PDO that it announces.
+fn is_announced(case: &Case<'_>, index: u16, sub: Option<u8>) -> bool {
+    if !(0x1400..0x1C00).contains(&index) {
+        return false;
+    }
+    let Some(sub) = sub else {
+        let first = index & !0x3FF;
+        let all = case.own.range(format!("{first:04X}")..format!("{:04X}", first + 0x200));
+        let count = all.filter(|(name, _)| name.len() == 4).count();
+        return expected::pdos(&case.text, index) == i128::try_from(count).ok();
     };
-    facts(sub) == facts(1)
+    let ty = case.own.get(&format!("{index:04X}:{sub:02X}")).and_then(|facts| facts.get("type"));
+    ty.is_some() && ty.map(String::as_str) == expected::compact_pdo(&case.text, index, sub)
 }
 
 fn of_device(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static str> {
@@ -103,17 +115,18 @@ fn of_device(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static st
         "bit rates" => &["BaudRate_1000", "BaudRate_500", "BaudRate_250", "BaudRate_125"],
         _ => &[],
     };
+    let is_expected = || own.is_some() && own == expected::of_device(&case.text, fact).as_deref();
     let identity = ["vendor number", "product number", "revision number"].iter().position(|name| *name == fact);
     let in_object = identity.and_then(|at| case.own.get(&format!("1018:{:02X}", at + 1))?.get("default"));
     match fact {
-        "granularity" if peer == Some("1") && own.is_some_and(|bits| bits != "0") => Some("E82"),
-        "comments" if is_misspelt(&case.text, "Line5") && own?.starts_with(peer?) => Some("E59"),
+        "granularity" if peer == Some("1") && is_expected() => Some("E82"),
+        "comments" if is_misspelt(&case.text, "Line5") && is_expected() => Some("E59"),
         "node-ID" if own.is_none() && peer == Some("255") => Some("node-ID 255"),
         _ if peer.is_none_or(|peer| peer == "0") && own.is_some() && own == in_object.map(String::as_str) => {
             Some("identity of 1018")
         }
         _ if own.is_none() && peer == Some("\"\"") => Some("E23"),
-        _ if peer.is_none() && keys.iter().any(|key| is_misspelt(&case.text, key)) => Some("E66"),
+        _ if keys.iter().any(|key| is_misspelt(&case.text, key)) && is_expected() => Some("E66"),
         _ => None,
     }
 }
@@ -135,15 +148,18 @@ fn of_value(
     fact: &str,
     difference: &Difference<'_>,
 ) -> Option<&'static str> {
+    let (peer, own) = (difference.peer, difference.own);
     let object = case.reading.get(index, Part::Object)?;
     let is_compact = object.number("compactsubobj").is_some_and(|count| count > 0);
-    if is_compact && sub.is_some_and(|sub| case.reading.get(index, Part::Sub(sub)).is_none()) {
-        if fact == "value" && difference.peer.is_none() {
-            return Some("E44").filter(|_| case.reading.get(index, Part::Value).is_some());
-        }
-        if sub == Some(0) && matches!(fact, "name" | "access" | "default") || sub == Some(1) && fact == "name" {
-            return Some("E43");
-        }
+    if let Some(sub) = sub.filter(|&sub| is_compact && case.reading.get(index, Part::Sub(sub)).is_none()) {
+        let reason = match fact {
+            "value" if peer.is_none() => "E44",
+            "name" if sub <= 1 => "E43",
+            "access" | "default" if sub == 0 => "E43",
+            _ => return None,
+        };
+        let facts = expected::compact(&case.reading, index, sub, case.node_id)?;
+        return Some(reason).filter(|_| own.is_some() && own == facts.get(fact).map(String::as_str));
     }
     let section = case.section(difference.element)?;
     let ty = section.number("datatype").unwrap_or(0);
@@ -153,52 +169,63 @@ fn of_value(
         "low" => "lowlimit",
         "high" => "highlimit",
         // The library calls what it doesn't know a DOMAIN, and Lexibus what it is.
-        "type" => return Some("E56").filter(|_| difference.peer == Some("15") && !(1..=0x1B).contains(&ty)),
+        "type" => {
+            let is_unknown = peer == Some("15") && !(1..=0x1B).contains(&ty);
+            return Some("E56").filter(|_| is_unknown && own == Some(&ty.to_string()));
+        }
         "access" => {
-            return {
-                Some("E48").filter(|_| section.text("accesstype").map(str::to_lowercase).as_deref() == difference.peer)
-            }
+            let text = section.text("accesstype");
+            let is_strange = text.map(str::to_lowercase).as_deref() == peer;
+            return Some("E48").filter(|_| is_strange && own == Some(expected::access(text)));
         }
         _ => return None,
     };
     let raw = section.get(key).map(|fact| fact.value.as_str())?;
     match fact {
-        "relative" => Some("E14").filter(|_| !raw.contains("$NODEID") && raw.to_uppercase().contains("$NODEID")),
-        "low" | "high" => of_limit(raw, ty, difference),
-        _ => of_text(raw, ty, difference),
+        "relative" => {
+            let is_strange = !raw.contains("$NODEID") && expected::is_relative(raw);
+            Some("E14").filter(|_| is_strange && own == Some("yes"))
+        }
+        "low" | "high" => of_limit(raw, ty, case.node_id, difference),
+        _ => of_text(raw, ty, case.node_id, difference),
     }
 }
 
-fn of_limit(raw: &str, ty: i128, difference: &Difference<'_>) -> Option<&'static str> {
+fn of_limit(raw: &str, ty: i128, node_id: u8, difference: &Difference<'_>) -> Option<&'static str> {
+    let (peer, own) = (difference.peer, difference.own?);
+    if !(1..=0x1B).contains(&ty) {
+        return Some("E56").filter(|_| own == format!("raw {raw}"));
+    }
+    let is_expected = peer.is_none() && expected::value(raw, ty, node_id).as_deref() == Some(own);
     match number(raw) {
-        _ if !(1..=0x1B).contains(&ty) => Some("E56").filter(|_| difference.own == Some(&format!("raw {raw}"))),
-        Some(Number::NodeId(_)) if difference.peer.is_none() => Some("limits with $NODEID"),
-        None if difference.peer.is_none() => Some("limits that are no integers"),
-        _ => None,
+        _ if !is_expected => None,
+        Some(Number::NodeId(_)) => Some("limits with $NODEID"),
+        None => Some("limits that are no integers"),
+        Some(Number::Plain(_)) => None,
     }
 }
 
 /// Why a default or a configured value is another one: by its text, and the number of its type.
-fn of_text(raw: &str, ty: i128, difference: &Difference<'_>) -> Option<&'static str> {
+fn of_text(raw: &str, ty: i128, node_id: u8, difference: &Difference<'_>) -> Option<&'static str> {
     let (peer, own) = (difference.peer, difference.own?);
     let bare = raw.trim_matches('"');
     let kept = own == format!("raw {raw}");
+    let is_expected = || expected::value(raw, ty, node_id).as_deref() == Some(own);
     match ty {
         0x09 | 0x0B => Some("E23").filter(|_| own == format!("'{bare}'") && raw.len() == bare.len() + 2),
         0x0F => Some("E54").filter(|_| kept && peer.is_none()),
-        0x08 | 0x11 => Some("E51").filter(|_| peer.is_none() && hex_digits(raw).is_some()),
+        0x08 | 0x11 => Some("E51").filter(|_| peer.is_none() && hex_digits(raw).is_some() && is_expected()),
         0x0C | 0x0D => Some("times of two numbers").filter(|_| kept && raw.split(' ').count() == 2),
         1..=0x1B if peer.is_none() => match number(raw) {
             _ if raw.starts_with('$') && kept => Some("E18"),
-            Some(Number::NodeId(0)) if raw.eq_ignore_ascii_case("$NODEID") => Some("E16"),
+            Some(Number::NodeId(0)) if raw.eq_ignore_ascii_case("$NODEID") => Some("E16").filter(|_| is_expected()),
             Some(_) => None,
             None if kept => Some("E19"),
             None => with_suffix(raw, own),
         },
         1..=0x1B => {
-            let (peer, own): (i128, i128) = (peer?.parse().ok()?, own.parse().ok()?);
-            let bits = [8, 16, 32, 64].into_iter().find(|&bits| peer - own == 1 << bits);
-            Some("E08").filter(|_| bits.is_some() && hex_digits(raw).is_some())
+            let is_unsigned = expected::signed_bits(ty).is_some() && number(raw)? == Number::Plain(peer?.parse().ok()?);
+            Some("E08").filter(|_| is_unsigned && is_expected())
         }
         _ => Some("E56").filter(|_| kept),
     }

@@ -12,7 +12,7 @@ import sys
 from lxml import etree
 
 from esi_objects import objects
-from esi_types import basic, flag, name, nonzero, number
+from esi_types import basic, flag, name, names, nonzero, number
 from reading import parse, text, told, xpath
 
 
@@ -22,7 +22,7 @@ def pdos(found, owner, parent, types):
             key = f"{owner} {kind} {at}"
             found[key] = {
                 "index": nonzero(text(pdo, "Index")),
-                "name": name(pdo),
+                **names(pdo),
                 "Sm": number(text(pdo, "@Sm")),
                 "Su": number(text(pdo, "@Su")),
                 "fixed": flag(text(pdo, "@Fixed")),
@@ -30,6 +30,7 @@ def pdos(found, owner, parent, types):
                 "virtual": flag(text(pdo, "@Virtual")),
                 "by slot": flag(text(pdo, "Index/@DependOnSlot")),
                 "excludes": " ".join(number(text(other)) for other in xpath("Exclude")(pdo)),
+                "excluded Sms": " ".join(number(text(other)) for other in xpath("ExcludedSm")(pdo)),
             }
             for place, entry in enumerate(xpath("Entry")(pdo)):
                 called = text(entry, "DataType")
@@ -37,7 +38,7 @@ def pdos(found, owner, parent, types):
                     "index": nonzero(text(entry, "Index")),
                     "sub-index": nonzero(text(entry, "SubIndex")),
                     "bits": number(text(entry, "BitLen")),
-                    "name": name(entry),
+                    **names(entry),
                     "type": called and (types.resolve(called) if types else basic(called)),
                     "fixed": flag(text(entry, "@Fixed")),
                     "by slot": flag(text(entry, "Index/@DependOnSlot")),
@@ -53,6 +54,7 @@ def commands(found, owner, parent):
             "data": re.sub(r"\s", "", text(command, "Data")).lower(),
             "complete": flag(text(command, "@CompleteAccess")),
             "fixed": flag(text(command, "@Fixed")),
+            "by slot": flag(text(command, "Index/@DependOnSlot")),
             "comment": text(command, "Comment"),
         }
 
@@ -81,7 +83,7 @@ def slots(found, owner, parent):
     for at, slot in enumerate(xpath("Slots/Slot")(parent)):
         least = number(text(slot, "@MinInstances")) or "0"
         facts = {
-            "name": name(slot),
+            **names(slot),
             "least": least,
             "most": number(text(slot, "@MaxInstances")) or str(max(int(least), 1)),
             "group": number(text(slot, "@SlotGroup")),
@@ -95,7 +97,8 @@ def slots(found, owner, parent):
 
 def device(found, owner, parent, vendor):
     found[owner] = {
-        "name": name(parent),
+        **names(parent),
+        **names(parent, "Comment", "comment"),
         "type": text(parent, "Type"),
         "product code": number(text(parent, "Type/@ProductCode")),
         "revision": number(text(parent, "Type/@RevisionNo")),
@@ -112,7 +115,12 @@ def device(found, owner, parent, vendor):
         **vendor,
     }
     for at, fmmu in enumerate(xpath("Fmmu")(parent)):
-        found[f"{owner} FMMU {at}"] = {"purpose": text(fmmu), "Sm": number(text(fmmu, "@Sm"))}
+        found[f"{owner} FMMU {at}"] = {
+            "purpose": text(fmmu),
+            "Sm": number(text(fmmu, "@Sm")),
+            "Su": number(text(fmmu, "@Su")),
+            "OP only": flag(text(fmmu, "@OpOnly")),
+        }
     for at, sm in enumerate(xpath("Sm")(parent)):
         found[f"{owner} Sm {at}"] = {
             "purpose": text(sm),
@@ -122,6 +130,8 @@ def device(found, owner, parent, vendor):
             "most": number(text(sm, "@MaxSize")),
             "control": nonzero(text(sm, "@ControlByte")),
             "enable": nonzero(text(sm, "@Enable")),
+            "OP only": flag(text(sm, "@OpOnly")),
+            "virtual": flag(text(sm, "@Virtual")),
         }
     types = objects(found, owner, xpath("Profile/Dictionary")(parent))
     pdos(found, owner, parent, types)
@@ -132,7 +142,7 @@ def device(found, owner, parent, vendor):
 
 def module(found, owner, parent, vendor):
     found[owner] = {
-        "name": name(parent),
+        **names(parent),
         "type": text(parent, "Type"),
         "ident": number(text(parent, "Type/@ModuleIdent")),
         "class": text(parent, "Type/@ModuleClass"),

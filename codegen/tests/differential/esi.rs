@@ -11,7 +11,7 @@ use super::esi_reasons::{reason, rejection, Case, REASONS};
 use super::facts::{put, put_flag, put_number, put_some, Elements, Facts};
 use super::peer::answers;
 use super::tally::Tally;
-use super::values::{hex, type_name};
+use super::values::{hex, put_documentation, put_names, type_name};
 
 #[test]
 fn xpath_reads_the_same_facts_from_esi() {
@@ -24,10 +24,10 @@ fn xpath_reads_the_same_facts_from_esi() {
         }
         let Some(peer) = &answer.elements else { continue };
         let own = compilation.catalog.as_ref().map(elements).unwrap_or_default();
-        let case = Case::new(peer, &own);
+        let case = Case::new(file, peer, &own);
         tally.file(&file.name, peer, &own, |difference| reason(&case, &difference));
     }
-    tally.finish(530_000);
+    tally.finish(555_000);
 }
 
 /// The facts that Lexibus has of a file.
@@ -50,6 +50,8 @@ fn device(elements: &mut Elements, owner: &str, device: &Device) {
         let mut facts = Facts::new();
         put(&mut facts, "purpose", fmmu.purpose.as_str());
         put_some(&mut facts, "Sm", fmmu.sync_manager);
+        put_some(&mut facts, "Su", fmmu.sync_unit);
+        put_flag(&mut facts, "OP only", fmmu.op_only);
         elements.insert(format!("{owner} FMMU {at}"), facts);
     }
     for (at, own) in device.process_data.sync_managers.iter().enumerate() {
@@ -77,7 +79,8 @@ fn device(elements: &mut Elements, owner: &str, device: &Device) {
 
 fn header(device: &Device, settings: &EtherCatSettings) -> Facts {
     let mut facts = Facts::new();
-    put(&mut facts, "name", device.name.as_str());
+    put_names(&mut facts, "name", &device.name, &device.names);
+    put_documentation(&mut facts, "comment", device.documentation.as_deref());
     put(&mut facts, "type", device.id.as_str());
     put_some(&mut facts, "product code", device.identity.product_code);
     put_some(&mut facts, "revision", device.identity.revision_number);
@@ -107,7 +110,7 @@ fn header(device: &Device, settings: &EtherCatSettings) -> Facts {
 
 fn module(elements: &mut Elements, owner: &str, module: &Module) {
     let mut facts = Facts::new();
-    put(&mut facts, "name", module.name.as_str());
+    put_names(&mut facts, "name", &module.name, &module.names);
     put(&mut facts, "type", module.id.as_str());
     put(&mut facts, "ident", module.number.to_string());
     put(&mut facts, "class", module.class.as_str());
@@ -129,6 +132,8 @@ fn sync_manager(own: &SyncManager) -> Facts {
     put_some(&mut facts, "most", own.size_range.1);
     put_number(&mut facts, "control", own.control);
     put_number(&mut facts, "enable", u8::from(own.enable));
+    put_flag(&mut facts, "OP only", own.op_only);
+    put_flag(&mut facts, "virtual", own.is_virtual);
     facts
 }
 
@@ -152,7 +157,7 @@ fn mode(own: &ClockMode) -> Facts {
 
 fn slot(own: &Slot) -> Facts {
     let mut facts = Facts::new();
-    put(&mut facts, "name", own.name.as_str());
+    put_names(&mut facts, "name", &own.name, &own.names);
     put(&mut facts, "least", own.instances.0.to_string());
     put(&mut facts, "most", own.instances.1.to_string());
     put_some(&mut facts, "group", own.group);
@@ -177,6 +182,7 @@ fn commands(elements: &mut Elements, owner: &str, commands: &[InitCommand]) {
         put(&mut facts, "data", hex(&own.data));
         put_flag(&mut facts, "complete", own.complete_access);
         put_flag(&mut facts, "fixed", own.fixed);
+        put_flag(&mut facts, "by slot", own.depends_on_slot);
         put(&mut facts, "comment", own.comment.as_str());
         elements.insert(format!("{owner} command {at}"), facts);
     }
@@ -191,7 +197,7 @@ fn pdos(elements: &mut Elements, owner: &str, pdos: &[Pdo], types: &[TypeDef]) {
                 put_number(&mut facts, "index", entry.index);
                 put_number(&mut facts, "sub-index", entry.sub_index);
                 put(&mut facts, "bits", entry.bits.to_string());
-                put(&mut facts, "name", entry.name.as_str());
+                put_names(&mut facts, "name", &entry.name, &entry.names);
                 put(&mut facts, "type", type_name(entry.ty, types));
                 put_flag(&mut facts, "fixed", entry.fixed);
                 put_flag(&mut facts, "by slot", entry.depends_on_slot);
@@ -205,7 +211,7 @@ fn pdos(elements: &mut Elements, owner: &str, pdos: &[Pdo], types: &[TypeDef]) {
 fn pdo(own: &Pdo) -> Facts {
     let mut facts = Facts::new();
     put_number(&mut facts, "index", own.mapping_index);
-    put(&mut facts, "name", own.name.as_str());
+    put_names(&mut facts, "name", &own.name, &own.names);
     put_some(&mut facts, "Sm", own.sync_manager);
     put_some(&mut facts, "Su", own.sync_unit);
     put_flag(&mut facts, "fixed", own.fixed);
@@ -213,5 +219,7 @@ fn pdo(own: &Pdo) -> Facts {
     put_flag(&mut facts, "virtual", own.is_virtual);
     put_flag(&mut facts, "by slot", own.depends_on_slot);
     put(&mut facts, "excludes", own.excludes.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "));
+    let excluded = own.excluded_sync_managers.iter().map(ToString::to_string);
+    put(&mut facts, "excluded Sms", excluded.collect::<Vec<_>>().join(" "));
     facts
 }

@@ -1,15 +1,29 @@
 """The objects of a dictionary of ETG.2000."""
 
-from esi_types import Types, flag, name, number, values
+from esi_types import Types, flag, language, name, names, number, values
 from reading import text, xpath
 
 
 def flags(own, above, sub):
-    """Access and mapping of a sub-item, or of its object where it says nothing."""
+    """Access, mapping and the like of a sub-item, or of its object where it says nothing."""
     mapping = text((own or above or [None])[0], "PdoMapping") if own or (above and sub) else ""
-    access = next((found for flags in (own, above) if flags and (found := text(flags[0], "Access"))), "")
+    nearest = lambda path: next((found for flags in (own, above) if flags and (found := text(flags[0], path))), "")
     letters = mapping.upper()
-    return {"access": access, "mapping": letters if letters in ("R", "T", "RT", "TR", "") else "?" + mapping}
+    return {
+        "access": nearest("Access"),
+        "mapping": letters if letters in ("R", "T", "RT", "TR", "") else "?" + mapping,
+        "backup": flag(nearest("Backup")),
+        "setting": flag(nearest("Setting")),
+        "safety": nearest("SafetyMapping").lower(),
+        "readable in": nearest("Access/@ReadRestrictions").replace("_", " "),
+        "writable in": nearest("Access/@WriteRestrictions").replace("_", " "),
+    }
+
+
+def display(element, path, called):
+    """Names for people: those that aren't the name itself, by language."""
+    texts = [own for own in xpath(path)(element) if text(own) and text(own) != called]
+    return {f"name {language(own)}": text(own) for own in texts}
 
 
 def entries(types, fields):
@@ -47,17 +61,20 @@ def items(types, thing, fields):
         called = (text(sub, "Name") if sub is not None else "") or (f"{own} {element}" if element else own)
         infos = ([] if sub is None else xpath("Info")(sub) or [sub]) + [field]
         facts = {"name": called, "type": ty, **flags(xpath("Flags")(field), above, sub_index)}
-        yield sub_index, facts | values(infos, ty)
+        if sub is not None:
+            facts |= display(sub, "DisplayName | Info/DisplayName", called)
+        facts |= display(field, "DisplayName", called)
+        yield sub_index, facts | names(field, "Comment", "comment") | values(infos, ty)
 
 
 def data_types(found, owner, dictionaries, types):
     """The types as they are defined, in their order."""
     for at, own in enumerate(own for one in dictionaries for own in xpath("DataTypes/DataType")(one)):
-        facts = {"name": text(own, "Name"), "bits": number(text(own, "BitSize"))}
+        facts = {"name": text(own, "Name"), "bits": number(text(own, "BitSize")), **names(own, "Comment", "comment")}
         if xpath("ArrayInfo")(own) and types.by_name.get(facts["name"]) is own:
             facts["array"] = types.resolve(facts["name"])
         for value in xpath("EnumInfo")(own):
-            facts["value " + number(text(value, "Enum"))] = name(value, "Text")
+            facts |= names(value, "Text", "value " + number(text(value, "Enum")))
         found[f"{owner} type {at}"] = facts
         for place, field in enumerate(xpath("SubItem")(own)):
             found[f"{owner} type {at} field {place}"] = {
@@ -81,7 +98,8 @@ def objects(found, owner, dictionaries):
             found[f"{key} again"] = {"name": name(thing)}
             continue
         found[key] = {
-            "name": name(thing),
+            **names(thing),
+            **names(thing, "Comment", "comment"),
             "category": text(thing, "Flags/Category").lower(),
             "by slot": flag(text(thing, "Index/@DependOnSlot")),
         }
@@ -89,7 +107,9 @@ def objects(found, owner, dictionaries):
         if fields is None:
             ty = types.resolve(text(thing, "Type"))
             own = flags(xpath("Flags")(thing), None, 0)
-            facts = {"name": name(thing), "type": ty, "bits": number(text(thing, "BitSize")), **own}
+            called = display(thing, "Info/DisplayName", name(thing))
+            called = {"name": name(thing), **called} if called else names(thing)
+            facts = {**called, "type": ty, "bits": number(text(thing, "BitSize")), **own}
             found[f"{key}:00"] = facts | values(xpath("Info")(thing), ty)
             continue
         for sub, facts in items(types, thing, fields):

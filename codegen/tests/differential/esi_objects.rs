@@ -5,19 +5,20 @@ use lexibus_codegen::ir::{
 };
 
 use super::facts::{put, put_flag, put_some, Elements, Facts};
-use super::values::{type_name, value};
+use super::values::{put_documentation, put_names, type_name, value};
 
 /// The types as the file defines them; those that only a name stands for are on no line.
 pub fn data_types(elements: &mut Elements, owner: &str, types: &[TypeDef]) {
     for (at, own) in types.iter().filter(|own| own.origin.line > 0).enumerate() {
         let mut facts = Facts::new();
         put(&mut facts, "name", own.name.as_str());
+        put_documentation(&mut facts, "comment", own.documentation.as_deref());
         put_some(&mut facts, "bits", own.bits);
         let key = format!("{owner} type {at}");
         match &own.shape {
             Shape::Enumeration { values, .. } => {
                 for value in values {
-                    put(&mut facts, &format!("value {}", value.value), value.name.as_str());
+                    put_names(&mut facts, &format!("value {}", value.value), &value.name, &value.names);
                 }
             }
             Shape::Record(fields) => {
@@ -47,7 +48,8 @@ pub fn objects(elements: &mut Elements, owner: &str, groups: &[Group], types: &[
     for group in groups {
         let GroupKind::Object { index, code, category } = group.kind else { continue };
         let mut facts = Facts::new();
-        put(&mut facts, "name", group.name.as_str());
+        put_names(&mut facts, "name", &group.name, &group.names);
+        put_documentation(&mut facts, "comment", group.documentation.as_deref());
         put_flag(&mut facts, "by slot", group.depends_on_slot);
         let category = category.and_then(|category| match category {
             Category::Mandatory => Some("m"),
@@ -81,7 +83,8 @@ fn bits(ty: Type, types: &[TypeDef]) -> Option<u32> {
 
 fn item(own: &Item, types: &[TypeDef]) -> Facts {
     let mut facts = Facts::new();
-    put(&mut facts, "name", own.name.as_str());
+    put_names(&mut facts, "name", &own.name, &own.names);
+    put_documentation(&mut facts, "comment", own.documentation.as_deref());
     put(&mut facts, "type", type_name(own.ty, types));
     // What nobody says is read-only in the IR.
     put(&mut facts, "access", if own.at.access.is_empty() { "" } else { own.access.name() });
@@ -98,5 +101,11 @@ fn item(own: &Item, types: &[TypeDef]) -> Facts {
     put_some(&mut facts, "default", own.default.as_ref().map(value));
     put_some(&mut facts, "low", own.limits.low.as_ref().map(value));
     put_some(&mut facts, "high", own.limits.high.as_ref().map(value));
+    let Some(behaviour) = &own.behaviour else { return facts };
+    put_flag(&mut facts, "backup", behaviour.backup);
+    put_flag(&mut facts, "setting", behaviour.setting);
+    put_some(&mut facts, "safety", behaviour.safety.as_deref());
+    put(&mut facts, "readable in", behaviour.read_states.join(" "));
+    put(&mut facts, "writable in", behaviour.write_states.join(" "));
     facts
 }

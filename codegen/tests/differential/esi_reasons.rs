@@ -1,8 +1,9 @@
 //! Why a plain reading with XPath and Lexibus may differ on ESI files. What the script makes nothing of it gives as it is,
 //! behind a question mark: reasons look at that text.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
+use super::corpus_support::File;
 use super::facts::{Difference, Elements, Facts};
 use super::tally::Reasons;
 
@@ -23,25 +24,30 @@ const PEER: &[(&str, &str)] = &[
 pub const REASONS: Reasons =
     Reasons { quirks: &["X01", "X02", "X11", "X13", "X14", "X15", "X16", "X17", "X19", "X21", "X22"], peer: PEER };
 
-/// What both read from a file.
+/// A file, and what both read from it.
 pub struct Case<'a> {
+    text: String,
     peer: &'a Elements,
     own: &'a Elements,
-    /// The objects that PDOs map: owner, index and sub-index.
-    mapped: HashSet<(&'a str, u16, u8)>,
+    /// The entries of PDOs as Lexibus has them, by the object that they map: owner, index and sub-index.
+    mapped: HashMap<(&'a str, u16, u8), Vec<&'a Facts>>,
     /// Devices and modules with a dictionary.
     described: HashSet<&'a str>,
 }
 
 impl<'a> Case<'a> {
-    pub fn new(peer: &'a Elements, own: &'a Elements) -> Self {
-        let entries = peer.iter().filter_map(|(name, facts)| {
-            let (owner, _) = name.split_once("xPdo ").filter(|(_, rest)| rest.contains(" entry "))?;
-            let (index, sub) = address(facts)?;
-            Some((owner.trim_end_matches([' ', 'R', 'T']), index, sub))
-        });
+    pub fn new(file: &File, peer: &'a Elements, own: &'a Elements) -> Self {
+        let mut mapped: HashMap<_, Vec<&Facts>> = HashMap::new();
+        for (name, facts) in peer {
+            let Some((owner, _)) = name.split_once("xPdo ").filter(|(_, rest)| rest.contains(" entry ")) else {
+                continue;
+            };
+            let Some((index, sub)) = address(facts) else { continue };
+            let entries = mapped.entry((owner.trim_end_matches([' ', 'R', 'T']), index, sub)).or_default();
+            entries.extend(own.get(name));
+        }
         let described = peer.keys().filter_map(|name| Some(name.split_once(" object ")?.0)).collect();
-        Case { peer, own, mapped: entries.collect(), described }
+        Case { text: file.text(), peer, own, mapped, described }
     }
 
     /// The type that Lexibus has for the object that an entry maps.
@@ -76,15 +82,16 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
     match fact {
         "purpose" if element.contains(" Sm ") => {
             let usual = ["MBoxOut", "MBoxIn", "Outputs", "Inputs"];
-            Some("X19").filter(|_| !peer.is_some_and(|text| usual.contains(&text)))
+            let is_unusual = !peer.is_some_and(|text| usual.contains(&text));
+            Some("X19").filter(|_| is_unusual && own == purpose(case, element))
         }
         "enable" => {
             let byte: u8 = peer?.parse().ok()?;
             Some("the enable byte").filter(|_| byte > 1 && own == Some("1").filter(|_| byte & 1 == 1))
         }
         "mapping" => Some("X17").filter(|_| (peer, own) == (Some("TR"), Some("RT"))),
-        "type" if long_array(case, element) => Some("X14"),
-        "name" if long_array(case, element) => {
+        "type" if long_array(case, element) == Some(1) => Some("X14"),
+        "name" if long_array(case, element) == Some(1) => {
             Some("X14").filter(|_| own.zip(peer).is_some_and(|(own, peer)| peer == format!("{own} 1")))
         }
         "type" => of_type(case, element, peer?, own),
@@ -94,12 +101,15 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
         }
         "bits" => of_array(case.own.get(element)?.get("array")?, own?),
         "default" | "low" | "high" => of_value(case, difference),
-        _ => of_text(peer?, own?),
+        _ => of_text(case, peer?, own?),
     }
 }
 
-/// Why a text is another one, of what libxml2 recovered from a file that it rejects.
-fn of_text(peer: &str, own: &str) -> Option<&'static str> {
+/// Why a text is another one, of what libxml2 recovered from a file that it rejects: it is as it stands in the file.
+fn of_text(case: &Case<'_>, peer: &str, own: &str) -> Option<&'static str> {
+    if !case.text.contains(own) {
+        return None;
+    }
     let rest = own.strip_prefix(peer);
     if rest.is_some_and(|rest| rest.starts_with('&')) {
         return Some("a bare &");
@@ -115,24 +125,59 @@ fn missing(case: &Case<'_>, element: &str, is_own: bool) -> Option<&'static str>
         if element.ends_with(" again") {
             return Some("objects twice");
         }
-        return long_array(case, element).then_some("X14");
+        return long_array(case, element).filter(|&number| number > 1).map(|_| "X14");
     }
     // A mapped object that nothing describes: Lexibus adds it, with what the entry says.
     let (owner, index, sub) = object(element)?;
-    let is_mapped = case
-        .mapped
-        .iter()
-        .any(|&(other, own, entry)| other == owner && own == index && sub.is_none_or(|sub| sub == entry || sub == 0));
+    let is_mapped = match sub {
+        Some(sub) => case.mapped.get(&(owner, index, sub)).is_some_and(|entries| is_as_mapped(case, element, entries)),
+        None => case.mapped.keys().any(|&(other, own, _)| other == owner && own == index),
+    };
     is_mapped.then_some(if case.described.contains(owner) { "X22" } else { "X21" })
 }
 
-/// Whether an element is one of an array of more elements than there are sub-indices, which Lexibus keeps as one value.
-fn long_array(case: &Case<'_>, element: &str) -> bool {
-    let Some((object, _)) = element.rsplit_once(':') else { return false };
+/// Whether an object is what one of the entries that map it says.
+fn is_as_mapped(case: &Case<'_>, element: &str, entries: &[&Facts]) -> bool {
+    let Some(own) = case.own.get(element) else { return false };
+    entries.iter().any(|entry| ["name", "type"].iter().all(|fact| own.get(*fact) == entry.get(*fact)))
+}
+
+/// What a sync manager is for where its text doesn't say it: by the mode and the direction in its control byte, or by its
+/// place, at which the two of a mailbox come first.
+fn purpose(case: &Case<'_>, element: &str) -> Option<&'static str> {
+    let (owner, place) = element.split_once(" Sm ")?;
+    let control = case.peer.get(element)?.get("control").map_or(Some(0), |control| control.parse::<u8>().ok())?;
+    let has_mailbox = case.peer.contains_key(&format!("{owner} Sm 3"));
+    Some(match control & 0b1111 {
+        _ if control == 0 && has_mailbox => match place {
+            "0" => "MBoxOut",
+            "1" => "MBoxIn",
+            "2" => "Outputs",
+            _ => "Inputs",
+        },
+        _ if control == 0 => ["Outputs", "Inputs"][usize::from(place != "0")],
+        0b0110 => "MBoxOut",
+        0b0010 => "MBoxIn",
+        0b0100 => "Outputs",
+        _ => "Inputs",
+    })
+}
+
+/// The number of an element of an array of more elements than there are sub-indices, which Lexibus keeps as one value at the
+/// place of the first. It has the type of the elements, and as many as the plain reading.
+fn long_array(case: &Case<'_>, element: &str) -> Option<u32> {
+    let (object, sub) = element.rsplit_once(':')?;
+    let sub = u32::from_str_radix(sub, 16).ok()?;
+    let ty = |sub: u32| Some(case.peer.get(&format!("{object}:{sub:02X}"))?.get("type")?.as_str());
+    let is_of = |peer: &str, own: &str| peer == own || peer.strip_prefix('?').and_then(by_name).as_deref() == Some(own);
     let subs = case.own.range(format!("{object}:")..format!("{object};"));
-    let arrays = subs.filter(|(name, _)| name.as_str() <= element || name.len() < element.len());
-    let counts = arrays.filter_map(|(_, facts)| facts.get("type")?.strip_suffix(']')?.split_once('[')?.1.parse().ok());
-    counts.max().is_some_and(|count: u32| count >= 255)
+    subs.into_iter().find_map(|(name, facts)| {
+        let first = u32::from_str_radix(name.rsplit_once(':')?.1, 16).ok().filter(|&first| first <= sub)?;
+        let (own, count) = facts.get("type")?.strip_suffix(']')?.split_once('[')?;
+        let count: u32 = count.parse().ok().filter(|&count| count >= 255 && sub - first < count)?;
+        let is_whole = ty(first + count - 1).is_some() && ty(first + count).is_none();
+        (is_whole && is_of(ty(sub)?, own)).then_some(sub - first + 1)
+    })
 }
 
 /// Why a type is another one.
@@ -140,18 +185,28 @@ fn of_type(case: &Case<'_>, element: &str, peer: &str, own: Option<&str>) -> Opt
     if let Some(bits) = peer.strip_prefix("?enumeration of ").and_then(|rest| rest.strip_suffix(" bits")) {
         return Some("X13").filter(|_| own == Some(&format!("u{bits}")));
     }
-    match peer.strip_prefix('?') {
-        Some(name) => Some("X11").filter(|_| own == by_name(name).as_deref()),
-        None => Some("types of mapped objects").filter(|_| own == case.type_of_mapped(element)),
+    // What no name says is opaque, which is no type here.
+    if let Some(name) = peer.strip_prefix('?') {
+        return Some("X11").filter(|_| own == by_name(name).as_deref());
     }
+    let own = own?;
+    let is_mapped = case.type_of_mapped(element) == Some(own) && bits(own).is_some();
+    Some("types of mapped objects").filter(|_| is_mapped && bits(own) == bits(peer))
+}
+
+/// The length in bits of a type of numbers.
+fn bits(ty: &str) -> Option<u32> {
+    if ty == "bool" {
+        return Some(1);
+    }
+    ty.strip_prefix(['i', 'u', 'f'])?.parse().ok()
 }
 
 /// Why an array is as long as its elements together, and not as its BitSize says.
 fn of_array(array: &str, own: &str) -> Option<&'static str> {
     let (element, count) = array.strip_suffix(']')?.split_once('[')?;
-    let bits: u32 = if element == "bool" { 1 } else { element.get(1..)?.parse().ok()? };
     let count: u32 = count.parse().ok()?;
-    Some("X14").filter(|_| own == (bits * count).to_string())
+    Some("X14").filter(|_| Some(own) == bits(element).map(|bits| (bits * count).to_string()).as_deref())
 }
 
 /// What a name outside the tables can only mean: `UINT16`, or `UDINT_hex`.

@@ -17,6 +17,7 @@ BASIC = {
     "WSTRING": "wide", "TIME_OF_DAY": "time of day", "TIME_DIFFERENCE": "time difference", "DOMAIN": "domain",
     "GUID": "octets(16)",
 }
+LANGUAGES = {"1031": "de-DE", "1033": "en-US", "1036": "fr-FR", "2052": "zh-CN"}
 MAX_DEPTH = 12
 
 
@@ -45,6 +46,20 @@ def name(element, path="Name"):
         if xpath(found)(element):
             return text(element, found)
     return ""
+
+
+def names(element, path="Name", fact="name"):
+    """The name, and the texts in other languages."""
+    texts = [own for own in xpath(path)(element) if text(own)]
+    wanted = [own for lcid in ("1033", "") for own in texts if text(own, "@LcId") == lcid] + texts
+    others = {f"{fact} {language(own)}": text(own) for own in texts if own is not wanted[0]}
+    return {fact: text(wanted[0]) if wanted else "", **others}
+
+
+def language(element):
+    """The tag of BCP 47 for an LcId of Windows; a text without one is in English."""
+    lcid = text(element, "@LcId") or "1033"
+    return LANGUAGES.get(lcid, f"lcid:{lcid}")
 
 
 def basic(name):

@@ -160,6 +160,7 @@ def diagnosis(found, root, texts):
             "api": types.number(text(own, "@API")) or "0",
             "identifier": types.number(text(own, "@UserStructureIdentifier")),
             **texts.names(own, "Name/@TextId"),
+            **texts.names(own, "Help/@TextId", "help"),
         }
         for place, ref in enumerate(xpath("Ref")(own)):
             ty, bits = types.of_element(ref)

@@ -2,8 +2,8 @@
 
 use lexibus_codegen::compile::check;
 use lexibus_codegen::ir::{
-    Catalog, CodeTable, CompactString, Device, Documentation, Module, Places, ProfinetSettings, Shape, Submodule,
-    SubmoduleKind, SubmoduleUse, SubslotName, TypeDef, UnitDiagnosis, Value,
+    Catalog, CodeTable, CompactString, Device, Module, Places, ProfinetSettings, Shape, Submodule, SubmoduleKind,
+    SubmoduleUse, SubslotName, TypeDef, UnitDiagnosis, Value,
 };
 
 use super::corpus_support::round_trip::{options, source};
@@ -12,7 +12,7 @@ use super::gsdml_data::{body, io_data, menus, records};
 use super::gsdml_reasons::{reason, rejection, Case, REASONS};
 use super::peer::answers;
 use super::tally::Tally;
-use super::values::{numbers, put_names, type_name};
+use super::values::{numbers, put_documentation, put_names, type_name};
 
 #[test]
 fn xpath_reads_the_same_facts_from_gsdml() {
@@ -199,6 +199,7 @@ fn unit_diagnosis(elements: &mut Elements, key: &str, own: &UnitDiagnosis, types
     put(&mut facts, "api", own.api.to_string());
     put(&mut facts, "identifier", own.identifier.to_string());
     put_names(&mut facts, "name", &own.name, &own.names);
+    put_documentation(&mut facts, "help", own.documentation.as_deref());
     elements.insert(key.to_owned(), facts);
     for (place, field) in own.fields.iter().enumerate() {
         let mut facts = Facts::new();
@@ -218,11 +219,4 @@ fn value_list(elements: &mut Elements, own: &TypeDef) {
         put_names(&mut facts, &content, &value.name, &value.names);
     }
     elements.insert(format!("values {}", own.name), facts);
-}
-
-/// A description in all languages.
-fn put_documentation(facts: &mut Facts, fact: &str, own: Option<&Documentation>) {
-    if let Some(own) = own {
-        put_names(facts, fact, &own.text, &own.translations);
-    }
 }

@@ -89,6 +89,7 @@ def records(found, owner, submodule, texts):
         found[f"{owner} F"] = {
             "index": types.number(text(record, "@Index")),
             "CRC": types.number(text(record, "@F_ParamDescCRC")),
+            "sequence": types.number(text(record, "@TransferSequence")).lstrip("0"),
         }
         for own in record:
             default, allowed, changeable, visible = F_SCHEMA.get(own.tag, ("", "", False, True))

@@ -64,6 +64,7 @@ pub fn records(elements: &mut Elements, owner: &str, submodule: &Submodule, type
     let mut facts = Facts::new();
     put(&mut facts, "index", own.index.to_string());
     put_some(&mut facts, "CRC", own.description_crc);
+    put_number(&mut facts, "sequence", own.transfer_sequence);
     elements.insert(format!("{owner} F"), facts);
     for parameter in &own.parameters {
         let mut facts = Facts::new();

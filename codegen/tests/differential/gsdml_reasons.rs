@@ -28,13 +28,15 @@ pub fn reason(case: &Case<'_>, difference: &Difference<'_>) -> Option<&'static s
             let mut translations = case.peer.get(element)?.iter().filter(|(name, _)| name.starts_with("name "));
             Some("G12").filter(|_| translations.any(|(_, text)| text == own))
         }
-        (None, Some(_)) => {
+        (None, Some(own)) => {
             let attribute = match fact {
-                "vendor number" => "VendorId=",
-                "device number" => "DeviceId=",
+                "vendor number" => "VendorId=\"0x",
+                "device number" => "DeviceId=\"0x",
                 _ => return None,
             };
-            Some("attributes in another case").filter(|_| case.text.contains(attribute))
+            let digits = case.text.split_once(attribute)?.1.split('"').next()?;
+            let number = u32::from_str_radix(digits, 16).ok()?;
+            Some("attributes in another case").filter(|_| own == number.to_string())
         }
         _ => None,
     }

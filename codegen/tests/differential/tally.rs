@@ -1,6 +1,7 @@
 //! Counts, and what is left unexplained.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use super::facts::{compare, Difference, Elements};
 
@@ -80,6 +81,21 @@ impl Tally {
         assert!(dead.is_empty(), "these explain nothing any more: {dead:?}");
         let unlisted: Vec<&&str> = self.explained.keys().filter(|reason| !known.contains(reason)).collect();
         assert!(unlisted.is_empty(), "these aren't in the lists: {unlisted:?}");
+        if let Some(table) = table_of_quirks() {
+            let unknown: Vec<_> = self.reasons.quirks.iter().filter(|id| !table.contains(**id)).collect();
+            assert!(unknown.is_empty(), "these are no rows of the table of quirks: {unknown:?}");
+        }
         assert!(self.facts >= least_facts, "only {} facts were compared", self.facts);
     }
+}
+
+/// The ids of the table of quirks, which stands beside the repository; `None`, with a message, where it isn't there.
+fn table_of_quirks() -> Option<BTreeSet<String>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/QUIRKS.md");
+    let Ok(text) = std::fs::read_to_string(&path) else {
+        eprintln!("not checked: there is no table of quirks at {}", path.display());
+        return None;
+    };
+    let ids = text.lines().filter_map(|line| Some(line.strip_prefix("| ")?.split_once(" |")?.0.to_owned()));
+    Some(ids.collect())
 }

@@ -1,6 +1,6 @@
 //! Types and values of XML formats as the scripts write them.
 
-use lexibus_codegen::ir::{Numbers, Shape, Texts, Type, TypeDef, TypeId, Value};
+use lexibus_codegen::ir::{Documentation, Numbers, Shape, Texts, Type, TypeDef, TypeId, Value};
 
 use super::facts::{put, real, Facts};
 
@@ -36,6 +36,13 @@ pub fn put_names(facts: &mut Facts, fact: &str, name: &str, others: &Texts) {
     put(facts, fact, name);
     for other in others.iter() {
         put(facts, &format!("{fact} {}", other.language), other.text.as_str());
+    }
+}
+
+/// A description in all languages.
+pub fn put_documentation(facts: &mut Facts, fact: &str, own: Option<&Documentation>) {
+    if let Some(own) = own {
+        put_names(facts, fact, &own.text, &own.translations);
     }
 }
 
