@@ -3,26 +3,34 @@
 # codegen/fuzz/artifacts, one file a finding; what it learned stays in codegen/fuzz/corpus.
 set -euo pipefail
 cd "$(dirname "$0")"
-seconds=$1
+seconds=${1:?usage: run.sh SECONDS [TARGET...]}
 shift
 targets=("$@")
-if [[ ${#targets[@]} == 0 ]]; then targets=(eds xdd esi gsdml table import macro_input messages pdo ir); fi
+if [[ ${#targets[@]} == 0 ]]; then targets=(eds xdd esi gsdml table overlay import macro_input messages pdo ir); fi
 corpus=../../../shared/corpus
 
 # Files of a target to begin with: those of the repository, and real ones where they lie beside it. Long ones are left out: a
 # fuzzer that changes a byte a time gets nowhere in them.
 seeds() {
     case $1 in
-    eds) find ../../dictionaries ../tests ../../tests "$corpus/eds" -name '*.eds' -o -name '*.dcf' ;;
-    xdd) find ../tests "$corpus/eds" -name '*.xdd' -o -name '*.xdc' ;;
-    esi) find ../tests ../../tests ../../benches "$corpus/esi" -name '*.xml' ;;
-    gsdml) find ../../tests "$corpus/gsdml" -name '*.xml' ;;
-    table) find ../../dictionaries ../tests ../../tests -name '*.toml' ;;
-    import) find ../tests ../../tests ../../dictionaries -name '*.csv' -o -name '*.tsv' ;;
-    macro_input) find seeds/macro_input -type f ;;
+    eds) named "$corpus/eds" '*.eds' '*.dcf' ;;
+    xdd) named "$corpus/eds" '*.xdd' '*.xdc' ;;
+    esi) named "$corpus/esi" '*esi*.xml' '*.xml' ;;
+    gsdml) named "$corpus/gsdml" '*gsdml*.xml' '*GSDML*.xml' ;;
+    table) named '' '*.toml' ;;
+    overlay) find seeds/overlay ../../docs/examples/pump.overlay.toml -type f ;;
+    import | macro_input) find "seeds/$1" -type f ;;
     ir) random ;;
-    esac 2>/dev/null | while read -r file; do
+    esac | while read -r file; do
         if [[ $(stat -c %s "$file") -le 65536 ]]; then echo "$file"; fi
+    done
+}
+
+named() { # CORPUS PATTERN...
+    local folder patterns=()
+    for pattern in "${@:2}"; do patterns+=(-o -name "$pattern"); done
+    for folder in ../../dictionaries ../tests ../../tests ../../benches ../../docs/examples "$1"; do
+        if [[ -d $folder ]]; then find "$folder" -name target -prune -o -type f \( "${patterns[@]:1}" \) -print; fi
     done
 }
 
@@ -39,11 +47,12 @@ dictionary() {
     case $1 in
     eds) echo dictionaries/eds.dict ;;
     xdd | esi | gsdml) echo dictionaries/xml.dict ;;
-    table) echo dictionaries/table.dict ;;
+    table | overlay) echo dictionaries/table.dict ;;
     macro_input) echo dictionaries/macro.dict ;;
     esac
 }
 
+failed=()
 for target in "${targets[@]}"; do
     mkdir -p "corpus/$target"
     seeds "$target" | while read -r file; do cp "$file" "corpus/$target/$(sha1sum "$file" | cut -c1-16)"; done
@@ -53,5 +62,9 @@ for target in "${targets[@]}"; do
     if [[ -n $words ]]; then options+=(-dict="$words"); fi
     echo "== $target"
     # No code of this project is unsafe, so no sanitizer looks after memory: without one, three times as much is tried.
-    cargo +nightly fuzz run --sanitizer none "$target" -- "${options[@]}"
+    cargo +nightly fuzz run --sanitizer none "$target" -- "${options[@]}" || failed+=("$target")
 done
+if [[ ${#failed[@]} != 0 ]]; then
+    echo "something was found by ${failed[*]}" >&2
+    exit 1
+fi

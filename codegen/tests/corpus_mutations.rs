@@ -8,74 +8,19 @@
 //! ```
 
 mod corpus_support;
+mod exercise;
 
 use std::cell::Cell;
 use std::fmt::Debug;
 
 use corpus_support::{all_files, files, files_of, File};
-use lexibus_codegen::backend::{eds, esi, gsdml, json, rust};
-use lexibus_codegen::compile::{check, Compilation, Options};
-use lexibus_codegen::diagnostics::{codes, render, Diagnostic, Level};
-use lexibus_codegen::ir::Catalog;
-use lexibus_codegen::source::{FileId, Source};
+use exercise::exercise;
+use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::source::Source;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence, Index};
 use proptest::test_runner::{RngSeed, TestError, TestRunner};
-
-/// What becomes of an input, checked on the way: spans lie in it, and what is emitted is Rust. Whether it got so far.
-fn exercise(name: &str, bytes: &[u8]) -> bool {
-    let options = everything_reported();
-    let compilation = check(Source::new(name, bytes.to_vec()), &options);
-    let list = compilation.diagnostics.list();
-    let some: Vec<Diagnostic> = list.iter().take(12).chain(list.iter().rev().take(3)).cloned().collect();
-    for found in &some {
-        let (start, end) = (found.span.start as usize, found.span.end as usize);
-        let inside = found.span.file == FileId(0) && compilation.sources[0].text().get(start..end).is_some();
-        assert!(inside, "{}: {:?} isn't in the file", found.code.id, found.span);
-        assert!(!render::terminal::render(found, &compilation.sources, true).is_empty());
-        assert!(!render::json::line(found, &compilation.sources).contains('\n'));
-        assert!(!compilation.one_line(found).contains('\n'));
-    }
-    let log: Result<serde_json::Value, _> =
-        serde_json::from_str(&render::sarif::document(&some, &compilation.sources, "0"));
-    assert!(log.is_ok(), "{log:?}");
-    serde_json::to_string(&json::info(&compilation)).expect("a summary");
-    emitted(&compilation);
-    compilation.catalog.is_some()
-}
-
-/// Most of the lints are off by default: on, they run more of the compiler.
-fn everything_reported() -> Options {
-    let mut options = Options::default();
-    for code in codes::CODES {
-        options.levels.set(code.id, Level::Warn).expect("a code");
-    }
-    options
-}
-
-/// The Rust of every device, even where there are errors, and even if nobody would ask for it.
-fn emitted(compilation: &Compilation) {
-    /// More text than this takes `syn` too long.
-    const PARSED: usize = 60_000;
-    let Some(catalog) = &compilation.catalog else { return };
-    exported(catalog);
-    let Some(text) = rust::emit_catalog(catalog, &Options::default().rust) else { return };
-    if text.len() < PARSED {
-        if let Err(error) = syn::parse_file(&text) {
-            panic!("what is emitted is no Rust: {error}:\n{text}");
-        }
-    }
-}
-
-/// The exports, whatever they leave out or ask for.
-fn exported(catalog: &Catalog) {
-    let _ = esi::export(catalog, &esi::Options::default());
-    let _ = gsdml::export(catalog, &gsdml::Options::default());
-    for device in catalog.devices.iter().take(2) {
-        eds::export(catalog, device, eds::Flavour::Dcf);
-    }
-}
 
 /// So many cases in an optimised build, and a part of them in any other.
 fn config(cases: u32) -> ProptestConfig {

@@ -4,6 +4,7 @@
 use lexibus_codegen::compile::Options;
 use lexibus_codegen::RustOptions;
 
+#[allow(dead_code)]
 #[path = "../../tests/arbitrary_ir/mod.rs"]
 mod arbitrary_ir;
 

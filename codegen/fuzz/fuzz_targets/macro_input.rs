@@ -2,6 +2,7 @@
 #![no_main]
 
 // The macro itself can't be called from a program. What it reads can: the files that a call names aren't opened here.
+#[allow(dead_code)]
 #[path = "../../../macros/src/call.rs"]
 mod call;
 

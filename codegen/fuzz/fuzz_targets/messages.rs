@@ -2,25 +2,29 @@
 #![no_main]
 
 use lexibus::framing::Framing;
-use lexibus::message::{Message, Reader, Reply, Request, Writer};
+use lexibus::message::{Reader, Reply, Request, WriteError, Writer};
 use lexibus_drives::hsd::messages::*;
 
-/// Writes what `write` does and gives the bytes.
-fn written(write: impl FnOnce(&mut Writer<'_>) -> Result<(), lexibus::message::WriteError>) -> Vec<u8> {
-    let mut data = [0; 2 * MAX_DATA];
-    let mut to = Writer::new(&mut data);
-    write(&mut to).expect("what was read can be written");
-    to.written().to_vec()
+/// What `write` writes is what was read. A setting whose length isn't that of its parameter is read, for whoever looks for what is
+/// wrong on a line, and not written.
+fn same(name: &str, data: &[u8], write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) {
+    let mut again = [0; 2 * MAX_DATA];
+    let mut to = Writer::new(&mut again);
+    match write(&mut to) {
+        Err(WriteError::Length(_)) if name.contains("Par") => {}
+        Err(error) => panic!("{name} was read, and isn't written: {error}"),
+        Ok(()) => assert_eq!(to.written(), data, "{name}"),
+    }
 }
 
 /// A request that is read is the one that is written, and so is a reply.
 fn request<'r, M: Request<'r>>(data: &'r [u8], answer: &'r [u8]) {
     let mut from = Reader::new(data);
     if let Some((node, request)) = M::parse(&mut from) {
-        assert_eq!(written(|to| request.write(node, to)), data, "{}", M::NAME);
+        same(M::NAME, data, |to| request.write(node, to));
     }
     if let Some(reply) = M::Reply::read(data, &mut Reader::new(answer)) {
-        assert_eq!(written(|to| reply.write(data, to)), answer, "the reply to {}", M::NAME);
+        same(M::NAME, answer, |to| reply.write(data, to));
     }
     let _ = M::Refusal::read(data, &mut Reader::new(answer));
 }
@@ -47,6 +51,7 @@ libfuzzer_sys::fuzz_target!(|bytes: (Vec<u8>, Vec<u8>)| {
     let (data, answer) = (&bytes.0[..], &bytes.1[..]);
     frames(data);
     let _ = lexibus_drives::hsd::messages::Request::parse(data);
+    request::<lexibus_drives::akd::messages::Sdo>(data, answer);
     requests!(data answer
         CmdReset CmdNoReg CmdReg CmdHold CmdMazz CmdAzz CmdJogN CmdTraj CmdTrajVel PollPosition PollTheoreticalPosition
         PollSpeeds PollTorques CmdEmerg CmdSetOverr CmdGetOverr CmdChgParN CmdGetParN CmdSaveParFl CmdAdcOff CmdAzzEl
