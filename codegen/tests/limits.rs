@@ -37,30 +37,145 @@ fn rows_that_stand_for_many_items() {
     assert_eq!(items(&compilation), full * limits::MAX_REPEAT as usize + 50);
 }
 
-/// The others have their tests at the quirks of their formats; here they are held against the book.
+fn checked(name: &str, text: String) -> Compilation {
+    check(Source::new(name, text.into_bytes()), &Options::default())
+}
+
+/// How many findings have this code.
+fn count(compilation: &Compilation, code: &str) -> usize {
+    codes(compilation).iter().filter(|own| **own == code).count()
+}
+
+#[test]
+fn rows_that_stand_for_too_many() {
+    let table = |count: u32| {
+        checked(
+            "row.toml",
+            format!(
+                "lexibus = 1\n[device]\nname = \"X\"\nbuses = [\"serial\"]\n[spaces.s]\nparameter = {{}}\n\
+                 [[chapters]]\nspace = \"s\"\n[chapters.registers]\n\
+                 \"a {{n}}\" = {{ reg = 0, count = {count}, type = \"u8\", access = \"ro\" }}\n"
+            ),
+        )
+    };
+    let most = table(limits::MAX_REPEAT);
+    assert_eq!((items(&most), count(&most, "TAB004")), (limits::MAX_REPEAT as usize, 0));
+    assert_eq!(count(&table(limits::MAX_REPEAT + 1), "TAB004"), 1);
+}
+
+/// An EDS of so many objects, of 254 elements each.
+fn compact_objects(count: usize) -> Compilation {
+    let mut text = "[DeviceInfo]\nProductName=X\n".to_owned();
+    for number in 0..count {
+        let index = 0x2000 + number;
+        text += &format!("[{index:X}]\nParameterName=A\nObjectType=8\nDataType=5\nAccessType=rw\nCompactSubObj=254\n");
+    }
+    checked("compact.eds", text)
+}
+
+#[test]
+fn objects_that_stand_for_many_elements() {
+    let most = limits::MAX_DERIVED_ITEMS / 255;
+    assert_eq!(count(&compact_objects(most), "IO003"), 0);
+    let beyond = compact_objects(most + 50);
+    assert_eq!(count(&beyond, "IO003"), 1);
+    assert!(items(&beyond) <= limits::MAX_DERIVED_ITEMS + 255, "{} items", items(&beyond));
+}
+
+#[test]
+fn pdos_that_follow_from_a_number() {
+    let text = "[DeviceInfo]\nProductName=X\nCompactPDO=0x3F\nNrOfRXPDO=600\nNrOfTXPDO=0\n\
+                [2000]\nParameterName=A\nDataType=5\nAccessType=rw\n";
+    let compilation = checked("pdos.eds", text.to_owned());
+    let device = &compilation.catalog.as_ref().expect("a catalogue").devices[0];
+    let made = device.groups.iter().filter(|group| group.index().is_some_and(|index| index < 0x1600)).count();
+    assert_eq!(made, usize::from(limits::MAX_IMPLICIT_PDOS));
+    assert_eq!(count(&compilation, "PDO010"), 1, "{:?}", codes(&compilation));
+}
+
+/// Slots of an ESI that all take the same modules.
+fn slots(slots: usize, modules: usize) -> Compilation {
+    let slot =
+        "<Slot MinInstances='0' MaxInstances='1'><Name>S</Name><ModuleClass>C</ModuleClass></Slot>".repeat(slots);
+    let module: String = (0..modules)
+        .map(|at| format!("<Module><Type ModuleIdent='{}' ModuleClass='C'>M</Type><Name>M</Name></Module>", at + 1))
+        .collect();
+    checked(
+        "slots.xml",
+        format!(
+            "<EtherCATInfo><Vendor><Id>1</Id><Name>X</Name></Vendor><Descriptions><Devices><Device Physics='YY'>\
+             <Type ProductCode='1' RevisionNo='1'>T</Type><Name>T</Name><Slots>{slot}</Slots></Device></Devices>\
+             <Modules>{module}</Modules></Descriptions></EtherCATInfo>"
+        ),
+    )
+}
+
+#[test]
+fn slots_that_take_many_modules() {
+    assert_eq!(count(&slots(20, 100), "IO003"), 0);
+    assert_eq!(count(&slots(500, limits::MAX_MODULE_USES / 500 + 1), "IO003"), 1);
+}
+
+/// A folder of its own for a test.
+fn folder(name: &str) -> std::path::PathBuf {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    folder
+}
+
+#[test]
+fn files_that_an_esi_refers_to() {
+    let folder = folder("many-references");
+    for at in 0..=limits::MAX_REFERENCES {
+        std::fs::write(folder.join(format!("{at}.xml")), "<EtherCATInfo/>").expect("a file");
+    }
+    let refused = |count: usize| {
+        let references: String = (0..count).map(|at| format!("<InfoReference>{at}.xml</InfoReference>")).collect();
+        let text = format!("<EtherCATInfo>{references}<Vendor><Id>1</Id><Name>X</Name></Vendor></EtherCATInfo>");
+        let source = Source::new("main.xml", text.into_bytes()).in_folder(&folder);
+        let compilation = check(source, &Options::default());
+        let list = compilation.diagnostics.list().iter();
+        list.filter(|found| found.code.id == "XML005" && compilation.one_line(found).contains("more than")).count()
+    };
+    assert_eq!(refused(limits::MAX_REFERENCES), 0);
+    assert_eq!(refused(limits::MAX_REFERENCES + 1), 1);
+}
+
+#[test]
+fn files_that_are_too_large() {
+    let path = folder("large").join("large.eds");
+    // A hole: nothing is written, and nothing is read.
+    std::fs::File::create(&path).and_then(|file| file.set_len(limits::MAX_INPUT_BYTES as u64 + 1)).expect("a file");
+    let error = Source::read(&path).expect_err("it is too large");
+    assert_eq!(error.kind(), std::io::ErrorKind::FileTooLarge);
+    let _ = std::fs::remove_file(path);
+}
+
+/// Depth, references by text and copies have their tests at the quirks of their formats; here all are held against the book.
 #[test]
 fn the_book_has_each_limit() {
     let chapter = include_str!("../../docs/src/limits.md");
     let limits = [
-        limits::MAX_INPUT_BYTES,
-        limits::MAX_REFERENCES,
-        limits::MAX_REPEAT as usize,
-        limits::MAX_DERIVED_ITEMS,
-        limits::MAX_IMPLICIT_PDOS.into(),
-        limits::MAX_COPIES_PER_BYTE,
-        limits::MAX_XML_DEPTH,
-        limits::MAX_MODULE_USES,
-        limits::MAX_TEXT_COPIES_PER_BYTE,
-        limits::MIN_TEXT_COPIES,
+        ("bytes of a file", limits::MAX_INPUT_BYTES),
+        ("nested XML elements", limits::MAX_XML_DEPTH),
+        ("`InfoReference`", limits::MAX_REFERENCES),
+        ("items that follow from `CompactSubObj`", limits::MAX_DERIVED_ITEMS),
+        ("items that one row", limits::MAX_REPEAT as usize),
+        ("`CompactPDO`", limits::MAX_IMPLICIT_PDOS.into()),
+        ("modules that all slots", limits::MAX_MODULE_USES),
+        ("for each byte of the file |", limits::MAX_COPIES_PER_BYTE),
+        ("bytes of text that a GSDML copies", limits::MAX_TEXT_COPIES_PER_BYTE),
+        ("bytes of text that a GSDML copies", limits::MIN_TEXT_COPIES),
     ];
-    for limit in limits {
+    for (row, limit) in limits {
         let digits = limit.to_string();
         let groups: Vec<&str> =
             digits.as_bytes().rchunks(3).rev().map(|group| std::str::from_utf8(group).expect("digits")).collect();
         let written = groups.join(",");
-        let is_there = chapter.lines().filter(|line| line.starts_with('|')).any(|line| {
-            line.split(|letter: char| !letter.is_ascii_digit() && letter != ',').any(|number| number == written)
-        });
-        assert!(is_there, "{written} isn't in the table of docs/src/limits.md");
+        let line = chapter.lines().find(|line| line.starts_with('|') && line.contains(row));
+        let line = line.unwrap_or_else(|| panic!("docs/src/limits.md has no row of {row}"));
+        let mut numbers = line.split(|letter: char| !letter.is_ascii_digit() && letter != ',');
+        assert!(numbers.any(|number| number == written), "{written} isn't in: {line}");
     }
 }

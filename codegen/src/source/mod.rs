@@ -40,6 +40,11 @@ const STRIDE: usize = 1024;
 /// The largest input that is read: spans are 32-bit offsets.
 pub const MAX_INPUT_BYTES: usize = u32::MAX as usize / 4;
 
+fn too_large() -> std::io::Error {
+    let message = format!("the file has more than {MAX_INPUT_BYTES} bytes, which are the most that are read");
+    std::io::Error::new(std::io::ErrorKind::FileTooLarge, message)
+}
+
 impl Source {
     /// Decodes `bytes`; `name` is what diagnostics call the file.
     ///
@@ -72,12 +77,14 @@ impl Source {
     fn read_from(place: &Path, path: &Path) -> std::io::Result<Self> {
         let file = std::fs::File::open(place)?;
         // Room for all of it at once; what tells no length, or a wrong one, is read piece by piece.
-        let length = file.metadata().map_or(0, |metadata| metadata.len()).min(MAX_INPUT_BYTES as u64);
+        let length = file.metadata().map_or(0, |metadata| metadata.len());
+        if length > MAX_INPUT_BYTES as u64 {
+            return Err(too_large());
+        }
         let mut bytes = Vec::with_capacity(length as usize + 1);
         file.take(MAX_INPUT_BYTES as u64 + 1).read_to_end(&mut bytes)?;
         if bytes.len() > MAX_INPUT_BYTES {
-            let message = format!("the file has more than {MAX_INPUT_BYTES} bytes, which are the most that are read");
-            return Err(std::io::Error::new(std::io::ErrorKind::FileTooLarge, message));
+            return Err(too_large());
         }
         let folder = path.parent().map(Path::to_owned).unwrap_or_default();
         Ok(Source::new(path.to_string_lossy(), bytes).in_folder(folder))

@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Measures which lines the tests run: tests/coverage.sh [DETAILS.json]. Needs `cargo llvm-cov` and the LLVM tools of the toolchain
+# (`rustup component add llvm-tools`, or LLVM_COV and LLVM_PROFDATA). Takes about an hour. tests/COVERAGE.md has the last result.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+export CARGO_INCREMENTAL=0
+# Programs that the tests start write into few files, or there would be thousands.
+export LLVM_PROFILE_FILE_NAME='lexibus-%4m.profraw'
+if [[ -x target/python/bin/python ]]; then export LEXIBUS_PYTHON=${LEXIBUS_PYTHON:-$PWD/target/python/bin/python}; fi
+
+# Left out: what measures the size, the cost or the messages of other compilations, which counters would change.
+cargo llvm-cov test --no-report --workspace --all-features --no-fail-fast -- \
+    --skip compile_fail --skip generated_code_costs --skip what_is_not_used --skip both_programs
+
+report() { cargo llvm-cov report "$@"; }
+
+# What is emitted is a result of the compiler, not a part of it.
+crates=(lexibus lexibus-codegen lexibus-macros)
+printf '%-18s %8s %8s %8s\n' crate lines missed covered
+for crate in "${crates[@]}"; do
+    read -r lines missed covered < <(report -p "$crate" --summary-only 2>/dev/null | awk '$1 == "TOTAL" { print $8, $9, $10 }')
+    printf '%-18s %8s %8s %8s\n' "$crate" "$lines" "$missed" "$covered"
+done
+if [[ -n ${1:-} ]]; then report $(printf -- '-p %s ' "${crates[@]}") --json --output-path "$1"; fi
