@@ -58,6 +58,8 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
                     "an EDS has [FileInfo], [DeviceInfo], object lists, and a section for each object, such as [1000]",
                 ),
         );
+        // They may well be why.
+        report_oddities(&doc, diagnostics);
         return None;
     }
     let mut device = Device { origin: Origin { span: Span::new(file, 0, 0), line: 1 }, ..Device::default() };

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use super::header;
 use super::lists;
-use super::object::{in_order_of_file, Key, ObjectSections, Raw};
+use super::object::{in_order_of_file, Key, ObjectSections, Raw, OF_MANY_VALUES};
 use super::reader::{Fixed, Reader};
 use super::sections::ModulePart;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::number;
-use crate::ir::{Device, Group, Module, ObjectCode, SubExtension};
+use crate::ir::{Device, Group, Module, SubExtension};
 use crate::source::Span;
 use crate::syntax::ini::{Entry, Section};
 
@@ -179,8 +179,10 @@ fn clash(reader: &mut Reader<'_, '_>, group: &Group, device: &Device) {
 fn sub_extension(reader: &mut Reader<'_, '_>, index: u16, sections: &[Section]) -> SubExtension {
     reader.duplicate_sections(sections);
     let mut raw = reader.raw_with(sections, &["Count", "ObjExtend"]);
-    let mut template = reader.item(index, 1, &raw, ObjectCode::Var);
+    let code = reader.sub_code(&raw);
+    let mut template = reader.item(index, 1, &raw, code);
     reader.name(raw.get(Key::ParameterName), &mut template.name, &mut template.at.name);
+    reader.unused(&raw, &OF_MANY_VALUES, &mut template.extensions);
     template.extensions.append(&mut raw.extensions);
     let (count, per) = sub_count(reader, &raw);
     let extends_object = raw.more[1].is_some_and(|entry| obj_extend(reader, &entry));
