@@ -140,6 +140,21 @@ fn e65_unknown_keys() {
 }
 
 #[test]
+fn e65_one_unknown_key_in_several_sections() {
+    let checked = read(&format!("{}Unit=V\n[2000ObjectLinks]\nObjectLinks=0\nUnit=V\n", var(U8, "")));
+    let units = checked.group(0x2000).extensions.iter().filter(|extension| extension.key == "Unit");
+    assert_eq!((units.count(), checked.codes()), (2, vec![]));
+    let twice = read(&var(U8, "Unit=V\nunit=A"));
+    assert_eq!(twice.places("EDS008"), [(7, 1)]);
+    assert_eq!(twice.only("EDS008").label, "both are kept");
+    let device = format!("{DEVICE}ProductVersion=1\nProductVersion=2\nNrOfRXPDO=0\nNrOfTXPDO=0\n");
+    assert_eq!(read(&device).codes(), ["EDS008"]);
+    let module = "[M1ModuleInfo]\nProductName=A\n[M1FixedObjects]\nNrOfEntries=0\nFoo=1\n\
+                  [M1SubExtends]\nNrOfEntries=0\nFoo=1\n";
+    assert_eq!(read(&format!("[SupportedModules]\nNrOfEntries=1\n{module}")).codes(), [""; 0]);
+}
+
+#[test]
 fn e65_unknown_sections() {
     let checked = read("[Vendor stuff]\nColour=grün\n; painted\n[Tools]\nItems=0\n");
     assert_eq!(checked.extension("Vendor stuff/Colour"), Some("grün"));

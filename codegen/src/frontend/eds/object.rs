@@ -84,7 +84,7 @@ fn keyword(key: &str) -> Option<Key> {
 }
 
 /// Keywords of one value, which say nothing about an object whose values are its sub-indices.
-const OF_A_VALUE: [Key; 10] = [
+pub(super) const OF_A_VALUE: [Key; 10] = [
     Key::DataType,
     Key::AccessType,
     Key::DefaultValue,
@@ -566,12 +566,10 @@ impl<'a> Reader<'a, '_> {
 
     fn links(&mut self, group: &mut Group, sections: &[Section]) {
         self.duplicate_sections(sections);
-        for section in sections {
-            for entry in lists::numbered(self, section, "ObjectLinks", &mut group.extensions) {
-                if let Some(index) = self.index_of(&entry) {
-                    group.links.push(index);
-                    self.link_spans.push((index, self.doc.value_span(&entry)));
-                }
+        for entry in lists::numbered(self, sections, "ObjectLinks", &mut group.extensions) {
+            if let Some(index) = self.index_of(&entry) {
+                group.links.push(index);
+                self.link_spans.push((index, self.doc.value_span(&entry)));
             }
         }
         self.take_comments(&mut group.extensions);
