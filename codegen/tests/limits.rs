@@ -70,6 +70,11 @@ fn texts_of_compact_sub_objects() {
     let beyond = eds(&(comments + &object(0x2000, 5_000) + &object(0x2001, 5_000)));
     assert_eq!(codes(&beyond).iter().filter(|code| **code == "IO003").count(), 1);
     assert!(items(&beyond) <= 255 + 1, "{}", items(&beyond));
+    // What has sections of its own stays, in order.
+    let described = "[2000sub1]\nParameterName=B\nDataType=5\nAccessType=ro\n";
+    let beyond = eds(&(object(0x2000, 5_000) + described));
+    let items = &beyond.catalog.as_ref().expect("the file is usable").devices[0].groups[0].items;
+    assert_eq!(items.iter().map(|item| item.name.as_str()).collect::<Vec<_>>(), ["NrOfObjects", "B"]);
 }
 
 /// The others have their tests at the quirks of their formats; here they are held against the book.

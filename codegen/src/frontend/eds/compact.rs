@@ -37,15 +37,15 @@ pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, 
     let template = reader.item(index, 1, raw, ObjectCode::Array);
     group.flags = template.flags;
     let bytes = copied(reader, raw, &template) + group.name.len();
-    if !reader.may_copy(bytes.saturating_mul(count.into()), raw.origin.span, "its sub-indices are left out") {
-        return;
-    }
-    for sub in (1..=count).filter(|&sub| missing(sub)) {
-        let mut item = template.clone();
-        item.bindings[0] = Binding::canopen(index, sub);
-        item.name = compact_str::format_compact!("{}{sub}", group.name);
-        item.at.name = group.name_at;
-        group.items.push(item);
+    let bytes = bytes.saturating_mul(count.into());
+    if reader.may_copy(bytes, raw.origin.span) {
+        for sub in (1..=count).filter(|&sub| missing(sub)) {
+            let mut item = template.clone();
+            item.bindings[0] = Binding::canopen(index, sub);
+            item.name = compact_str::format_compact!("{}{sub}", group.name);
+            item.at.name = group.name_at;
+            group.items.push(item);
+        }
     }
     group.items.sort_by_key(|item| item.object().map(|(_, sub)| sub));
 }

@@ -281,11 +281,7 @@ impl<'a, 'd> Reader<'a, 'd> {
     pub(super) fn foreign(&mut self, section: &Section, entry: &Entry, extensions: &mut Extensions) {
         let name = self.doc.name(section);
         let key = if self.doc.is_comment(entry) { ";" } else { self.doc.key(entry) };
-        if self.may_copy(
-            name.len(),
-            self.doc.key_span(entry),
-            "not kept from here on, where its section has a long name",
-        ) {
+        if self.may_copy(name.len(), self.doc.key_span(entry)) {
             let key = compact_str::format_compact!("{name}/{key}");
             let (value, span) = (self.doc.value(entry), self.doc.value_span(entry));
             extensions.push(Extension { key, value: value.into(), span });
@@ -293,14 +289,18 @@ impl<'a, 'd> Reader<'a, 'd> {
     }
 
     /// Whether another `bytes` of text may be copied. That they may not is told once.
-    pub(super) fn may_copy(&mut self, bytes: usize, span: Span, label: &str) -> bool {
+    pub(super) fn may_copy(&mut self, bytes: usize, span: Span) -> bool {
         if let Some(left) = self.copies_left.checked_sub(bytes) {
             self.copies_left = left;
             return true;
         }
         if !std::mem::replace(&mut self.copies_exceeded, true) {
             let message = "copies of the same texts would make the description many times longer";
-            self.diagnostics.push(Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message).label(label));
+            self.diagnostics.push(
+                Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message)
+                    .label("what would be copied is left out from here on")
+                    .help("shorten the name of the section, or the texts of the object with CompactSubObj"),
+            );
         }
         false
     }
