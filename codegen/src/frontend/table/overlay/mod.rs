@@ -107,7 +107,7 @@ impl Patch {
 
     /// Codes and state machines, each with its doubts, as a device has them that has nothing but the definitions; they stand
     /// nowhere in its description.
-    fn behaviour(&self, reader: &mut Reader<'_, '_>) -> (Vec<(CodeTable, Doubts)>, Vec<(StateMachine, Doubts)>) {
+    fn behaviour(&self, reader: &mut Reader<'_, '_>) -> (Vec<Doubted<CodeTable>>, Vec<Doubted<StateMachine>>) {
         let mut device = Device { types: self.types.clone(), ..Device::default() };
         let mut tables = Vec::new();
         for (name, table) in &self.codes {
@@ -142,6 +142,9 @@ impl Patch {
         }
     }
 }
+
+/// A part of a profile, and its doubts.
+type Doubted<T> = (T, Doubts);
 
 /// Takes the doubts of a profile, whose file is none of a device's.
 fn nowhere(doubts: &mut Doubts) -> Doubts {
@@ -220,8 +223,8 @@ pub(crate) struct Profile {
     pub when: Option<u16>,
     patch: Patch,
     /// Its codes and state machines, which are the same for every device.
-    codes: Vec<(CodeTable, Doubts)>,
-    machines: Vec<(StateMachine, Doubts)>,
+    codes: Vec<Doubted<CodeTable>>,
+    machines: Vec<Doubted<StateMachine>>,
 }
 
 impl Profile {
