@@ -18,8 +18,8 @@ pub const MAX_IMPLICIT_PDOS: u16 = 512;
 /// How many unknown keys of a section a further one is compared with to find a repeated one.
 pub const MAX_COMPARED_EXTENSIONS: usize = 64;
 
-/// Bytes of data types (ESI) or parameters (XDD) that may be copied into objects, for each byte of the file. One object a type
-/// is the rule.
+/// Bytes of data types (ESI), parameters (XDD), texts of CompactSubObj and names of sections (EDS) that may be copied, for each
+/// byte of the file. One object a type is the rule.
 pub const MAX_COPIES_PER_BYTE: usize = 64;
 
 /// Depth to which XML elements may be nested.

@@ -152,6 +152,46 @@ fn files_that_are_too_large() {
     let _ = std::fs::remove_file(path);
 }
 
+/// The EDS that has these lines, and as many bytes more as any has.
+fn eds(lines: &str) -> Compilation {
+    let text = format!("[FileInfo]\nFileName=a\n{lines}");
+    check(Source::new("a.eds", text.into_bytes()), &Options::default())
+}
+
+#[test]
+fn names_of_sections_that_are_copied_to_each_entry() {
+    let section = |letters: usize, entries: usize| format!("[{}]\n{}", "n".repeat(letters), "a=1\n".repeat(entries));
+    let bytes = |compilation: &Compilation| {
+        let device = &compilation.catalog.as_ref().expect("the file is usable").devices[0];
+        device.extensions.iter().map(|extension| extension.key.len()).sum::<usize>()
+    };
+    let most = eds(&section(200, 1_000));
+    assert_eq!((bytes(&most), codes(&most).contains(&"IO003")), (202 * 1_000, false));
+    let beyond = eds(&section(4_000, 1_000));
+    assert_eq!(codes(&beyond).iter().filter(|code| **code == "IO003").count(), 1);
+    let length = beyond.sources[0].text().len();
+    assert!(bytes(&beyond) <= (limits::MAX_COPIES_PER_BYTE + 1) * length, "{} of {length}", bytes(&beyond));
+}
+
+#[test]
+fn texts_of_compact_sub_objects() {
+    let object = |index: u16, letters: usize| {
+        let text = "t".repeat(letters);
+        format!("[{index:X}]\nParameterName=A\nObjectType=8\nDataType=9\nAccessType=ro\nCompactSubObj=254\nDefaultValue={text}\n")
+    };
+    let comments = format!(";{}\n", "c".repeat(10_000));
+    let most = eds(&(comments.clone() + &object(0x2000, 2_000)));
+    assert_eq!((items(&most), codes(&most).contains(&"IO003")), (255, false));
+    let beyond = eds(&(comments + &object(0x2000, 5_000) + &object(0x2001, 5_000)));
+    assert_eq!(codes(&beyond).iter().filter(|code| **code == "IO003").count(), 1);
+    assert!(items(&beyond) <= 255 + 1, "{}", items(&beyond));
+    // What has sections of its own stays, in order.
+    let described = "[2000sub1]\nParameterName=B\nDataType=5\nAccessType=ro\n";
+    let beyond = eds(&(object(0x2000, 5_000) + described));
+    let items = &beyond.catalog.as_ref().expect("the file is usable").devices[0].groups[0].items;
+    assert_eq!(items.iter().map(|item| item.name.as_str()).collect::<Vec<_>>(), ["NrOfObjects", "B"]);
+}
+
 /// Depth, references by text and copies have their tests at the quirks of their formats; here all are held against the book.
 #[test]
 fn the_book_has_each_limit() {

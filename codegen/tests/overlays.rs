@@ -267,6 +267,86 @@ fn several_devices_and_modules_are_told_apart() {
 }
 
 #[test]
+fn names_within_a_module_are_those_of_its_items() {
+    let esi = ESI.replace("DICT", DICTIONARY);
+    let applied = |row: &str| {
+        let text = rows(row).replacen("why =", "for = { module = \"M\" }\nwhy =", 1);
+        apply_to("x.xml", &esi, &text)
+    };
+    let typo = applied("0x2000 = { unit = \"V\", same_as = \"Valu\" }\n");
+    assert_eq!(findings(&typo), [("TAB005", "\"Valu\"".to_owned())]);
+    let doubt = "doubt = { says = \"V and mV\", chose = \"V\", why = \"the scale\" }";
+    let own = applied(&format!("0x2000 = {{ enum = \"E\" }}\n[enums.E]\n{doubt}\nvalues = {{ 0 = \"off\" }}\n"));
+    assert_eq!(findings(&own), []);
+    let devices = &own.catalog.as_ref().expect("a catalogue").devices;
+    let doubts: Vec<usize> = devices.iter().map(|device| device.doubts.len()).collect();
+    assert_eq!(doubts, [0, 1], "the device that takes the module has its doubts");
+}
+
+/// A device access point that takes the submodules `S` and `T`.
+fn access_point(name: &str, number: u32) -> String {
+    format!(
+        "<DeviceAccessPointItem ID=\"{name}\" ModuleIdentNumber=\"{number}\" PhysicalSlots=\"0..4\" FixedInSlots=\"0\">\
+         <ModuleInfo><Name TextId=\"{name}\"/></ModuleInfo><UseableSubmodules>\
+         <SubmoduleItemRef SubmoduleItemTarget=\"S\" AllowedInSubslots=\"2\"/>\
+         <SubmoduleItemRef SubmoduleItemTarget=\"T\" AllowedInSubslots=\"3\"/></UseableSubmodules>\
+         </DeviceAccessPointItem>"
+    )
+}
+
+/// Two device access points, and two submodules of a parameter each.
+fn gsdml() -> String {
+    let submodule = |id: &str, number: u32, parameter: &str| {
+        format!(
+            "<SubmoduleItem ID=\"{id}\" SubmoduleIdentNumber=\"{number}\"><IOData/><RecordDataList>\
+             <ParameterRecordDataItem Index=\"10\" Length=\"2\"><Name TextId=\"{id}\"/>\
+             <Ref DataType=\"Unsigned16\" ByteOffset=\"0\" DefaultValue=\"5\" TextId=\"{parameter}\"/>\
+             </ParameterRecordDataItem></RecordDataList><ModuleInfo><Name TextId=\"{id}\"/></ModuleInfo></SubmoduleItem>"
+        )
+    };
+    let texts: String = ["A", "B", "S", "T", "Speed", "Limit"]
+        .map(|text| format!("<Text TextId=\"{text}\" Value=\"{text}\"/>"))
+        .concat();
+    let (a, b) = (access_point("A", 1), access_point("B", 2));
+    let (s, t) = (submodule("S", 1, "Speed"), submodule("T", 2, "Limit"));
+    format!(
+        "<?xml version=\"1.0\"?><ISO15745Profile xmlns=\"http://www.profibus.com/GSDML/2003/11/DeviceProfile\"><ProfileBody>\
+         <DeviceIdentity VendorID=\"1\" DeviceID=\"1\"><VendorName Value=\"Maker\"/></DeviceIdentity><ApplicationProcess>\
+         <DeviceAccessPointList>{a}{b}</DeviceAccessPointList><SubmoduleList>{s}{t}</SubmoduleList>\
+         <ExternalTextList><PrimaryLanguage>{texts}</PrimaryLanguage></ExternalTextList></ApplicationProcess>\
+         </ProfileBody></ISO15745Profile>"
+    )
+}
+
+#[test]
+fn a_submodule_of_several_devices_is_changed_once() {
+    let applied = |applies: &str, row: &str| {
+        let text = format!(
+            "lexibus = 1\n[overlay]\nwhy = \"w\"\n{applies}[[chapters]]\n[chapters.registers]\nSpeed = {{ {row} }}\n"
+        );
+        apply_to("GSDML-x.xml", &gsdml(), &text)
+    };
+    let speed = |compilation: &Compilation| {
+        let catalog = compilation.catalog.as_ref().expect("a catalogue");
+        assert_eq!((catalog.devices.len(), catalog.submodules.len()), (2, 2));
+        catalog.submodules[0].records[0].items[0].clone()
+    };
+    let doubt = "doubt = { says = \"a and b\", chose = \"a\", why = \"c\" }";
+    let both = applied("", &format!("doc = \"Told.\", na = {{ 0 = \"off\" }}, {doubt}"));
+    assert_eq!(findings(&both), []);
+    let item = speed(&both);
+    assert_eq!((words(&item), item.doubts.len()), ("Told.\nChanged by an overlay: w.", 1));
+    assert_eq!(item.extensions.iter().filter(|own| own.key == "overlay").count(), 1);
+    let one = applied("for = { device = \"A\" }\n", "unit = \"rpm\"");
+    let found: Vec<_> = findings(&one).into_iter().map(|(code, _)| code).collect();
+    assert_eq!((found, speed(&one).quantity.is_some()), (vec!["TAB053"], true), "B has it, too");
+    // A name that leads nowhere is told, and never held against the items of another submodule.
+    let typo = applied("", "same_as = \"Sped\"");
+    assert_eq!(findings(&typo), [("TAB005", "\"Sped\"".to_owned())]);
+    assert_eq!(findings(&applied("", "same_as = \"Speed\"")), []);
+}
+
+#[test]
 fn a_corrected_type_is_what_process_data_have() {
     let eds = format!(
         "{EDS}[1A00]\nParameterName=Mapping\nObjectType=9\nSubNumber=2\n\

@@ -859,6 +859,10 @@ codes! {
         "a number that the manual converts isn't what the scale gives"
         "`conversions` has a raw number and what the manual says it stands for. They are further apart than a count: a digit was misprinted, or \
         the scale, a number of the machine, or the base is another."
+    TAB053 OVERLAY_SHARED "overlay-shared" Lint Warn
+        "an overlay changes a part of a device that it isn't for"
+        "`for` in `[overlay]` names some devices of the description, and another one has the same module or submodule, which is described \
+        once: what the overlay says of it holds there, too. Name the module in `for`, or the other device too, if that is right."
     MSG001 FRAMING_BYTES "framing-bytes" Lint Warn
         "start, end, escape and escaped bytes of frames contradict each other"
         "Start, end and escape of a frame are three bytes; each of them is escaped where it is data, and what is sent in its place is \

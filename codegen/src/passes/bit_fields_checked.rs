@@ -1,7 +1,7 @@
 //! After this pass the fields of every bit field were held against the integer below and against each other.
 
 use super::firmware_comparable::apart;
-use super::owner::{reserved, Owner};
+use super::owner::{reserved, Owner, Places};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{BitFieldEntry, BitMeaning, Condition, Shape, Type, TypeDef, TypeId, Value};
 use crate::text::brief;
@@ -10,10 +10,11 @@ use crate::text::brief;
 const MAX_LISTED_BITS: u8 = 4;
 
 pub(super) fn run(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
+    let places = Places::new(owner);
     for (definition, id) in owner.types.iter().zip(0..) {
         let Shape::BitField { base, fields } = &definition.shape else { continue };
         let Some(width) = base.bits().filter(|&bits| bits <= 64) else { continue };
-        outside(owner, TypeId(id), definition, (*base, width), fields, diagnostics);
+        outside((&places, TypeId(id)), definition, (*base, width), fields, diagnostics);
         overlaps(definition, fields, diagnostics);
         unnamed(owner, definition, width, fields, diagnostics);
     }
@@ -39,8 +40,7 @@ pub(super) fn mask(field: &BitFieldEntry) -> u64 {
 }
 
 fn outside(
-    owner: Owner<'_>,
-    id: TypeId,
+    (places, id): (&Places<'_>, TypeId),
     definition: &TypeDef,
     (base, width): (Type, u32),
     fields: &[BitFieldEntry],
@@ -53,22 +53,19 @@ fn outside(
         others => format!(", and {others} more fields reach further too"),
     };
     let message = format!("{base} has {width} bits, and `{}` names {}{others}", brief(&definition.name), called(first));
-    let found = Diagnostic::new(&codes::BIT_OUTSIDE_TYPE, owner.place(id), message);
+    let found = Diagnostic::new(&codes::BIT_OUTSIDE_TYPE, places.of(id), message);
     let found = found.note_at(first.at.0.or(definition.origin.span), "the bits are named here");
     diagnostics.push(found.help("the type is too short, or the bits are counted from 1"));
 }
 
+/// Of each field, the first one above it with which it shares bits: all pairs would be too many, and each field is named so.
 fn overlaps(definition: &TypeDef, fields: &[BitFieldEntry], diagnostics: &mut Diagnostics) {
-    for (at, one) in fields.iter().enumerate() {
-        for other in fields.iter().skip(at + 1) {
-            if mask(one) & mask(other) != 0 && !told_apart(one, other) {
-                let message =
-                    format!("{} and {} of `{}` share bits", called(one), called(other), brief(&definition.name));
-                let found = Diagnostic::new(&codes::BITS_OVERLAP, other.at.0.or(definition.origin.span), message);
-                diagnostics
-                    .push(found.help("bits of several meanings have a `when`, `since`, `until` or `models` in each"));
-            }
-        }
+    for (at, other) in fields.iter().enumerate() {
+        let clashes = |one: &&BitFieldEntry| mask(one) & mask(other) != 0 && !told_apart(one, other);
+        let Some(one) = fields.iter().take(at).find(clashes) else { continue };
+        let message = format!("{} and {} of `{}` share bits", called(one), called(other), brief(&definition.name));
+        let found = Diagnostic::new(&codes::BITS_OVERLAP, other.at.0.or(definition.origin.span), message);
+        diagnostics.push(found.help("bits of several meanings have a `when`, `since`, `until` or `models` in each"));
     }
 }
 
@@ -176,6 +173,14 @@ mod tests {
         assert_eq!(found(vec![field("all but two", 2, 6)]), ["`Status` says nothing of the bits 0, 1"]);
         assert_eq!(mask(&field("", 0, 64)), u64::MAX);
         assert_eq!(mask(&field("", 63, 1)), 1 << 63);
+    }
+
+    #[test]
+    fn a_field_is_told_once_however_many_share_its_bits() {
+        let fields = (0..5_000).map(|number| field(&number.to_string(), 0, 8)).collect();
+        let found = found(fields);
+        assert_eq!(found.len(), 4_999);
+        assert_eq!(found[4_998], "bits 7-0 (`0`) and bits 7-0 (`4999`) of `Status` share bits");
     }
 
     #[test]

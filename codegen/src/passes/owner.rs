@@ -61,12 +61,35 @@ impl<'a> Owner<'a> {
             _ => None,
         }
     }
+}
+
+/// Where types are used. The list is made when it is first asked for: most types are as they should be.
+pub(super) struct Places<'a> {
+    first: OnceCell<HashMap<TypeId, Span>>,
+    owner: Owner<'a>,
+}
+
+impl<'a> Places<'a> {
+    pub fn new(owner: Owner<'a>) -> Self {
+        Places { first: OnceCell::new(), owner }
+    }
 
     /// Where a type is used first, else where it is defined.
-    pub fn place(self, id: TypeId) -> Span {
-        let user = self.items().find(|item| item.ty == Type::Named(id));
-        let defined = self.types.get(id.0 as usize).map(|definition| definition.origin.span).unwrap_or_default();
-        user.map_or(defined, |item| item.at.ty.or(item.origin.span))
+    pub fn of(&self, id: TypeId) -> Span {
+        let defined = || self.owner.types.get(id.0 as usize).map(|definition| definition.origin.span);
+        self.first().get(&id).copied().or_else(defined).unwrap_or_default()
+    }
+
+    fn first(&self) -> &HashMap<TypeId, Span> {
+        self.first.get_or_init(|| {
+            let mut first = HashMap::new();
+            for item in self.owner.items() {
+                if let Type::Named(id) = item.ty {
+                    first.entry(id).or_insert(item.at.ty.or(item.origin.span));
+                }
+            }
+            first
+        })
     }
 }
 
@@ -86,13 +109,18 @@ impl<'a> Index<'a> {
         self.owner.groups.iter().flat_map(|groups| groups.iter())
     }
 
-    /// Of the items that share a name, the first counts. An object of one value goes by the object's name too.
+    /// Of the items that share a name, the first counts. An object of one value goes by the object's name too; a record and a
+    /// chapter are none of their values.
     fn names(&self) -> &HashMap<&'a str, &'a Item> {
         self.names.get_or_init(|| {
             let own = self.groups().flat_map(|group| group.items.iter().map(|item| (item.name.as_str(), item)));
-            let first = self.groups().filter_map(|group| Some((group.name.as_str(), group.items.first()?)));
+            let objects = self.groups().filter(|group| group.index().is_some());
+            let only = objects.filter_map(|group| match group.items.as_slice() {
+                [item] => Some((group.name.as_str(), item)),
+                _ => None,
+            });
             let mut names = HashMap::new();
-            for (name, item) in own.chain(first).filter(|(name, _)| !name.is_empty()) {
+            for (name, item) in own.chain(only).filter(|(name, _)| !name.is_empty()) {
                 names.entry(name).or_insert(item);
             }
             names
@@ -111,7 +139,7 @@ impl<'a> Index<'a> {
         by_name().or_else(by_object).or_else(|| self.groups().find_map(|group| group.by_path(name)))
     }
 
-    /// Whether there is an object with this index.
+    /// The indices of all objects that have a value.
     pub fn indices(&self) -> HashSet<u16> {
         self.objects().keys().map(|(index, _)| *index).collect()
     }
@@ -139,4 +167,46 @@ pub(super) fn reserved(labels: &[EnumValue], value: i128) -> Option<bool> {
 pub(super) fn fixed(item: &Item) -> Option<i128> {
     let low = item.limits.low.as_ref().and_then(Value::as_int)?;
     (item.limits.high.as_ref().and_then(Value::as_int) == Some(low)).then_some(low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ir::{Binding, GroupKind, ObjectCode};
+
+    fn object(index: u16, name: &str, values: &[&str]) -> Group {
+        let mut group = Group::object(index, ObjectCode::Record);
+        group.name = name.into();
+        for (sub, name) in (0..).zip(values) {
+            let mut item = Item::new(Binding::canopen(index, sub));
+            item.name = (*name).into();
+            group.items.push(item);
+        }
+        group
+    }
+
+    #[test]
+    fn an_object_of_one_value_goes_by_its_name_and_nothing_else_does() {
+        let chapter = Group { kind: GroupKind::Chapter, ..object(0x2002, "Chapter", &["Only"]) };
+        let groups = [object(0x2000, "Speed", &["Value"]), object(0x2001, "Gains", &["Count", "P"]), chapter];
+        let all = [groups.as_slice()];
+        let index = Index::new(Owner { types: &[], groups: &all });
+        assert_eq!(index.find("Speed").map(|item| item.name.as_str()), Some("Value"));
+        assert_eq!(index.find("Gains/P").map(|item| item.name.as_str()), Some("P"));
+        assert!(index.find("Gains").is_none() && index.find("Chapter").is_none());
+        assert_eq!(index.indices(), HashSet::from([0x2000, 0x2001, 0x2002]));
+    }
+
+    #[test]
+    fn a_type_is_where_it_is_used_first() {
+        let mut groups = [object(0x2000, "Speed", &["a"]), object(0x2001, "Limit", &["b"])];
+        for (group, at) in groups.iter_mut().zip([5, 9]) {
+            group.items[0].ty = Type::Named(TypeId(0));
+            group.items[0].at.ty = Span::new(crate::source::FileId(0), at, at + 1);
+        }
+        let all = [groups.as_slice()];
+        let owner = Owner { types: &[], groups: &all };
+        assert_eq!(Places::new(owner).of(TypeId(0)).start, 5);
+        assert_eq!(Places::new(owner).of(TypeId(1)), Span::default());
+    }
 }

@@ -2,16 +2,17 @@
 //! integer below and against each other.
 
 use super::firmware_comparable::apart;
-use super::owner::Owner;
+use super::owner::{Owner, Places};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{CodeTable, EnumValue, Shape, Type, TypeDef, TypeId};
 use crate::source::Span;
 use crate::text::brief;
 
 pub(super) fn run(owner: Owner<'_>, diagnostics: &mut Diagnostics) {
+    let places = Places::new(owner);
     for (definition, id) in owner.types.iter().zip(0..) {
         let Shape::Enumeration { base, values, .. } = &definition.shape else { continue };
-        outside(owner, TypeId(id), definition, *base, values, diagnostics);
+        outside((&places, TypeId(id)), definition, *base, values, diagnostics);
         let mut sorted: Vec<&EnumValue> = values.iter().collect();
         sorted.sort_by_key(|value| value.value);
         let told_apart =
@@ -67,8 +68,7 @@ fn report(owner: &str, span: Span, names: [(i128, Option<i128>, &str); 2], diagn
 }
 
 fn outside(
-    owner: Owner<'_>,
-    id: TypeId,
+    (places, id): (&Places<'_>, TypeId),
     definition: &TypeDef,
     base: Type,
     values: &[EnumValue],
@@ -83,7 +83,7 @@ fn outside(
     };
     let value = if first.value < low { first.value } else { first.last.unwrap_or(first.value) };
     let message = format!("{base} is never {value} (`{}`{others})", brief(&first.name));
-    let found = Diagnostic::new(&codes::NAME_OUTSIDE_TYPE, owner.place(id), message);
+    let found = Diagnostic::new(&codes::NAME_OUTSIDE_TYPE, places.of(id), message);
     let found = found.note_at(first.at.0.or(definition.origin.span), "the values are named here");
     diagnostics.push(match (base, value) {
         (Type::Unsigned(bits), ..0) => found.help(format!("is the type `i{bits}`?")),

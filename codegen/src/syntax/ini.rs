@@ -1,9 +1,9 @@
 //! The lexer of EDS and DCF files.
 //!
 //! A [`Document`] knows where the sections of a text are; the lines of one are taken apart when they are asked for, without an
-//! allocation a line, so that a file of any length costs no more memory than a list of its sections. All parts are spans into the
-//! text. What a line breaks of the grammar is noted as an [`Oddity`] and read all the same. Case, numbers and meaning are the
-//! front end's.
+//! allocation a line. What it keeps is a list of the sections, the comments above the first of them, and what is odd. All parts are
+//! spans into the text. What a line breaks of the grammar is noted as an [`Oddity`] and read all the same. Case, numbers and
+//! meaning are the front end's.
 
 use std::cell::{Cell, RefCell};
 
@@ -77,7 +77,7 @@ const AT_ONCE: usize = 32;
 impl<'a> Document<'a> {
     /// Finds the sections of `text`.
     pub fn parse(text: &'a str, file: FileId) -> Self {
-        // An editor of old ends a text with Ctrl-Z; everything from it on is no text.
+        // An editor of old ends a text with Ctrl-Z, or fills the rest of a block with zeros.
         let end = text.trim_end_matches(['\u{1a}', '\0', '\r', '\n', ' ', '\t']).len();
         let mut document = Document {
             text,
@@ -108,6 +108,17 @@ impl<'a> Document<'a> {
     pub fn entries(&self, section: &Section) -> Entries<'_> {
         let lines = Lines { at: section.body.0 as usize, end: section.body.1 as usize, line: section.line + 1 };
         Entries { document: self, lines, comment: section.comment, number: Some(section.number), odd: Vec::new() }
+    }
+
+    /// Entries and comments of several sections, one after another.
+    pub fn entries_of<'s>(&'s self, sections: &'s [Section]) -> impl Iterator<Item = Entry> + 's {
+        sections.iter().flat_map(|section| self.entries(section))
+    }
+
+    /// Whether two places lie in the same section, with no header between them.
+    pub fn is_same_section(&self, one: Span, other: Span) -> bool {
+        let above = |place: Span| self.sections.partition_point(|section| section.name.0 <= place.start);
+        above(one) == above(other)
     }
 
     /// Number of entries and comments in all sections.
@@ -468,6 +479,15 @@ mod tests {
         );
         assert_eq!(odd(&format!("[A]\nx={}", "é".repeat(254))), [Oddity::LongLine]);
         assert_eq!(odd(&format!("[A]\nx={}", "é".repeat(253))), []);
+    }
+
+    #[test]
+    fn places_are_in_a_section() {
+        let document = Document::parse("[A]\na=1\na=2\n[A]\na=3", FileId(0));
+        let values = document.entries_of(document.sections()).map(|entry| document.value_span(&entry));
+        let values: Vec<Span> = values.collect();
+        assert_eq!(values.len(), 3);
+        assert!(document.is_same_section(values[0], values[1]) && !document.is_same_section(values[1], values[2]));
     }
 
     #[test]

@@ -140,6 +140,21 @@ fn e65_unknown_keys() {
 }
 
 #[test]
+fn e65_one_unknown_key_in_several_sections() {
+    let checked = read(&format!("{}Unit=V\n[2000ObjectLinks]\nObjectLinks=0\nUnit=V\n", var(U8, "")));
+    let units = checked.group(0x2000).extensions.iter().filter(|extension| extension.key == "Unit");
+    assert_eq!((units.count(), checked.codes()), (2, vec![]));
+    let twice = read(&var(U8, "Unit=V\nunit=A"));
+    assert_eq!(twice.places("EDS008"), [(7, 1)]);
+    assert_eq!(twice.only("EDS008").label, "both are kept");
+    let device = format!("{DEVICE}ProductVersion=1\nProductVersion=2\nNrOfRXPDO=0\nNrOfTXPDO=0\n");
+    assert_eq!(read(&device).codes(), ["EDS008"]);
+    let module = "[M1ModuleInfo]\nProductName=A\n[M1FixedObjects]\nNrOfEntries=0\nFoo=1\n\
+                  [M1SubExtends]\nNrOfEntries=0\nFoo=1\n";
+    assert_eq!(read(&format!("[SupportedModules]\nNrOfEntries=1\n{module}")).codes(), [""; 0]);
+}
+
+#[test]
 fn e65_unknown_sections() {
     let checked = read("[Vendor stuff]\nColour=grün\n; painted\n[Tools]\nItems=0\n");
     assert_eq!(checked.extension("Vendor stuff/Colour"), Some("grün"));
@@ -286,6 +301,24 @@ fn e71_modules() {
 }
 
 #[test]
+fn e71_extension_of_another_type() {
+    let device = format!("{DEVICE}NrOfRXPDO=0\nNrOfTXPDO=0\n[SupportedModules]\nNrOfEntries=1\n");
+    let module = "[M1ModuleInfo]\nProductName=A\n[M1SubExtends]\nNrOfEntries=1\n1=0x6000\n\
+                  [M1SubExt6000]\nParameterName=Input\nCount=1\n";
+    let extended = |more: &str| read_with(&format!("{device}{module}{more}"), &["not-allowed-entry"]);
+    let template =
+        |checked: &Checked| checked.0.catalog.as_ref().unwrap().modules[0].sub_extensions[0].template.clone();
+    let domain = extended("ObjectType=2\n");
+    assert_eq!((template(&domain).ty, domain.codes()), (Type::Domain, vec![]));
+    let others = extended("ObjectType=0x8\nSubNumber=3\nCompactSubObj=4\nDataType=5\nAccessType=ro\n");
+    assert_eq!(template(&others).ty, Type::Unsigned(8));
+    assert_eq!(value_of(&template(&others).extensions, "SubNumber"), Some("3"));
+    assert_eq!(value_of(&template(&others).extensions, "CompactSubObj"), Some("4"));
+    assert_eq!(others.codes(), ["EDS067", "EDS070", "EDS070"]);
+    assert_eq!((others.places("EDS067"), others.places("EDS070")), (vec![(19, 12)], vec![(20, 1), (21, 1)]));
+}
+
+#[test]
 fn e71_connected_modules() {
     let checked = read_dcf("[ConnectedModules]\nNrOfEntries=2\n1=4\n2=7\nSlots=3\n");
     let own = checked.device().commissioning.as_ref().unwrap();
@@ -414,6 +447,14 @@ fn e78_ethernet_ip_eds() {
     assert_eq!(found.severity, Severity::Error);
     let empty = check(Source::new("pump.eds", b"[Tools]\n".to_vec()), &Options::default());
     assert_eq!(empty.diagnostics.list()[0].code.id, "EDS002");
+}
+
+#[test]
+fn e78_headers_without_their_first_bracket() {
+    let text = "FileInfo]\nFileName=a\n1000]\nObjectType=7\n";
+    let compilation = check(Source::new("x.eds", text.into()), &Options::default());
+    let codes: Vec<&str> = compilation.diagnostics.list().iter().map(|found| found.code.id).collect();
+    assert_eq!(codes, ["EDS002", "EDS003", "EDS004", "EDS003", "EDS004"], "and why it is none");
 }
 
 /// Names of the methods that take a client's device to an object or to an entry.

@@ -101,6 +101,44 @@ fn e27_repeated_sub_section_and_header_section() {
 }
 
 #[test]
+fn e27_repeated_sections_of_the_header_are_one() {
+    let checked = read_dcf(
+        "[FileInfo]\nFileName=a\nAuthor=me\n[DeviceInfo]\nVendorName=Maker\nVendorNumber=1\n\
+         [FileInfo]\nFileVersion=1\nFileRevision=1\nEDSVersion=4.0\nReviewer=you\n\
+         [DeviceInfo]\nProductName=Pump\nProductNumber=2\nRevisionNumber=3\n\
+         [DummyUsage]\nDummy0007=1\nDummy0005=1\n[DummyUsage]\nDummy0007=0\n\
+         [Comments]\nLines=1\nLine1=first\n[Comments]\nLines=1\nLine1=last\n\
+         [ConnectedModules]\nNrOfEntries=1\n1=4\n[ConnectedModules]\n1=7\n\
+         [DynamicChannels]\nNrOfSeg=1\nType1=5\nDir1=rww\n[DynamicChannels]\nType1=7\n\
+         [2000]\nParameterName=Speed\nDataType=0x0005\nAccessType=rw\n\
+         [2000ObjectLinks]\nObjectLinks=1\n1=0x1000\n[2000ObjectLinks]\n1=0x1001\n",
+    );
+    let device = checked.device();
+    let canopen = device.canopen.as_ref().unwrap();
+    assert_eq!((device.header.file_version.as_str(), device.name.as_str()), ("1", "Pump"));
+    assert_eq!(canopen.dummies, [5]);
+    assert_eq!(device.header.comments, ["last"]);
+    assert_eq!(device.commissioning.as_ref().unwrap().connected_modules, [7]);
+    let channels: Vec<_> = canopen.dynamic_channels.iter().map(|own| (own.data_type, own.direction.as_str())).collect();
+    assert_eq!(channels, [(7, "rww")]);
+    assert_eq!(checked.group(0x2000).links, [0x1001]);
+    let lines = |code| checked.places(code).iter().map(|place| place.0).collect::<Vec<_>>();
+    assert_eq!(lines("EDS007"), [7, 12, 19, 24, 30, 36, 45]);
+    assert_eq!(lines("EDS008"), [20, 25, 26, 31, 37, 46]);
+    assert_eq!(checked.codes().len(), 13, "{:?}", checked.codes());
+    let kept: Vec<_> = device.extensions.iter().map(|own| own.key.as_str()).collect();
+    assert_eq!(kept, ["FileInfo/Author", "FileInfo/Reviewer"]);
+}
+
+#[test]
+fn e27_every_repetition_is_told_however_many_sections_there_are() {
+    let repeated = "[DummyUsage]\n".repeat(20) + "[Comments]\nLines=0\n[Comments]\n";
+    let checked = read(&repeated);
+    assert_eq!(checked.places("EDS007").last(), Some(&(23, 2)));
+    assert_eq!(checked.codes(), ["EDS007"; 20]);
+}
+
+#[test]
 fn e28_repeated_key() {
     let checked = read(&var(U8, "DefaultValue=1\ndefaultvalue=2"));
     assert_eq!(checked.default(0x2000, 0), Some(Value::Int(2)));

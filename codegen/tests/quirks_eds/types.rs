@@ -97,6 +97,17 @@ fn e56_booleans_times_and_unknown_types() {
 }
 
 #[test]
+fn e56_numbers_that_are_no_code() {
+    for (code, found) in [("-1", "EDS036"), ("0x100000007", "EDS036"), ("$NODEID+7", "EDS036"), ("UNSIGNED8", "EDS022")]
+    {
+        let checked = read(&format!("[2000]\nParameterName=Speed\nObjectType=7\nDataType={code}\nAccessType=rw\n"));
+        let item = checked.item(0x2000, 0);
+        assert_eq!((item.ty, item.access), (Type::Opaque(None), Access::ReadOnly), "{code}");
+        assert_eq!((checked.codes(), checked.places(found)), (vec![found], vec![(4, 10)]), "{code}");
+    }
+}
+
+#[test]
 fn e57_type_of_the_file() {
     let deftype = |more: &str| {
         read(&format!(

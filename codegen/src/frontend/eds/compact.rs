@@ -1,14 +1,12 @@
 //! CompactSubObj: many equal sub-indices described at once, and the sections that refine single ones.
 
 use super::lists;
-use super::object::Raw;
+use super::object::{Raw, OF_A_VALUE};
 use super::reader::Reader;
 use super::sections::Refinement;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::value::Role;
-use crate::ir::{
-    Access, Binding, CompactString, Configured, Extension, Extensions, Group, Item, ObjectCode, Type, Value,
-};
+use crate::ir::{Access, Binding, CompactString, Configured, Extensions, Group, Item, ObjectCode, Type, Value};
 use crate::limits;
 use crate::syntax::ini::{Entry, Section};
 
@@ -38,14 +36,25 @@ pub(super) fn expand(reader: &mut Reader<'_, '_>, group: &mut Group, raw: &Raw, 
     // All elements share what the object says: it is read, and reported on, once.
     let template = reader.item(index, 1, raw, ObjectCode::Array);
     group.flags = template.flags;
-    for sub in (1..=count).filter(|&sub| missing(sub)) {
-        let mut item = template.clone();
-        item.bindings[0] = Binding::canopen(index, sub);
-        item.name = compact_str::format_compact!("{}{sub}", group.name);
-        item.at.name = group.name_at;
-        group.items.push(item);
+    let bytes = copied(reader, raw, &template) + group.name.len();
+    let bytes = bytes.saturating_mul(count.into());
+    if reader.may_copy(bytes, raw.origin.span) {
+        for sub in (1..=count).filter(|&sub| missing(sub)) {
+            let mut item = template.clone();
+            item.bindings[0] = Binding::canopen(index, sub);
+            item.name = compact_str::format_compact!("{}{sub}", group.name);
+            item.at.name = group.name_at;
+            group.items.push(item);
+        }
     }
     group.items.sort_by_key(|item| item.object().map(|(_, sub)| sub));
+}
+
+/// Bytes of text that each element copies from what the object says.
+fn copied(reader: &Reader<'_, '_>, raw: &Raw, template: &Item) -> usize {
+    let values = OF_A_VALUE.iter().filter_map(|&key| raw.get(key)).map(|entry| reader.doc.value(entry).len());
+    let kept = template.extensions.iter().map(|extension| extension.key.len() + extension.value.len());
+    values.chain(kept).sum()
 }
 
 /// Applies `[xxxxName]`, `[xxxxValue]` and `[xxxxDenotation]`: their keys are decimal sub-indices.
@@ -76,7 +85,7 @@ fn nothing_to_refine(
     entry: &Entry,
     extensions: &mut Extensions,
 ) {
-    let (name, key) = (reader.doc.name(section), reader.doc.key(entry));
+    let key = reader.doc.key(entry);
     reader.diagnostics.push(
         Diagnostic::new(
             &codes::NAME_WITHOUT_SUB,
@@ -86,8 +95,7 @@ fn nothing_to_refine(
         .label("kept as an extension attribute")
         .help("the keys of this section are sub-indices in decimal"),
     );
-    let key = compact_str::format_compact!("{name}/{key}");
-    extensions.push(Extension { key, value: reader.doc.value(entry).into(), span: reader.doc.value_span(entry) });
+    reader.foreign(section, entry, extensions);
 }
 
 fn apply(reader: &mut Reader<'_, '_>, item: &mut Item, refinement: Refinement, entry: &Entry) {

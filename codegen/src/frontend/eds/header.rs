@@ -13,51 +13,55 @@ use crate::syntax::ini::{Entry, Section};
 
 /// Fills `device` from its header sections and returns what the object lists say.
 pub(super) fn read(reader: &mut Reader<'_, '_>, header: &[(Kind, Section)], device: &mut Device) -> Lists {
-    report_repeated(reader, header);
-    report_missing(reader, header);
+    let header = by_kind(header);
+    report_missing(reader, &header);
     let mut lists = Lists::default();
     let mut canopen = CanOpenSettings::default();
-    for (kind, section) in header {
+    let kept_before = device.extensions.len();
+    for (kind, sections) in &header {
+        reader.duplicate_sections(sections);
         let kept_before = device.extensions.len();
         match kind {
-            Kind::FileInfo => file_info(reader, section, device),
-            Kind::DeviceInfo => device_info(reader, section, device, &mut canopen),
-            Kind::DummyUsage => dummy_usage(reader, section, device, &mut canopen),
-            Kind::Comments => comments(reader, section, &mut device.header.comments, &mut device.extensions),
-            Kind::List(list) => lists.read(reader, *list, section, device),
-            Kind::Commissioning => commissioning(reader, section, device),
-            Kind::SupportedModules => Lists::supported_modules(reader, section, device),
-            Kind::ConnectedModules => connected_modules(reader, section, device),
-            Kind::DynamicChannels => dynamic_channels(reader, section, device, &mut canopen),
+            Kind::FileInfo => file_info(reader, sections, device),
+            Kind::DeviceInfo => device_info(reader, sections, device, &mut canopen),
+            Kind::DummyUsage => dummy_usage(reader, sections, device, &mut canopen),
+            Kind::Comments => comments(reader, sections, &mut device.header.comments, &mut device.extensions),
+            Kind::List(list) => lists.read(reader, *list, sections, device),
+            Kind::Commissioning => commissioning(reader, sections, device),
+            Kind::SupportedModules => Lists::supported_modules(reader, sections, device),
+            Kind::ConnectedModules => connected_modules(reader, sections, device),
+            Kind::DynamicChannels => dynamic_channels(reader, sections, device, &mut canopen),
             _ => {}
         }
         reader.take_comments(&mut device.extensions);
         name_section(*kind, &mut device.extensions[kept_before..]);
     }
+    in_order_of_file(&mut device.extensions[kept_before..]);
     device.name = device.identity.product_name.clone();
     device.canopen = Some(Box::new(canopen));
     lists
 }
 
-/// Puts the name of their section before the keys of extensions, as `section/key`, and them in the order of the file.
+/// The sections of each kind, which are one section that the file repeats, by where the first of them stands.
+fn by_kind(header: &[(Kind, Section)]) -> Vec<(Kind, Vec<Section>)> {
+    let mut kinds: Vec<(Kind, Vec<Section>)> = Vec::new();
+    for (kind, section) in header {
+        match kinds.iter_mut().find(|(other, _)| other == kind) {
+            Some((_, same)) => same.push(*section),
+            None => kinds.push((*kind, vec![*section])),
+        }
+    }
+    kinds
+}
+
+/// Puts the name of their section before the keys of extensions, as `section/key`.
 fn name_section(kind: Kind, extensions: &mut [Extension]) {
     for extension in extensions.iter_mut() {
         extension.key = compact_str::format_compact!("{}/{}", kind.name(), extension.key);
     }
-    in_order_of_file(extensions);
 }
 
-fn report_repeated(reader: &mut Reader<'_, '_>, header: &[(Kind, Section)]) {
-    for (position, (kind, section)) in header.iter().enumerate().skip(1) {
-        // The kinds are few, so that a file of nothing but headers costs no more than their number each.
-        let first = header[..position.min(16)].iter().find(|(other, _)| other == kind);
-        if let Some((_, first)) = first {
-            reader.duplicate_sections(&[*first, *section]);
-        }
-    }
-}
-
-fn report_missing(reader: &mut Reader<'_, '_>, header: &[(Kind, Section)]) {
+fn report_missing(reader: &mut Reader<'_, '_>, header: &[(Kind, Vec<Section>)]) {
     let mandatory = [
         (Kind::FileInfo, "FileInfo"),
         (Kind::DeviceInfo, "DeviceInfo"),
@@ -97,9 +101,9 @@ const FILE_INFO: [&str; 12] = [
     "LastEDS",
 ];
 
-fn file_info(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device) {
+fn file_info(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Device) {
     let mut seen = [None; FILE_INFO.len()];
-    for ref entry in reader.doc.entries(section) {
+    for ref entry in reader.doc.entries_of(sections) {
         let Some(which) = position(&FILE_INFO, reader.doc.key(entry)) else {
             reader.extension(entry, &mut device.extensions);
             continue;
@@ -118,15 +122,21 @@ fn file_info(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device
         }
         *header_field(&mut device.header, which) = text.into();
     }
-    missing(reader, section, &FILE_INFO, &seen, &[0, 1, 2]);
-    old_version(reader, section, &device.header, seen[3].as_ref());
+    missing(reader, sections, &FILE_INFO, &seen, &[0, 1, 2]);
+    old_version(reader, sections, &device.header, seen[3].as_ref());
 }
 
 /// Reports which of the entries `mandatory` weren't seen.
-fn missing(reader: &mut Reader<'_, '_>, section: &Section, keys: &[&str], seen: &[Option<Entry>], mandatory: &[usize]) {
+fn missing(
+    reader: &mut Reader<'_, '_>,
+    sections: &[Section],
+    keys: &[&str],
+    seen: &[Option<Entry>],
+    mandatory: &[usize],
+) {
     for &which in mandatory {
         if seen[which].as_ref().is_none_or(|entry| reader.doc.value(entry).is_empty()) {
-            reader.missing_entry(section, keys[which]);
+            reader.missing_entry(sections, keys[which]);
         }
     }
 }
@@ -160,7 +170,7 @@ fn header_format(reader: &mut Reader<'_, '_>, entry: &Entry, which: usize) {
     reader.diagnostics.push(Diagnostic::new(&codes::HEADER_FORMAT, span, message).label("kept as text"));
 }
 
-fn old_version(reader: &mut Reader<'_, '_>, section: &Section, header: &Header, entry: Option<&Entry>) {
+fn old_version(reader: &mut Reader<'_, '_>, sections: &[Section], header: &Header, entry: Option<&Entry>) {
     let (version, given) = match header.format_version.as_str() {
         "" => ("3.0", false),
         version => (version, true),
@@ -168,7 +178,7 @@ fn old_version(reader: &mut Reader<'_, '_>, section: &Section, header: &Header, 
     if version.parse::<f64>().is_ok_and(|version| version < 4.0) {
         let (message, span) = match entry.filter(|_| given) {
             Some(entry) => (format!("the file is of EDS version {version}"), reader.doc.value_span(entry)),
-            None => ("the file has no EDSVersion, which means 3.0".to_owned(), reader.doc.name_span(section)),
+            None => ("the file has no EDSVersion, which means 3.0".to_owned(), reader.doc.name_span(&sections[0])),
         };
         reader.diagnostics.push(Diagnostic::new(&codes::OLD_EDS_VERSION, span, message));
     }
@@ -202,8 +212,8 @@ fn is_date(text: &str) -> bool {
 
 const BIT_RATES: [u16; 8] = [10, 20, 50, 125, 250, 500, 800, 1000];
 
-fn device_info(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device, canopen: &mut CanOpenSettings) {
-    const KEYS: [&str; 16] = [
+fn device_info(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Device, canopen: &mut CanOpenSettings) {
+    const KEYS: [&str; 15] = [
         "VendorName",
         "ProductName",
         "OrderCode",
@@ -219,11 +229,10 @@ fn device_info(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Devi
         "NrOfTXPDO",
         "LSS_Supported",
         "CompactPDO",
-        "ProductVersion",
     ];
     let mut seen = [None; KEYS.len()];
     let mut rates = [None; BIT_RATES.len()];
-    for ref entry in reader.doc.entries(section) {
+    for ref entry in reader.doc.entries_of(sections) {
         let key = reader.doc.key(entry);
         let Some(which) = position(&KEYS, key) else {
             if !bit_rate(reader, entry, &mut rates, canopen) {
@@ -259,11 +268,10 @@ fn device_info(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Devi
                 canopen.at.tx_pdos = reader.doc.value_span(entry);
             }
             13 => canopen.lss = reader.flag(entry),
-            14 => canopen.compact_pdo = reader.unsigned(entry, 0xFF).unwrap_or(0) as u8,
-            _ => reader.extension(entry, &mut device.extensions),
+            _ => canopen.compact_pdo = reader.unsigned(entry, 0xFF).unwrap_or(0) as u8,
         }
     }
-    missing(reader, section, &KEYS, &seen, &[0, 1, 3, 4]);
+    missing(reader, sections, &KEYS, &seen, &[0, 1, 3, 4]);
 }
 
 /// `BaudRate_250=1`; false for any other key.
@@ -299,11 +307,11 @@ fn granularity(reader: &mut Reader<'_, '_>, entry: &Entry) -> Option<u8> {
     Some(value as u8)
 }
 
-fn dummy_usage(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device, canopen: &mut CanOpenSettings) {
+fn dummy_usage(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Device, canopen: &mut CanOpenSettings) {
     canopen.dummies_given = true;
     let mut seen = [None; 256];
     let mut usage = [false; 256];
-    for ref entry in reader.doc.entries(section) {
+    for ref entry in reader.doc.entries_of(sections) {
         let Some(code) = dummy_code(reader.doc.key(entry)) else {
             reader.extension(entry, &mut device.extensions);
             continue;
@@ -311,9 +319,7 @@ fn dummy_usage(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Devi
         once(reader, &mut seen, usize::from(code), entry);
         usage[usize::from(code)] = reader.flag(entry);
     }
-    canopen.dummies.extend((0..=u8::MAX).filter(|&code| usage[usize::from(code)]));
-    canopen.dummies.sort_unstable();
-    canopen.dummies.dedup();
+    canopen.dummies = (0..=u8::MAX).filter(|&code| usage[usize::from(code)]).collect();
 }
 
 /// The data type of `Dummy0007`.
@@ -326,13 +332,13 @@ fn dummy_code(key: &str) -> Option<u8> {
 /// `LineN`, by number; a missing line is no line.
 pub(super) fn comments(
     reader: &mut Reader<'_, '_>,
-    section: &Section,
+    sections: &[Section],
     lines: &mut Vec<CompactString>,
     extensions: &mut Extensions,
 ) {
     let mut numbered: Vec<(u32, Entry)> = Vec::new();
     let mut count = None;
-    for ref entry in reader.doc.entries(section) {
+    for ref entry in reader.doc.entries_of(sections) {
         let key = reader.doc.key(entry);
         let digits = key.get(4..).filter(|_| key[..4].eq_ignore_ascii_case("Line"));
         match digits.and_then(|digits| digits.parse::<u32>().ok()) {
@@ -355,12 +361,12 @@ pub(super) fn comments(
     }
 }
 
-fn commissioning(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device) {
+fn commissioning(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Device) {
     const KEYS: [&str; 7] =
         ["NodeID", "NodeName", "Baudrate", "NetNumber", "NetworkName", "CANopenManager", "LSS_SerialNumber"];
     let mut seen = [None; KEYS.len()];
     let mut own = device.commissioning.take().unwrap_or_default();
-    for ref entry in reader.doc.entries(section) {
+    for ref entry in reader.doc.entries_of(sections) {
         let Some(which) = position(&KEYS, reader.doc.key(entry)) else {
             reader.extension(entry, &mut device.extensions);
             continue;
@@ -377,7 +383,7 @@ fn commissioning(reader: &mut Reader<'_, '_>, section: &Section, device: &mut De
             _ => own.lss_serial_number = reader.u32_of(entry),
         }
     }
-    missing(reader, section, &KEYS, &seen, &[0, 2]);
+    missing(reader, sections, &KEYS, &seen, &[0, 2]);
     device.identity.serial_number = own.lss_serial_number.filter(|&serial| serial != 0);
     device.commissioning = Some(own);
 }
@@ -393,9 +399,9 @@ fn node_id(reader: &mut Reader<'_, '_>, entry: &Entry) -> Option<u8> {
     Some(value as u8)
 }
 
-fn connected_modules(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device) {
+fn connected_modules(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Device) {
     let mut own = device.commissioning.take().unwrap_or_else(|| Box::new(Commissioning::default()));
-    for entry in lists::numbered(reader, section, "NrOfEntries", &mut device.extensions) {
+    for entry in lists::numbered(reader, sections, "NrOfEntries", &mut device.extensions) {
         if let Some(module) = reader.unsigned(&entry, 0xFFFF) {
             own.connected_modules.push(module as u16);
         }
@@ -406,14 +412,14 @@ fn connected_modules(reader: &mut Reader<'_, '_>, section: &Section, device: &mu
 /// Segments `TypeN`, `DirN`, `RangeN`, `PPOffsetN` (CiA 302-4, CiA 306-2).
 fn dynamic_channels(
     reader: &mut Reader<'_, '_>,
-    section: &Section,
+    sections: &[Section],
     device: &mut Device,
     canopen: &mut CanOpenSettings,
 ) {
     const FIELDS: [&str; 4] = ["Type", "Dir", "Range", "PPOffset"];
     let mut segments: BTreeMap<u32, [Option<Entry>; FIELDS.len()]> = BTreeMap::new();
     let mut count = None;
-    for ref entry in reader.doc.entries(section) {
+    for ref entry in reader.doc.entries_of(sections) {
         let key = reader.doc.key(entry);
         let split = key.len() - key.bytes().rev().take_while(u8::is_ascii_digit).count();
         match (position(&FIELDS, &key[..split]), key[split..].parse::<u32>()) {

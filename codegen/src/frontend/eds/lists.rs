@@ -11,14 +11,11 @@ use crate::syntax::ini::{Entry, Section};
 #[derive(Default)]
 pub(super) struct Lists {
     listed: Vec<(u16, List, Span)>,
-    /// Whether there is any list at all.
-    pub(super) given: bool,
 }
 
 impl Lists {
-    pub(super) fn read(&mut self, reader: &mut Reader<'_, '_>, list: List, section: &Section, device: &mut Device) {
-        self.given = true;
-        for entry in &numbered(reader, section, "SupportedObjects", &mut device.extensions) {
+    pub(super) fn read(&mut self, reader: &mut Reader<'_, '_>, list: List, sections: &[Section], device: &mut Device) {
+        for entry in &numbered(reader, sections, "SupportedObjects", &mut device.extensions) {
             if let Some(index) = reader.index_of(entry) {
                 self.listed.push((index, list, reader.doc.value_span(entry)));
             }
@@ -26,9 +23,9 @@ impl Lists {
         reader.take_comments(&mut device.extensions);
     }
 
-    pub(super) fn supported_modules(reader: &mut Reader<'_, '_>, section: &Section, device: &mut Device) {
+    pub(super) fn supported_modules(reader: &mut Reader<'_, '_>, sections: &[Section], device: &mut Device) {
         let mut earlier = None;
-        for entry in reader.doc.entries(section) {
+        for entry in reader.doc.entries_of(sections) {
             if reader.doc.key(&entry).eq_ignore_ascii_case("NrOfEntries") {
                 if let Some(earlier) = earlier.replace(entry) {
                     reader.duplicate_key(&earlier, &entry);
@@ -40,23 +37,24 @@ impl Lists {
             }
         }
         if earlier.is_none() {
-            reader.missing_entry(section, "NrOfEntries");
+            reader.missing_entry(sections, "NrOfEntries");
         }
     }
 }
 
-/// The entries `1=`, `2=` … of a list, of a repeated one the last, checked against the count that `count_key` gives.
+/// The entries `1=`, `2=` … of a list, of a repeated one the last, checked against the count that `count_key` gives. Sections of
+/// the same name are one list.
 pub(super) fn numbered(
     reader: &mut Reader<'_, '_>,
-    section: &Section,
+    sections: &[Section],
     count_key: &str,
     extensions: &mut Extensions,
 ) -> Vec<Entry> {
-    let (entries, count) = by_number(reader, section, count_key, |reader, entry| reader.extension(entry, extensions));
+    let (entries, count) = by_number(reader, sections, count_key, |reader, entry| reader.extension(entry, extensions));
     let agrees = match count {
         Some(count) => announced_count(reader, &count, entries.len()),
         None => {
-            reader.missing_entry(section, count_key);
+            reader.missing_entry(sections, count_key);
             true
         }
     };
@@ -78,6 +76,7 @@ pub(super) fn by_sub_index(
     section: &Section,
     others: impl FnMut(&mut Reader<'_, '_>, &Entry),
 ) -> Vec<(u32, Entry)> {
+    let section = std::slice::from_ref(section);
     let (entries, count) = by_number(reader, section, "NrOfEntries", others);
     match count {
         Some(count) => _ = announced_count(reader, &count, entries.len()),
@@ -90,14 +89,14 @@ pub(super) fn by_sub_index(
 /// `count_key`. All `others` are passed on.
 fn by_number(
     reader: &mut Reader<'_, '_>,
-    section: &Section,
+    sections: &[Section],
     count_key: &str,
     mut others: impl FnMut(&mut Reader<'_, '_>, &Entry),
 ) -> (Vec<(u32, Entry)>, Option<Entry>) {
     let doc = reader.doc;
     let mut entries: Vec<(u32, Entry)> = Vec::new();
     let mut count = None;
-    for entry in doc.entries(section) {
+    for entry in doc.entries_of(sections) {
         if let Some(number) = reader.key_number(&entry) {
             entries.push((number, entry));
         } else if doc.key(&entry).eq_ignore_ascii_case(count_key) {

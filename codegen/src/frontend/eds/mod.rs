@@ -25,7 +25,8 @@ use std::collections::HashSet;
 
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::frontend::canopen::deftype::defined_type;
-use crate::ir::{Catalog, Device, Extension, Extensions, Group, ObjectCode, Shape, TypeDef};
+use crate::ir::{Catalog, Device, Extensions, Group, ObjectCode, Shape, TypeDef};
+use crate::limits;
 use crate::source::{Encoding, FileId, Origin, Source, Span};
 use crate::syntax::ini::{Document, Oddity, Section};
 use object::ObjectSections;
@@ -47,6 +48,8 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
         orphan_sections: Vec::new(),
         announced_modules: None,
         derived_items: 0,
+        copies_left: source.text().len().saturating_mul(limits::MAX_COPIES_PER_BYTE),
+        copies_exceeded: false,
         comments: Extensions::new(),
         hex_flags: None,
     };
@@ -58,6 +61,8 @@ pub fn read(source: &Source, file: FileId, aliases: &[String], diagnostics: &mut
                     "an EDS has [FileInfo], [DeviceInfo], object lists, and a section for each object, such as [1000]",
                 ),
         );
+        // They may well be why.
+        report_oddities(&doc, diagnostics);
         return None;
     }
     let mut device = Device { origin: Origin { span: Span::new(file, 0, 0), line: 1 }, ..Device::default() };
@@ -212,12 +217,8 @@ fn unknown_sections(reader: &mut Reader<'_, '_>, unknown: &[Section], device: &m
     }
     let orphans = std::mem::take(&mut reader.orphan_sections);
     for section in unknown.iter().chain(&orphans) {
-        let name = reader.doc.name(section);
         for entry in reader.doc.entries(section) {
-            let key = if reader.doc.is_comment(&entry) { ";" } else { reader.doc.key(&entry) };
-            let key = compact_str::format_compact!("{name}/{key}");
-            let (value, span) = (reader.doc.value(&entry), reader.doc.value_span(&entry));
-            device.extensions.push(Extension { key, value: value.into(), span });
+            reader.foreign(section, &entry, &mut device.extensions);
         }
     }
 }

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use super::header;
 use super::lists;
-use super::object::{in_order_of_file, Key, ObjectSections, Raw};
+use super::object::{in_order_of_file, Key, ObjectSections, Raw, OF_MANY_VALUES};
 use super::reader::{Fixed, Reader};
 use super::sections::ModulePart;
 use crate::diagnostics::{codes, Diagnostic};
 use crate::frontend::canopen::number;
-use crate::ir::{Device, Group, Module, ObjectCode, SubExtension};
+use crate::ir::{Device, Group, Module, SubExtension};
 use crate::source::Span;
 use crate::syntax::ini::{Entry, Section};
 
@@ -65,9 +65,7 @@ fn module(reader: &mut Reader<'_, '_>, number: u32, mut parts: Parts, device: &D
     let mut module = Module { number, ..Module::default() };
     info(reader, &parts.info, &mut module);
     reader.duplicate_sections(&parts.comments);
-    for section in &parts.comments {
-        header::comments(reader, section, &mut module.comments, &mut module.extensions);
-    }
+    header::comments(reader, &parts.comments, &mut module.comments, &mut module.extensions);
     let fixed = announced(reader, &parts.fixed_list, &mut module);
     missing(reader, &fixed, |index| parts.fixed.contains_key(&index), |index| format!("[M{number}Fixed{index:04X}]"));
     for (&index, sections) in &mut parts.fixed {
@@ -128,14 +126,12 @@ fn info(reader: &mut Reader<'_, '_>, sections: &[Section], module: &mut Module) 
 fn announced(reader: &mut Reader<'_, '_>, sections: &[Section], module: &mut Module) -> BTreeMap<u16, Entry> {
     reader.duplicate_sections(sections);
     let mut indices = BTreeMap::new();
-    for section in sections {
-        for entry in lists::numbered(reader, section, "NrOfEntries", &mut module.extensions) {
-            let Some(index) = reader.index_of(&entry) else { continue };
-            if indices.insert(index, entry).is_some() {
-                let message = format!("0x{index:04X} is listed twice");
-                let span = reader.doc.value_span(&entry);
-                reader.diagnostics.push(Diagnostic::new(&codes::LISTED_TWICE, span, message));
-            }
+    for entry in lists::numbered(reader, sections, "NrOfEntries", &mut module.extensions) {
+        let Some(index) = reader.index_of(&entry) else { continue };
+        if indices.insert(index, entry).is_some() {
+            let message = format!("0x{index:04X} is listed twice");
+            let span = reader.doc.value_span(&entry);
+            reader.diagnostics.push(Diagnostic::new(&codes::LISTED_TWICE, span, message));
         }
     }
     reader.take_comments(&mut module.extensions);
@@ -179,8 +175,10 @@ fn clash(reader: &mut Reader<'_, '_>, group: &Group, device: &Device) {
 fn sub_extension(reader: &mut Reader<'_, '_>, index: u16, sections: &[Section]) -> SubExtension {
     reader.duplicate_sections(sections);
     let mut raw = reader.raw_with(sections, &["Count", "ObjExtend"]);
-    let mut template = reader.item(index, 1, &raw, ObjectCode::Var);
+    let code = reader.sub_code(&raw);
+    let mut template = reader.item(index, 1, &raw, code);
     reader.name(raw.get(Key::ParameterName), &mut template.name, &mut template.at.name);
+    reader.unused(&raw, &OF_MANY_VALUES, &mut template.extensions);
     template.extensions.append(&mut raw.extensions);
     let (count, per) = sub_count(reader, &raw);
     let extends_object = raw.more[1].is_some_and(|entry| obj_extend(reader, &entry));

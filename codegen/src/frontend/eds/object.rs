@@ -84,7 +84,7 @@ fn keyword(key: &str) -> Option<Key> {
 }
 
 /// Keywords of one value, which say nothing about an object whose values are its sub-indices.
-const OF_A_VALUE: [Key; 10] = [
+pub(super) const OF_A_VALUE: [Key; 10] = [
     Key::DataType,
     Key::AccessType,
     Key::DefaultValue,
@@ -98,7 +98,7 @@ const OF_A_VALUE: [Key; 10] = [
 ];
 
 /// Keywords of an object with sub-indices, which say nothing about one value.
-const OF_MANY_VALUES: [Key; 2] = [Key::SubNumber, Key::CompactSubObj];
+pub(super) const OF_MANY_VALUES: [Key; 2] = [Key::SubNumber, Key::CompactSubObj];
 
 /// The entries of a section, sorted into the keywords of an object.
 pub(super) struct Raw {
@@ -225,7 +225,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// Keeps entries that mean nothing where they stand, unless they are empty or 0.
-    fn unused(&mut self, raw: &Raw, keys: &[Key], extensions: &mut Extensions) {
+    pub(super) fn unused(&mut self, raw: &Raw, keys: &[Key], extensions: &mut Extensions) {
         for &key in keys {
             let Some(entry) = raw.get(key) else { continue };
             let (text, span) = (self.doc.value(entry), self.doc.value_span(entry));
@@ -290,7 +290,7 @@ impl<'a> Reader<'a, '_> {
     }
 
     /// What a sub-index is: a VAR, or a DOMAIN.
-    fn sub_code(&mut self, raw: &Raw) -> ObjectCode {
+    pub(super) fn sub_code(&mut self, raw: &Raw) -> ObjectCode {
         let Some(entry) = raw.get(Key::ObjectType) else { return ObjectCode::Var };
         let (text, span) = self.fixed(entry, Fixed::Number);
         if text.is_empty() {
@@ -416,11 +416,20 @@ impl<'a> Reader<'a, '_> {
         if text.is_empty() {
             return self.no_data_type(code, span);
         }
-        let number = self.converter().number(text, span).as_ref().and_then(Value::as_int);
-        Some(match number.and_then(|number| u32::try_from(number).ok()) {
-            Some(number) => self.type_by_code(number, span),
-            None => Type::Opaque(None),
-        })
+        // What is no number was reported as that.
+        let number = self.converter().number(text, span)?;
+        match number.as_int().and_then(|number| u32::try_from(number).ok()) {
+            Some(number) => Some(self.type_by_code(number, span)),
+            None => {
+                let message = format!("`{text}` is the code of no data type");
+                self.diagnostics.push(
+                    Diagnostic::new(&codes::UNKNOWN_DATA_TYPE, span, message)
+                        .label("kept read-only, as raw bytes")
+                        .help("write the code of a basic type, such as 0x0007 for UNSIGNED32"),
+                );
+                None
+            }
+        }
     }
 
     fn no_data_type(&mut self, code: ObjectCode, span: Span) -> Option<Type> {
@@ -557,12 +566,10 @@ impl<'a> Reader<'a, '_> {
 
     fn links(&mut self, group: &mut Group, sections: &[Section]) {
         self.duplicate_sections(sections);
-        for section in sections {
-            for entry in lists::numbered(self, section, "ObjectLinks", &mut group.extensions) {
-                if let Some(index) = self.index_of(&entry) {
-                    group.links.push(index);
-                    self.link_spans.push((index, self.doc.value_span(&entry)));
-                }
+        for entry in lists::numbered(self, sections, "ObjectLinks", &mut group.extensions) {
+            if let Some(index) = self.index_of(&entry) {
+                group.links.push(index);
+                self.link_spans.push((index, self.doc.value_span(&entry)));
             }
         }
         self.take_comments(&mut group.extensions);

@@ -22,6 +22,9 @@ pub(super) struct Reader<'a, 'd> {
     pub announced_modules: Option<(u32, Span)>,
     /// How many items were made from CompactSubObj and CompactPDO.
     pub derived_items: usize,
+    /// Bytes of text that may still be copied into elements that have no lines of their own.
+    pub copies_left: usize,
+    pub copies_exceeded: bool,
     /// Comments behind values, until the element that they belong to is complete and takes them.
     pub comments: Extensions,
     /// The first flag that is a hexadecimal number, and how many there are: tools write all or none so.
@@ -39,6 +42,10 @@ pub(super) enum Fixed {
 
 /// The key under which the IR keeps comments.
 const COMMENT: CompactString = CompactString::const_new(";");
+
+fn repeated(later: Span, key: &str) -> Diagnostic {
+    Diagnostic::new(&codes::DUPLICATE_KEY, later, format!("`{key}` occurs twice in this section"))
+}
 
 impl<'a, 'd> Reader<'a, 'd> {
     pub(super) fn converter(&mut self) -> Converter<'_> {
@@ -219,9 +226,13 @@ impl<'a, 'd> Reader<'a, 'd> {
             return;
         }
         let known = extensions.iter().rev().take(limits::MAX_COMPARED_EXTENSIONS);
-        if let Some(earlier) = known.into_iter().find(|other| other.key.eq_ignore_ascii_case(key)) {
-            let span = earlier.span;
-            self.duplicate(span, self.doc.key_span(entry), key);
+        let is_twice =
+            |other: &&Extension| other.key.eq_ignore_ascii_case(key) && self.doc.is_same_section(other.span, span);
+        if let Some(earlier) = known.into_iter().find(is_twice) {
+            let earlier = earlier.span;
+            self.diagnostics.push(
+                repeated(self.doc.key_span(entry), key).label("both are kept").note_at(earlier, "the first is here"),
+            );
         }
         if self.diagnostics.wants(&codes::UNKNOWN_KEY) {
             let message = format!("`{key}` is no key of CiA 306");
@@ -240,8 +251,9 @@ impl<'a, 'd> Reader<'a, 'd> {
         self.diagnostics.push(Diagnostic::new(&codes::MISSING_SECTION, Span::new(file, 0, 0), message));
     }
 
-    /// Reports that a section lacks a mandatory entry.
-    pub(super) fn missing_entry(&mut self, section: &Section, key: &str) {
+    /// Reports that a section, or several of the same name together, lack a mandatory entry.
+    pub(super) fn missing_entry(&mut self, sections: &[Section], key: &str) {
+        let Some(section) = sections.first() else { return };
         if self.diagnostics.wants(&codes::MISSING_ENTRY) {
             let message = format!("[{}] has no {key}", self.doc.name(section));
             let span = self.doc.name_span(section);
@@ -250,16 +262,8 @@ impl<'a, 'd> Reader<'a, 'd> {
     }
 
     pub(super) fn duplicate_key(&mut self, earlier: &Entry, later: &Entry) {
-        let key = self.doc.key(later);
-        self.duplicate(self.doc.value_span(earlier), self.doc.key_span(later), key);
-    }
-
-    pub(super) fn duplicate(&mut self, earlier: Span, later: Span, key: &str) {
-        self.diagnostics.push(
-            Diagnostic::new(&codes::DUPLICATE_KEY, later, format!("`{key}` occurs twice in this section"))
-                .label("this value is used")
-                .note_at(earlier, "and this one is not"),
-        );
+        let found = repeated(self.doc.key_span(later), self.doc.key(later)).label("this value is used");
+        self.diagnostics.push(found.note_at(self.doc.value_span(earlier), "and this one is not"));
     }
 
     pub(super) fn duplicate_sections(&mut self, same: &[Section]) {
@@ -271,6 +275,34 @@ impl<'a, 'd> Reader<'a, 'd> {
                     .note_at(self.doc.name_span(&same[0]), "the first is here"),
             );
         }
+    }
+
+    /// Keeps an entry of a section that has no meaning, as `section/key`.
+    pub(super) fn foreign(&mut self, section: &Section, entry: &Entry, extensions: &mut Extensions) {
+        let name = self.doc.name(section);
+        let key = if self.doc.is_comment(entry) { ";" } else { self.doc.key(entry) };
+        if self.may_copy(name.len(), self.doc.key_span(entry)) {
+            let key = compact_str::format_compact!("{name}/{key}");
+            let (value, span) = (self.doc.value(entry), self.doc.value_span(entry));
+            extensions.push(Extension { key, value: value.into(), span });
+        }
+    }
+
+    /// Whether another `bytes` of text may be copied. That they may not is told once.
+    pub(super) fn may_copy(&mut self, bytes: usize, span: Span) -> bool {
+        if let Some(left) = self.copies_left.checked_sub(bytes) {
+            self.copies_left = left;
+            return true;
+        }
+        if !std::mem::replace(&mut self.copies_exceeded, true) {
+            let message = "copies of the same texts would make the description many times longer";
+            self.diagnostics.push(
+                Diagnostic::new(&codes::INPUT_TOO_LARGE, span, message)
+                    .label("what would be copied is left out from here on")
+                    .help("shorten the name of the section, or the texts of the object with CompactSubObj"),
+            );
+        }
+        false
     }
 
     pub(super) fn too_many_derived(&mut self, span: Span) {

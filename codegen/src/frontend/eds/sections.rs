@@ -53,7 +53,7 @@ pub(super) enum ModulePart {
     SubExtension(u16),
 }
 
-const NAMED: [(&str, Kind); 13] = [
+const NAMED: [(&str, Kind); 12] = [
     ("FileInfo", Kind::FileInfo),
     ("DeviceInfo", Kind::DeviceInfo),
     ("DummyUsage", Kind::DummyUsage),
@@ -67,13 +67,12 @@ const NAMED: [(&str, Kind); 13] = [
     ("SupportedModules", Kind::SupportedModules),
     ("ConnectedModules", Kind::ConnectedModules),
     ("DynamicChannels", Kind::DynamicChannels),
-    ("Tools", Kind::Unknown),
 ];
 
 impl Kind {
     /// The name of a section that there is once; empty for all others.
     pub(super) fn name(self) -> &'static str {
-        NAMED.iter().find(|(_, kind)| *kind == self && self != Kind::Unknown).map_or("", |(name, _)| name)
+        NAMED.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
     }
 }
 

@@ -1,6 +1,6 @@
 //! An overlay, and the devices and modules that it is for.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use super::super::definitions::Kind;
 use super::super::format::AppliesTable;
@@ -12,7 +12,8 @@ use super::change::{Outcome, Place};
 use super::{item_name, name_conditions, Overlay, PatchRow, Target};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
 use crate::ir::{
-    Catalog, CodeTable, CompactString, Device, Group, Identity, Item, Module, ObjectBuses, Submodule, SubmoduleUse,
+    Catalog, CodeTable, CompactString, Device, Doubts, Group, Identity, Item, Module, ModuleId, ObjectBuses, Submodule,
+    SubmoduleId, SubmoduleUse, TypeDef,
 };
 use crate::selection::glob;
 use crate::source::{FileId, Source, Span};
@@ -72,25 +73,86 @@ impl<'o> Applied<'o> {
 
     /// The number of devices that it was applied to.
     fn devices(&mut self, reader: &mut Reader<'_, '_>, catalog: &mut Catalog, applies: &AppliesTable) -> usize {
+        let elsewhere = Elsewhere::new(catalog, applies);
         let Catalog { devices, submodules, types, .. } = catalog;
         let mut count = 0;
+        // Several devices may take a submodule, and it is changed once.
+        let mut done = HashSet::new();
         for device in devices.iter_mut().filter(|device| is_for(device, applies)) {
             count += 1;
             self.device(reader, device);
-            for own in &device.submodules {
+            for own in device.submodules.iter().filter(|own| done.insert(own.submodule)) {
                 if let Some(submodule) = submodules.get_mut(own.submodule.0 as usize) {
-                    self.place(reader, Place::of_submodule(submodule, types));
+                    if self.submodule(reader, submodule, types, &mut device.doubts) == Outcome::Changed {
+                        let other = elsewhere.submodules.get(&own.submodule);
+                        self.shared(reader, &submodule.name, other);
+                    }
                 }
             }
         }
         count
     }
 
+    fn submodule(
+        &mut self,
+        reader: &mut Reader<'_, '_>,
+        submodule: &mut Submodule,
+        types: &mut Vec<TypeDef>,
+        doubts: &mut Doubts,
+    ) -> Outcome {
+        let outcome = self.place(reader, Place::of_submodule(submodule, types));
+        self.resolve(reader, &mut submodule.records, types);
+        self.keep_doubts(doubts);
+        outcome
+    }
+
+    /// The objects of a module.
+    fn module(&mut self, reader: &mut Reader<'_, '_>, module: &mut Module, doubts: &mut Doubts) -> Outcome {
+        let buses = buses_of_module(module);
+        let Module { groups, fixed_objects, types, extensions, .. } = module;
+        let outcome = self.place(reader, Place { groups, types, extensions, buses });
+        let outcome = outcome.max(self.place(reader, Place { groups: fixed_objects, types, extensions, buses }));
+        // Modules of CiA 306 have the one, those of ETG.2000 the other: together they are as sorted as alone.
+        let own = groups.len();
+        groups.append(fixed_objects);
+        self.resolve(reader, groups, types);
+        *fixed_objects = groups.split_off(own);
+        self.keep_doubts(doubts);
+        outcome
+    }
+
+    /// Holds the names that rows and definitions gave against the items of the place to which they were applied.
+    fn resolve(&mut self, reader: &mut Reader<'_, '_>, groups: &mut Vec<Group>, types: &mut Vec<TypeDef>) {
+        let mut place = Device { groups: std::mem::take(groups), types: std::mem::take(types), ..Device::default() };
+        resolve(reader, &self.rows, &place);
+        (*groups, *types) = (std::mem::take(&mut place.groups), std::mem::take(&mut place.types));
+        self.rows.references.clear();
+        self.rows.definitions.mentioned.clear();
+    }
+
+    /// Doubts of definitions, once however many places use them.
+    fn keep_doubts(&mut self, kept: &mut Doubts) {
+        for doubt in std::mem::take(&mut self.rows.definitions.doubts) {
+            if !kept.contains(&doubt) {
+                kept.push(doubt);
+            }
+        }
+    }
+
+    /// Tells that what was changed is also a part of a device that the overlay isn't for.
+    fn shared(&self, reader: &mut Reader<'_, '_>, name: &str, other: Option<&CompactString>) {
+        let Some(other) = other else { return };
+        let (name, other) = (brief(name), brief(other));
+        let message = format!("`{name}` is also a part of `{other}`, which the overlay isn't for");
+        let found = Diagnostic::new(&codes::OVERLAY_SHARED, reader.span(&self.overlay.head), message);
+        reader.diagnostics.push(found.label("it is changed there, too"));
+    }
+
     fn device(&mut self, reader: &mut Reader<'_, '_>, device: &mut Device) {
         let buses = buses_of(device);
         let Device { groups, types, extensions, .. } = device;
         self.place(reader, Place { groups, types, extensions, buses });
-        device.doubts.append(&mut self.rows.definitions.doubts);
+        self.keep_doubts(&mut device.doubts);
         let patch = &self.overlay.patch;
         if let Some(axes) = &patch.axes {
             device::axes(reader, axes, device);
@@ -142,27 +204,35 @@ impl<'o> Applied<'o> {
         let parts = |own: &[SubmoduleUse]| -> Vec<usize> { own.iter().map(|own| own.submodule.0 as usize).collect() };
         let modules = catalog.modules.iter().enumerate().filter(|(place, _)| chosen(&wanted, *place));
         let of_modules: HashSet<usize> = modules.flat_map(|(_, module)| parts(&module.submodules)).collect();
-        let Catalog { modules, submodules, types, .. } = catalog;
-        let mut count = 0;
-        for (_, module) in modules.iter_mut().enumerate().filter(|(place, _)| chosen(&wanted, *place)) {
+        let elsewhere = Elsewhere::new(catalog, applies);
+        let Catalog { devices, modules, submodules, types, .. } = catalog;
+        let (mut count, mut doubts) = (0, Doubts::new());
+        for (place, module) in modules.iter_mut().enumerate().filter(|(place, _)| chosen(&wanted, *place)) {
             count += 1;
-            let buses = buses_of_module(module);
-            let Module { groups, fixed_objects, types, extensions, .. } = module;
-            self.place(reader, Place { groups, types, extensions, buses });
-            self.place(reader, Place { groups: fixed_objects, types, extensions, buses });
+            if self.module(reader, module, &mut doubts) == Outcome::Changed {
+                self.shared(reader, &module.name, elsewhere.modules.get(&ModuleId(place as u32)));
+            }
         }
         for (place, submodule) in submodules.iter_mut().enumerate() {
             let is_called = is_called(pattern, [&submodule.name, &submodule.id], submodule.ident);
             if of_modules.contains(&place) || (is_called && !says_device(applies)) {
                 count += 1;
-                self.place(reader, Place::of_submodule(submodule, types));
+                if self.submodule(reader, submodule, types, &mut doubts) == Outcome::Changed {
+                    self.shared(reader, &submodule.name, elsewhere.submodules.get(&SubmoduleId(place as u32)));
+                }
             }
+        }
+        // A module has no place for doubts: the devices that take it do, or all where none does.
+        let takes = |device: &Device| device.modules.iter().any(|own| chosen(&wanted, own.module.0 as usize));
+        let any_takes = devices.iter().any(|device| is_for(device, applies) && takes(device));
+        for device in devices.iter_mut().filter(|device| is_for(device, applies) && (takes(device) || !any_takes)) {
+            device.doubts.extend(doubts.iter().cloned());
         }
         count
     }
 
-    /// Applies the rows to the groups of a device, module or submodule.
-    fn place(&mut self, reader: &mut Reader<'_, '_>, mut place: Place<'_>) {
+    /// Applies the rows to the groups of a device, module or submodule; tells what came of the one that did most.
+    fn place(&mut self, reader: &mut Reader<'_, '_>, mut place: Place<'_>) -> Outcome {
         let items = place.groups.iter().flat_map(|group| &group.items);
         self.names.extend(items.map(|item| item.name.clone()));
         let made = place.types.len();
@@ -170,9 +240,11 @@ impl<'o> Applied<'o> {
         self.rows.definitions.made.clear();
         self.rows.buses = Buses { canopen: place.buses.canopen, ethercat: place.buses.coe, ..Buses::ALL };
         let overlay = self.overlay;
+        let mut best = Outcome::NoMatch;
         for (position, row) in overlay.patch.rows.iter().enumerate() {
             self.rows.allow(reader, &row.key, &row.row);
             let outcome = self.row(reader, &mut place, row);
+            best = best.max(outcome);
             if let Some(own) = self.outcomes.get_mut(position) {
                 *own = (*own).max(outcome);
             }
@@ -181,6 +253,7 @@ impl<'o> Applied<'o> {
         self.used.extend(names);
         *place.types = std::mem::take(&mut self.rows.definitions.types);
         name_conditions(place.groups, place.types.get_mut(made..).unwrap_or_default());
+        best
     }
 
     /// Tells of rows that match nothing or change nothing, and of definitions that nothing names.
@@ -243,8 +316,37 @@ impl<'o> Applied<'o> {
     }
 }
 
+/// What devices have that the overlay isn't for, each with the name of the first such device.
+struct Elsewhere {
+    modules: HashMap<ModuleId, CompactString>,
+    submodules: HashMap<SubmoduleId, CompactString>,
+}
+
+impl Elsewhere {
+    fn new(catalog: &Catalog, applies: &AppliesTable) -> Self {
+        let mut own = Elsewhere { modules: HashMap::new(), submodules: HashMap::new() };
+        for device in catalog.devices.iter().filter(|device| !is_for(device, applies)) {
+            own.submodules(&device.submodules, device);
+            for plugged in &device.modules {
+                let is_new = !own.modules.contains_key(&plugged.module);
+                if let Some(module) = catalog.modules.get(plugged.module.0 as usize).filter(|_| is_new) {
+                    own.modules.insert(plugged.module, device.name.clone());
+                    own.submodules(&module.submodules, device);
+                }
+            }
+        }
+        own
+    }
+
+    fn submodules(&mut self, uses: &[SubmoduleUse], device: &Device) {
+        for own in uses {
+            self.submodules.entry(own.submodule).or_insert_with(|| device.name.clone());
+        }
+    }
+}
+
 impl<'c> Place<'c> {
-    fn of_submodule(submodule: &'c mut Submodule, types: &'c mut Vec<crate::ir::TypeDef>) -> Self {
+    fn of_submodule(submodule: &'c mut Submodule, types: &'c mut Vec<TypeDef>) -> Self {
         let buses = ObjectBuses { canopen: false, coe: false };
         Place { groups: &mut submodule.records, types, extensions: &mut submodule.extensions, buses }
     }
@@ -258,8 +360,13 @@ fn merge(tables: &mut Vec<CodeTable>) {
         return;
     };
     let rows = own.rows.to_mut();
+    let mut known: HashMap<(i128, Option<i128>), usize> = HashMap::with_capacity(rows.len());
+    for (position, row) in rows.iter().enumerate() {
+        known.entry((row.code, row.last)).or_insert(position);
+    }
     for row in &last.rows {
-        match rows.iter_mut().find(|own| (own.code, own.last) == (row.code, row.last)) {
+        let position = *known.entry((row.code, row.last)).or_insert(rows.len());
+        match rows.get_mut(position) {
             Some(own) => *own = row.clone(),
             None => rows.push(row.clone()),
         }

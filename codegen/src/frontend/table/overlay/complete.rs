@@ -63,12 +63,13 @@ impl<'p> Completion<'p> {
     /// Completes a device.
     pub(crate) fn device(&mut self, device: &mut Device) {
         self.objects(&mut device.groups, &mut device.types, &mut device.process_data.pdos);
-        for table in &self.profile.codes {
+        for (table, doubts) in &self.profile.codes {
             if !device.code_tables.iter().any(|own| own.name == table.name) {
                 device.code_tables.push(table.clone());
+                device.doubts.extend(doubts.iter().cloned());
             }
         }
-        for machine in &self.profile.machines {
+        for (machine, doubts) in &self.profile.machines {
             let exists = |name: &CompactString| at_place(&device.groups, name).is_some();
             if !exists(&machine.status_item) || !exists(&machine.control_item) {
                 continue;
@@ -76,9 +77,19 @@ impl<'p> Completion<'p> {
             let status_item = item_name(&device.groups, &machine.status_item);
             if !device.machines.iter().any(|own| own.status_item == status_item) {
                 let control_item = item_name(&device.groups, &machine.control_item);
-                device.machines.push(StateMachine { status_item, control_item, ..machine.clone() });
+                let state_type = self.state_type(machine, &device.types);
+                device.machines.push(StateMachine { status_item, control_item, state_type, ..machine.clone() });
+                device.doubts.extend(doubts.iter().cloned());
             }
         }
+    }
+
+    /// The enumeration of the device that is the profile's own of the machine's states; without it, the states have a type of
+    /// their own.
+    fn state_type(&self, machine: &StateMachine, types: &[TypeDef]) -> Option<CompactString> {
+        let name = machine.state_type.as_ref()?;
+        let shape = |types: &'_ [TypeDef]| types.iter().find(|own| own.name == *name).map(|own| own.shape.clone());
+        (shape(&self.patch().types)? == shape(types)?).then(|| name.clone())
     }
 
     /// Completes the objects of a module.

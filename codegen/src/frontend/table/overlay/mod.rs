@@ -25,7 +25,7 @@ use super::spaces::Buses;
 use super::tree::Reader;
 use super::{code_tables, machines, Table};
 use crate::diagnostics::{codes, Diagnostic, Diagnostics};
-use crate::ir::{CodeTable, CompactString, Device, Group, Item, ObjectCode, StateMachine, Type};
+use crate::ir::{CodeTable, CompactString, Device, Doubts, Group, Item, ObjectCode, StateMachine, Type, TypeDef};
 use crate::limits::MAX_DERIVED_ITEMS;
 use crate::source::{FileId, Origin, Source, Span};
 use crate::text::brief;
@@ -36,6 +36,8 @@ struct Patch {
     rows: Vec<PatchRow>,
     /// Its definitions; no type is made of them yet.
     definitions: Definitions,
+    /// The types that they make, for machines whose states are the values of one.
+    types: Vec<TypeDef>,
     axes: Option<At<AxesTable>>,
     images: Vec<At<ImageTable>>,
     codes: Vec<(At<String>, CodesTable)>,
@@ -87,9 +89,11 @@ impl Patch {
         }
         let definitions = table.rows(reader, Buses::ALL).definitions;
         // Mistakes in them are told once, whatever uses them.
-        definitions.clone().make_unused(reader);
+        let mut made = definitions.clone();
+        made.make_unused(reader);
         Patch {
             definitions,
+            types: made.types,
             rows: rows(reader, table),
             axes: table.take(reader, "axes"),
             images: table.list(reader, "images"),
@@ -101,18 +105,25 @@ impl Patch {
         }
     }
 
-    /// Codes and state machines, as a device without anything has them; they stand nowhere in its description.
-    fn behaviour(&self, reader: &mut Reader<'_, '_>) -> (Vec<CodeTable>, Vec<StateMachine>) {
-        let mut device = Device::default();
+    /// Codes and state machines, each with its doubts, as a device has them that has nothing but the definitions; they stand
+    /// nowhere in its description.
+    fn behaviour(&self, reader: &mut Reader<'_, '_>) -> (Vec<Doubted<CodeTable>>, Vec<Doubted<StateMachine>>) {
+        let mut device = Device { types: self.types.clone(), ..Device::default() };
+        let mut tables = Vec::new();
         for (name, table) in &self.codes {
             code_tables::table(reader, name, table, &mut device);
+            device.code_tables.iter_mut().for_each(|own| own.origin = Origin::default());
+            let doubts = nowhere(&mut device.doubts);
+            tables.extend(device.code_tables.drain(..).map(|own| (own, doubts.clone())));
         }
-        device.code_tables.iter_mut().for_each(|own| own.origin = Origin::default());
+        let mut machines = Vec::new();
         for (name, table) in &self.machines {
             // Whether its items exist is another matter with each device.
             machines::machine(reader, name, table, &mut device, &mut Vec::new());
+            let doubts = nowhere(&mut device.doubts);
+            machines.extend(device.machines.drain(..).map(|own| (own, doubts.clone())));
         }
-        (device.code_tables, device.machines)
+        (tables, machines)
     }
 
     /// What rows need to be filled in.
@@ -130,6 +141,15 @@ impl Patch {
             repeats_left: Some(MAX_DERIVED_ITEMS),
         }
     }
+}
+
+/// A part of a profile, and its doubts.
+type Doubted<T> = (T, Doubts);
+
+/// Takes the doubts of a profile, whose file is none of a device's.
+fn nowhere(doubts: &mut Doubts) -> Doubts {
+    doubts.iter_mut().for_each(|doubt| doubt.origin = Origin::default());
+    std::mem::take(doubts)
 }
 
 /// The rows of all chapters, each with the defaults of its chapter.
@@ -203,8 +223,8 @@ pub(crate) struct Profile {
     pub when: Option<u16>,
     patch: Patch,
     /// Its codes and state machines, which are the same for every device.
-    codes: Vec<CodeTable>,
-    machines: Vec<StateMachine>,
+    codes: Vec<Doubted<CodeTable>>,
+    machines: Vec<Doubted<StateMachine>>,
 }
 
 impl Profile {
@@ -272,7 +292,7 @@ fn item_name(groups: &[Group], name: &CompactString) -> CompactString {
 }
 
 /// Names that conditions of bits and values give as objects become those of the items there.
-fn name_conditions(groups: &[Group], types: &mut [crate::ir::TypeDef]) {
+fn name_conditions(groups: &[Group], types: &mut [TypeDef]) {
     for definition in types {
         let conditions: Vec<_> = match &mut definition.shape {
             crate::ir::Shape::BitField { fields, .. } => {
@@ -286,5 +306,53 @@ fn name_conditions(groups: &[Group], types: &mut [crate::ir::TypeDef]) {
         for when in conditions {
             when.item = item_name(groups, &when.item);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::complete::Completion;
+    use super::*;
+    use crate::ir::Binding;
+
+    const PROFILE: &str = "lexibus = 1\n[profile]\nname = \"P\"\n\
+        [enums.Phase.values]\n0 = \"Off\"\n1 = \"On\"\n\
+        [machines.Main]\nstatus = \"0x2000\"\ncontrol = \"0x2000\"\nstates = \"Phase\"\n\
+        doubt = { says = \"two states\", chose = \"both\", why = \"the figure has them\" }\n\
+        [codes.Faults]\nrows = { 1 = { name = \"Short\", doubt = { says = \"1 and 2\", chose = \"1\", why = \"page 3\" } } }\n";
+
+    fn profile() -> Profile {
+        let mut diagnostics = Diagnostics::default();
+        let profile = Profile::read(Source::new("p.toml", PROFILE.into()), &mut diagnostics).expect("a profile");
+        assert!(diagnostics.list().is_empty(), "{:?}", diagnostics.list());
+        profile
+    }
+
+    fn completed(ty: Type, types: Vec<TypeDef>) -> Device {
+        let mut group = Group::object(0x2000, ObjectCode::Var);
+        let mut item = Item::new(Binding::canopen(0x2000, 0));
+        (item.name, item.ty) = ("Status".into(), ty);
+        group.items.push(item);
+        let mut device = Device { groups: vec![group], types, ..Device::default() };
+        Completion::new(&profile()).device(&mut device);
+        device
+    }
+
+    #[test]
+    fn states_of_a_profile_are_those_of_its_enumeration() {
+        let device = completed(Type::Unsigned(16), Vec::new());
+        let states: Vec<_> = device.machines[0].states.iter().map(|state| (state.name.as_str(), state.value)).collect();
+        assert_eq!(states, [("Off", 0), ("On", 1)]);
+        assert_eq!(device.machines[0].state_type, None, "the device has no such type");
+        let device = completed(Type::Unsigned(16), profile().patch.types);
+        assert_eq!(device.machines[0].state_type.as_deref(), Some("Phase"));
+    }
+
+    #[test]
+    fn doubts_of_codes_and_machines_are_kept() {
+        let device = completed(Type::Unsigned(16), Vec::new());
+        let doubts: Vec<&str> = device.doubts.iter().map(|doubt| doubt.says.as_str()).collect();
+        assert_eq!(doubts, ["1 and 2", "two states"]);
+        assert!(device.doubts.iter().all(|doubt| doubt.origin == Origin::default()));
     }
 }
