@@ -293,9 +293,10 @@ fn flags_of_objects_and_their_sub_items() {
     assert_eq!(category, Some(Category::Mandatory));
     assert_eq!(value_of(&checked.group(0x2000).extensions, "SdoAccess"), Some("CompleteAccess"));
     // What a sub-item doesn't say is what its object says.
-    let fields = sub_item(1, "A", "UINT", 16, 8)
+    let safe = "<SafetyMapping>si</SafetyMapping></Flags>";
+    let fields = sub_item(1, "A", "UINT", 16, 8).replace("</Flags>", safe)
         + &sub_item(2, "B", "UINT", 16, 24).replace("<Flags><Access>rw</Access></Flags>", "");
-    let flags = "<Flags><Access>ro</Access><PdoMapping>T</PdoMapping></Flags></Object>";
+    let flags = "<Flags><Access WriteRestrictions='PreOP'>ro</Access><PdoMapping>T</PdoMapping></Flags></Object>";
     let object = object("DT2000", &[]).replace("</Object>", flags);
     let checked = dictionary(&record("DT2000", &fields), &object);
     let of = |sub| (checked.item(0x2000, sub).access, checked.item(0x2000, sub).mappable.tpdo);
@@ -303,6 +304,8 @@ fn flags_of_objects_and_their_sub_items() {
         [of(0), of(1), of(2)],
         [(Access::ReadWrite, false), (Access::ReadWrite, false), (Access::ReadOnly, true)]
     );
+    let behaviour = checked.item(0x2000, 1).behaviour.as_ref().unwrap();
+    assert_eq!((behaviour.safety.as_deref(), &behaviour.write_states[..]), (Some("si"), &["PreOP".into()][..]));
     assert_eq!(checked.found(), NOTHING);
     let odd = with_flags("<Access>ro</Access><Category>x</Category><SafetyMapping>q</SafetyMapping>");
     assert_eq!(odd.found(), ["ESI031 5:114", "ESI031 5:141"]);

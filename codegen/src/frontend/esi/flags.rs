@@ -151,21 +151,22 @@ impl Flags {
         (flags.mappable.unwrap_or_default(), flags.mappable_at)
     }
 
-    /// Storage, safety and conditions of a sub-item, as far as anything is said.
+    /// Storage, safety and conditions of a sub-item, each that of its object where it doesn't say.
     pub fn behaviour_or(&self, object: &Flags) -> Option<Box<Behaviour>> {
         let backup = self.backup.or(object.backup).unwrap_or(false);
         let setting = self.setting.or(object.setting).unwrap_or(false);
-        let more = if self.more.is_some() { self } else { object }.more.as_deref();
-        if more.is_none() && !backup && !setting {
+        let [own, of_object] = [self, object].map(|flags| flags.more.as_deref());
+        if own.or(of_object).is_none() && !backup && !setting {
             return None;
         }
-        let more = more.cloned().unwrap_or_default();
+        let [own, of_object] = [own, of_object].map(|more| more.cloned().unwrap_or_default());
+        let or = |own: Vec<_>, other| if own.is_empty() { other } else { own };
         Some(Box::new(Behaviour {
             backup,
             setting,
-            safety: more.safety,
-            read_states: more.read_states,
-            write_states: more.write_states,
+            safety: own.safety.or(of_object.safety),
+            read_states: or(own.read_states, of_object.read_states),
+            write_states: or(own.write_states, of_object.write_states),
             ..Behaviour::default()
         }))
     }
