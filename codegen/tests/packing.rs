@@ -7,12 +7,18 @@ mod compile_support;
 mod corpus_support;
 #[path = "packing/found.rs"]
 mod found;
+#[path = "packing/layouts.rs"]
+mod layouts;
+#[path = "packing/messages.rs"]
+mod messages;
 
+use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Mutex;
 
-use found::Found;
+use lexibus_codegen::backend::rust::emit_catalog;
 use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::ir::{Catalog, Format};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 
@@ -27,45 +33,79 @@ fn options() -> Options {
     Options { rust, ..Options::default() }
 }
 
-/// A program of some bindings: the modules, and a call for each type that was found in them.
+/// Bindings, and the statements that check each type of them.
+struct Bindings {
+    name: String,
+    text: String,
+    checks: Vec<String>,
+}
+
+/// The bindings of a file, device by device, as many files share devices. `seen` are those that there were before.
+fn bindings(source: Source, seen: &Mutex<HashSet<String>>, counts: &Mutex<found::Counts>) -> Vec<Bindings> {
+    let name = source.name().to_owned();
+    let compilation = check(source, &options());
+    let Some(catalog) = compilation.catalog.as_ref().filter(|_| compilation.is_usable()) else { return Vec::new() };
+    let own = |catalog: &Catalog| {
+        let text = emit_catalog(catalog, &options().rust)?;
+        // Above the first empty line are the name of the file and its digest.
+        let body = text.split_once("\n\n").map_or(text.as_str(), |(_, body)| body);
+        let is_new = seen.lock().expect("what was seen").insert(body.to_owned());
+        let checks = || found::checks(&name, &text, catalog, &mut counts.lock().expect("the counts"));
+        is_new.then(|| Bindings { name: name.clone(), checks: checks(), text: found::needed(&text) })
+    };
+    if catalog.devices.len() <= 1 || compilation.format == Some(Format::Gsdml) {
+        return own(catalog).into_iter().collect();
+    }
+    let single = |device: usize| {
+        let (files, devices) = (catalog.files.clone(), vec![catalog.devices[device].clone()]);
+        own(&Catalog { files, devices, modules: catalog.modules.clone(), ..Catalog::default() })
+    };
+    (0..catalog.devices.len()).filter_map(single).collect()
+}
+
+/// A program of some bindings: the modules, and a function for each type that was found in them.
 #[derive(Default)]
 struct Program {
-    modules: String,
+    text: String,
     calls: String,
     lines: usize,
     names: Vec<String>,
 }
 
 impl Program {
-    fn add(&mut self, name: &str, bindings: &str, found: &[Found]) {
+    fn add(&mut self, own: &Bindings) {
         let module = format!("m{}", self.names.len());
-        self.modules += &format!("#[allow(unused)]\nmod {module} {{\n{bindings}\n}}\n");
-        for one in found {
-            self.calls += &format!("    {}\n", one.call(&module, name));
+        self.text += &format!("#[allow(unused)]\nmod {module} {{\n{}\n}}\n", own.text);
+        for (at, statements) in own.checks.iter().enumerate() {
+            let statements = statements.replace("MODULE", &module);
+            self.text += &format!("fn {module}_{at}() {{\n    {statements}\n}}\n");
+            self.calls += &format!("    {module}_{at}();\n");
         }
-        self.lines += bindings.lines().count();
-        self.names.push(name.to_owned());
+        self.lines += own.text.lines().count();
+        self.names.push(own.name.clone());
     }
 
     fn run(&self) -> Result<(), String> {
         let main = format!("fn main() {{\n{}}}\n", self.calls);
-        compile_support::run(&self.names.join(", "), &format!("{CHECKS}\n{}\n{main}", self.modules))
+        compile_support::run(&self.names.join(", "), &format!("{CHECKS}\n{}\n{main}", self.text))
     }
 }
 
-/// Programs of all `bindings` (name and text), on all processors. Gives the number of types of each kind.
-fn run_all(bindings: Vec<(String, String)>) -> found::Counts {
-    let (mut programs, mut counts) = (vec![Program::default()], found::Counts::default());
-    for (name, text) in &bindings {
-        let found = found::all(text);
-        counts.add(&found, text, name);
-        if found.is_empty() {
-            continue;
-        }
+/// Checks everything in `sources`, on all processors. Gives the number of types of each kind.
+fn run_all(sources: Vec<Source>) -> found::Counts {
+    let (all, seen, counts) = (Mutex::new(Vec::new()), Mutex::default(), Mutex::default());
+    corpus_support::bindings::on_all_processors(sources, |source| {
+        let own = bindings(source, &seen, &counts);
+        all.lock().expect("the bindings").extend(own.into_iter().filter(|own| !own.checks.is_empty()));
+    });
+    let mut all = all.into_inner().expect("the bindings");
+    all.sort_by(|one, other| (&one.name, &one.text).cmp(&(&other.name, &other.text)));
+    let mut programs = vec![Program::default()];
+    for own in &all {
         if programs.last().is_some_and(|program| program.lines > MAX_LINES) {
             programs.push(Program::default());
         }
-        programs.last_mut().expect("a program").add(name, &found::needed(text), &found);
+        programs.last_mut().expect("a program").add(own);
     }
     let failures = Mutex::new(Vec::new());
     corpus_support::bindings::on_all_processors(programs, |program| {
@@ -74,20 +114,13 @@ fn run_all(bindings: Vec<(String, String)>) -> found::Counts {
     });
     let failures = failures.into_inner().expect("the failures");
     assert!(failures.is_empty(), "{}", failures.join("\n\n"));
-    counts
+    counts.into_inner().expect("the counts")
 }
 
 #[test]
 fn every_layout_of_the_corpus() {
     let Some(files) = corpus_support::all_files() else { return };
-    let all = Mutex::new(Vec::new());
-    corpus_support::bindings::each(files, &options(), |name, text| {
-        all.lock().expect("the bindings").push((name.to_owned(), text.to_owned()));
-        Ok(())
-    });
-    let mut bindings = all.into_inner().expect("the bindings");
-    bindings.sort();
-    let counts = run_all(bindings);
+    let counts = run_all(files.into_iter().map(|file| Source::new(file.name.as_str(), file.bytes)).collect());
     eprintln!("{counts:?}");
     assert!(counts.process_data > 3_000 && counts.records > 300, "{counts:?}");
 }
@@ -95,13 +128,9 @@ fn every_layout_of_the_corpus() {
 #[test]
 fn every_layout_of_the_dictionaries() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries");
-    let mut bindings = Vec::new();
-    for name in ["demo-drive.eds", "aec-vector-step.toml", "kollmorgen-akd.toml", "hsd-sm137-sm140.toml", "eco.toml"] {
-        let source = Source::read(&folder.join(name)).expect("a dictionary");
-        let compilation = check(source, &options());
-        bindings.push((name.to_owned(), compilation.rust(&options().rust).expect("bindings")));
-    }
-    let counts = run_all(bindings);
+    let names = ["demo-drive.eds", "aec-vector-step.toml", "kollmorgen-akd.toml", "hsd-sm137-sm140.toml", "eco.toml"];
+    let sources = names.map(|name| Source::read(&folder.join(name)).expect("a dictionary"));
+    let counts = run_all(sources.into());
     eprintln!("{counts:?}");
     assert!(counts.process_data >= 37 && counts.messages >= 41, "{counts:?}");
 }

@@ -1,8 +1,7 @@
 use core::fmt::Debug;
 
 use lexibus::message::{Message, Reader, Reply, Request, Setting, SettingsRule, WriteError, Writer};
-use lexibus::profinet::NotAllowed;
-use lexibus::{LengthError, Parameter};
+use lexibus::Parameter;
 
 /// Random bits, the same in each run (xorshift).
 struct Random(u64);
@@ -57,20 +56,88 @@ const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
 /// Bytes of data, and what the fields that they are read as look like.
 type Packed = (Vec<u8>, String);
 
-/// Checks a PDO or a process image.
+/// Unpacks data, sets the field of this number, if there is one, by the bits of a value, and packs the fields.
+type Change<'c> = &'c dyn Fn(&[u8], usize, u64) -> Result<Packed, String>;
+
+/// The number of no field.
+const NONE: usize = usize::MAX;
+
+/// Where the bits of a type are.
+struct Layout {
+    title: &'static str,
+    bits: usize,
+    /// The pieces of each field: the first bit within the data, the bit of the value that it is, and how many there are.
+    fields: &'static [&'static [(u32, u32, u32)]],
+}
+
+impl Layout {
+    fn len(&self) -> usize {
+        self.bits.div_ceil(8)
+    }
+
+    /// Hands each bit of a field to `look`: that of the data and that of the value, which reserved bits have not.
+    fn each_bit(&self, field: usize, mut look: impl FnMut(usize, Option<u32>)) {
+        for (at, of, bits) in self.fields[field] {
+            (0..*bits).for_each(|bit| look((at + bit) as usize, (*of != u32::MAX).then(|| of + bit)));
+        }
+    }
+
+    /// The bits that fields have.
+    fn mask(&self) -> Vec<u8> {
+        let mut mask = vec![0; self.len()];
+        for field in 0..self.fields.len() {
+            self.each_bit(field, |at, of| put(&mut mask, at, of.is_some()));
+        }
+        mask
+    }
+
+    /// `data` with the bits of a value in a field.
+    fn with(&self, mut data: Vec<u8>, field: usize, raw: u64) -> Vec<u8> {
+        self.each_bit(field, |at, of| put(&mut data, at, of.is_some_and(|of| raw >> (of % 64) & 1 == 1)));
+        data
+    }
+}
+
+fn put(data: &mut [u8], bit: usize, value: bool) {
+    data[bit / 8] = data[bit / 8] & !(1 << (bit % 8)) | u8::from(value) << (bit % 8);
+}
+
+/// `data` where `mask` is 1, `other` where it is 0.
+fn merged(data: &[u8], mask: &[u8], other: &[u8]) -> Vec<u8> {
+    let all = data.iter().zip(mask).zip(other);
+    all.map(|((data, mask), other)| data & mask | other & !mask).collect()
+}
+
+/// Bytes of the bits of `raw`, again and again.
+fn filled(raw: u64, len: usize) -> Vec<u8> {
+    raw.to_le_bytes().into_iter().cycle().take(len).collect()
+}
+
+fn bytes<const N: usize>(raw: u64) -> [u8; N] {
+    filled(raw, N).try_into().expect("as many bytes")
+}
+
+/// Checks a PDO or a process image. `$set` puts the bits of a value into a field.
 macro_rules! process_data {
-    ($file:expr, $path:expr, $name:ty) => {{
-        let unpack = |data: &[u8]| <$name>::unpack(data).map(|own| (own.pack().to_vec(), format!("{own:?}")));
-        process_data($file, $path, &unpack, <$name>::LEN);
+    ($name:ty, $layout:expr, |$own:ident, $at:ident, $raw:ident| $set:expr) => {{
+        let change = |data: &[u8], $at: usize, $raw: u64| {
+            let mut $own = <$name>::unpack(data).map_err(|error| format!("{error:?}"))?;
+            $set;
+            Ok(($own.pack().to_vec(), if $at == NONE { format!("{:?}", $own) } else { String::new() }))
+        };
+        let layout = $layout;
+        assert_eq!(<$name>::LEN, layout.len(), "{}", layout.title);
+        process_data(&layout, &change);
     }};
 }
 
-/// Bits that a layout has are the same after unpacking and packing; bits that it hasn't are 0. Too few bytes are an error.
-fn process_data(file: &str, path: &str, unpack: &dyn Fn(&[u8]) -> Result<Packed, LengthError>, len: usize) {
-    let unpacked = |data: &[u8]| unpack(data).unwrap_or_else(|error| panic!("{file}: {path}: {error:?}"));
+/// The bits of the fields are the same after unpacking and packing, all others are 0; the bits of a field that is set are
+/// where they belong, and no others change. Too few bytes are an error.
+fn process_data(own: &Layout, change: Change<'_>) {
+    let (title, mask, zeros) = (own.title, own.mask(), vec![0; own.len()]);
+    let changed = |data: &[u8], at, raw| change(data, at, raw).unwrap_or_else(|error| panic!("{title}: {error}"));
     let mut random = Random(SEED);
-    let mut data = vec![0xFF; len];
-    let covered = unpacked(&data).0;
+    let mut data = vec![0xFF; own.len()];
     for round in 0..24 {
         match round {
             0 => data.fill(0),
@@ -79,41 +146,82 @@ fn process_data(file: &str, path: &str, unpack: &dyn Fn(&[u8]) -> Result<Packed,
             3 => data.fill(0x7F),
             _ => random.fill(&mut data),
         }
-        let (packed, fields) = unpacked(&data);
-        let expected: Vec<u8> = data.iter().zip(&covered).map(|(data, covered)| data & covered).collect();
-        assert!(packed == expected, "{file}: {path}: {data:02X?} is packed as {packed:02X?}, not {expected:02X?}");
-        let again = unpacked(&packed);
-        assert!(again == (packed, fields), "{file}: {path}: {data:02X?} is {again:?} the second time");
+        let (packed, fields) = changed(&data, NONE, 0);
+        let expected = merged(&data, &mask, &zeros);
+        assert!(packed == expected, "{title}: {data:02X?} is packed as {packed:02X?}, not {expected:02X?}");
+        let again = changed(&packed, NONE, 0);
+        assert!(again == (packed, fields), "{title}: {data:02X?} is {again:?} the second time");
     }
-    if len > 0 {
-        assert!(unpack(&data[1..]).is_err(), "{file}: {path}: unpacks {} of {len} bytes", len - 1);
+    for at in 0..own.fields.len() {
+        for (fill, raw) in [(Some(0), !0), (Some(0xFF), 0), (None, random.next()), (None, random.next())] {
+            random.fill(&mut data);
+            fill.into_iter().for_each(|byte| data.fill(byte));
+            let (packed, _) = changed(&data, at, raw);
+            let expected = own.with(merged(&data, &mask, &zeros), at, raw);
+            assert!(
+                packed == expected,
+                "{title}: {raw:X} in {at} of {data:02X?} is {packed:02X?}, not {expected:02X?}"
+            );
+        }
+    }
+    if own.len() > 0 {
+        assert!(change(&data[1..], NONE, 0).is_err(), "{title}: unpacks {} of {} bytes", own.len() - 1, own.len());
     }
 }
 
-/// Checks a record.
+/// Checks a record. `$set` puts the bits of a value into a field.
 macro_rules! record {
-    ($file:expr, $path:expr, $name:ty) => {{
-        let decode = |data: &[u8]| {
-            let own = <$name>::decode(data).unwrap_or_else(|error| panic!("{}: {}: {error:?}", $file, $path));
-            own.encode().map(|bytes| (bytes.to_vec(), format!("{own:?}")))
+    ($name:ty, $layout:expr, |$own:ident, $at:ident, $raw:ident| $set:expr) => {{
+        let layout = $layout;
+        let decode = |data: &[u8]| <$name>::decode(data).unwrap_or_else(|error| panic!("{}: {error:?}", layout.title));
+        let change = |data: &[u8], $at: usize, $raw: u64| {
+            let mut $own = decode(data);
+            $set;
+            $own.encode().map(|bytes| (bytes.to_vec(), format!("{:?}", $own))).map_err(|error| format!("{error:?}"))
         };
-        let default = <$name>::DEFAULT.encode().map(|bytes| bytes.to_vec());
-        record($file, $path, default.unwrap_or(vec![0; <$name>::LEN]), &decode);
+        assert_eq!(<$name>::LEN, layout.len(), "{}", layout.title);
+        let default = (<$name>::DEFAULT_BYTES, <$name>::DEFAULT);
+        assert_eq!(default.1.encode(), Ok(default.0), "{}: the default", layout.title);
+        assert_eq!(format!("{:?}", decode(&default.0)), format!("{:?}", default.1), "{}: the default", layout.title);
+        record(&layout, &default.0, &change);
     }};
 }
 
-/// A record that may be written is read as what was written. From its default on, bit by bit, through all values that are
-/// allowed.
-fn record(file: &str, path: &str, mut data: Vec<u8>, decode: &dyn Fn(&[u8]) -> Result<Packed, NotAllowed>) {
-    let mut random = Random(SEED);
-    for _ in 0..data.len().min(64) * 4 {
-        let (mut next, at) = (data.clone(), random.next() as usize % data.len());
-        next[at] ^= if random.next() & 1 == 0 { 1 << (random.next() & 7) } else { random.next() as u8 };
-        let Ok((encoded, fields)) = decode(&next) else { continue };
-        let again = decode(&encoded).unwrap_or_else(|error| panic!("{file}: {path}: {error:?}"));
-        assert!(again == (encoded, fields), "{file}: {path}: {next:02X?} is {again:?} the second time");
-        data = again.0;
+/// So many values of a record are checked that it takes, and as many that have other fields than the one before.
+const ACCEPTED: usize = 64;
+
+/// The bits of the fields are the same after decoding and encoding, all others are those of `default`; the bits of a field
+/// that is set are where they belong. From the default on, change by change, through values that are allowed.
+fn record(own: &Layout, default: &[u8], change: Change<'_>) {
+    let (title, mask, mut random) = (own.title, own.mask(), Random(SEED));
+    let (mut data, mut accepted, mut moved) = (default.to_vec(), 0, 0);
+    for round in 0..1_000_000 {
+        let mut next = data.clone();
+        let (field, raw) = match own.fields.len() {
+            fields @ 1.. if round % 2 == 0 => (random.next() as usize % fields, random.number() as u64),
+            _ => (NONE, random.next()),
+        };
+        if field == NONE {
+            let at = random.next() as usize % next.len();
+            next[at] ^= if raw & 1 == 0 { 1 << (raw >> 1 & 7) } else { (raw >> 8) as u8 };
+        }
+        let Ok(packed) = change(&next, field, raw) else { continue };
+        let kept = merged(&next, &mask, default);
+        let expected = if field == NONE { kept } else { own.with(kept, field, raw) };
+        assert!(
+            packed.0 == expected,
+            "{title}: {raw:X} in {field} of {next:02X?} is {packed:02X?}, not {expected:02X?}"
+        );
+        let again = change(&packed.0, NONE, 0);
+        assert!(again.as_ref() == Ok(&packed), "{title}: {next:02X?} is {again:?} the second time");
+        accepted += 1;
+        moved += usize::from(packed.0 != data);
+        data = packed.0;
+        if accepted >= ACCEPTED && (moved >= ACCEPTED || own.fields.is_empty()) {
+            return;
+        }
     }
+    panic!("{title}: only {accepted} values are allowed, {moved} of them others than before");
 }
 
 /// More data than any message has.
@@ -128,7 +236,7 @@ fn written(write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) -> Res
 
 /// Requests and replies that can be written are read as they were. `request` gives the data of one, `reply` checks one to
 /// these; none where a random value can't be sent.
-fn message(file: &str, path: &str, request: fn(&mut Random) -> Option<Vec<u8>>, reply: fn(&mut Random, &[u8]) -> bool) {
+fn message(title: &str, request: fn(&mut Random) -> Option<Vec<u8>>, reply: fn(&mut Random, &[u8]) -> bool) {
     let mut random = Random(SEED);
     let (mut requests, mut replies) = (0, 0);
     for _ in 0..1_000_000 {
@@ -139,7 +247,7 @@ fn message(file: &str, path: &str, request: fn(&mut Random) -> Option<Vec<u8>>, 
             return;
         }
     }
-    panic!("{file}: {path}: {requests} requests, {replies} replies");
+    panic!("{title}: {requests} requests, {replies} replies");
 }
 
 /// Whether two values are equal, or look so: as numbers that aren't any do.
@@ -149,14 +257,14 @@ fn is_same<T: PartialEq + Debug>(one: &T, other: &T) -> bool {
 
 /// The data of a request, which are read as it.
 macro_rules! sent {
-    ($random:ident, $message:ty, $none:ident, $value:expr) => {{
+    ($random:ident, $message:ty, $none:ident, $has_node:literal, $value:expr) => {{
         #[allow(unused)]
         let $none: &[u8] = &[];
         let (request, node) = ($value, u32::from($random.number() as u8));
         written(|to| request.write(node, to)).ok().inspect(|data| {
             let read = <$message>::parse(&mut Reader::new(data));
-            // A protocol without numbers of devices reads 0.
-            let node = if matches!(read, Some((0, _))) { 0 } else { node };
+            // A request without a number of the device reads 0.
+            let node = if $has_node { node } else { 0 };
             assert!(is_same(&read, &Some((node, request))), "{data:02X?} is read as {read:?}");
         })
     }};
