@@ -1,7 +1,8 @@
 //! What generated code packs, it unpacks as the same, and the other way round: process data, process images, records and
 //! messages of every file of the corpus and of every dictionary, on bits of any kind.
 //!
-//! The bindings become programs that are compiled and run; `packing/program.rs` is what such a program does with a type.
+//! The bindings become programs that are compiled and run; `packing/program.rs` is what such a program does with a type. Where bits
+//! have to be comes from the intermediate representation (`packing/layouts.rs`), and so does whether requests name a device.
 
 mod compile_support;
 mod corpus_support;
@@ -11,6 +12,8 @@ mod found;
 mod layouts;
 #[path = "packing/messages.rs"]
 mod messages;
+#[path = "packing/views.rs"]
+mod views;
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -122,7 +125,7 @@ fn every_layout_of_the_corpus() {
     let Some(files) = corpus_support::all_files() else { return };
     let counts = run_all(files.into_iter().map(|file| Source::new(file.name.as_str(), file.bytes)).collect());
     eprintln!("{counts:?}");
-    assert!(counts.process_data > 3_000 && counts.records > 300, "{counts:?}");
+    assert!(counts.process_data > 3_000 && counts.records > 300 && counts.views > 2_500, "{counts:?}");
 }
 
 #[test]

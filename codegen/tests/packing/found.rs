@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use crate::layouts::{self, Layout};
 use crate::messages::{bare, Messages};
+use crate::views::{self, Views};
 use lexibus_codegen::ir::Catalog;
 
 /// What a type is.
@@ -30,6 +31,8 @@ pub struct Counts {
     pub process_data: usize,
     pub records: usize,
     pub messages: usize,
+    pub views: usize,
+    /// Fields of process data and records.
     pub fields: usize,
 }
 
@@ -66,12 +69,12 @@ pub fn needed(text: &str) -> String {
 
 /// The statements that check every type of the bindings of `catalog`, which are in the module `MODULE`.
 pub fn checks(name: &str, text: &str, catalog: &Catalog, counts: &mut Counts) -> Vec<String> {
-    let (found, structs, messages) = (all(text), structs(text), Messages::new(text));
+    let (found, structs, messages, views) = (all(text), structs(text), Messages::new(text), Views::new(text));
     counts.add(&found, text, name);
     let expected = layouts::all(catalog);
     let with_layout = found.iter().filter(|one| one.kind != Kind::Message).count();
     assert_eq!(with_layout, expected.len(), "{name}: types, and layouts");
-    let mut expected = expected.iter();
+    let (mut expected, mut with_views) = (expected.iter(), 0);
     let check = |one: &Found<'_>| {
         let path = one.path();
         let title = format!("{name}: {path}");
@@ -85,9 +88,14 @@ pub fn checks(name: &str, text: &str, catalog: &Catalog, counts: &mut Counts) ->
         assert_eq!(one.kind == Kind::Record, layout.is_record, "{title}");
         assert_eq!(fields.len(), layout.fields(), "{title}: {fields:?}");
         counts.fields += fields.len();
-        one.check(&title, layout, fields)
+        let view = views.check(&one.modules, one.name, fields).filter(|_| one.kind == Kind::ProcessData);
+        with_views += usize::from(view.is_some());
+        one.check(&title, layout, fields) + &view.unwrap_or_default()
     };
-    found.iter().map(check).collect()
+    let checks = found.iter().map(check).collect();
+    assert_eq!(with_views, views::count(text), "{name}: views");
+    counts.views += with_views;
+    checks
 }
 
 impl Found<'_> {
@@ -106,7 +114,7 @@ impl Found<'_> {
         });
         let kind = if layout.is_record { "record" } else { "process_data" };
         format!(
-            "{}{kind}!({name}, {}, |own, at, raw| match at {{ {arms}_ => {{}} }});",
+            "{}let layout = &{}; {kind}!({name}, layout, |own, at, raw| match at {{ {arms}_ => {{}} }}); ",
             number.unwrap_or_default(),
             layout.literal(title),
         )
@@ -173,7 +181,7 @@ fn structs(text: &str) -> HashMap<String, Vec<(&str, &str)>> {
 }
 
 /// Hands each line to `look`, with the modules that it is in. The text is canonical: a step of four spaces is a level.
-fn each_line<'t>(text: &'t str, mut look: impl FnMut(&[&'t str], &'t str)) {
+pub fn each_line<'t>(text: &'t str, mut look: impl FnMut(&[&'t str], &'t str)) {
     let (mut modules, mut levels): (Vec<&str>, Vec<usize>) = (Vec::new(), Vec::new());
     for line in text.lines() {
         let code = line.trim_start();

@@ -125,9 +125,8 @@ macro_rules! process_data {
             $set;
             Ok(($own.pack().to_vec(), if $at == NONE { format!("{:?}", $own) } else { String::new() }))
         };
-        let layout = $layout;
-        assert_eq!(<$name>::LEN, layout.len(), "{}", layout.title);
-        process_data(&layout, &change);
+        assert_eq!(<$name>::LEN, $layout.len(), "{}", $layout.title);
+        process_data($layout, &change);
     }};
 }
 
@@ -169,10 +168,125 @@ fn process_data(own: &Layout, change: Change<'_>) {
     }
 }
 
+/// What the views of a PDO do within an image.
+trait Getters<T> {
+    /// All fields.
+    fn fields(&self) -> T;
+}
+
+trait Setters<T> {
+    /// Sets the field of this number, or all of them.
+    fn set(&mut self, fields: &T, at: usize);
+}
+
+/// The fields of a view.
+macro_rules! getters {
+    ($name:ty, $view:ty, |$own:ident| $fields:expr, [$($field:ident $getter:ident,)*]) => {
+        impl Getters<$name> for $view {
+            fn fields(&self) -> $name {
+                type Fields = $name;
+                let $own = self;
+                let view = $fields;
+                Fields { $($field: view.$getter(),)* }
+            }
+        }
+    };
+}
+
+macro_rules! setters {
+    ($name:ty, $view:ty, [$($at:literal $field:ident $setter:ident,)*]) => {
+        impl Setters<$name> for $view {
+            fn set(&mut self, fields: &$name, at: usize) {
+                $(if at == $at || at == NONE {
+                    self.$setter(fields.$field);
+                })*
+            }
+        }
+    };
+}
+
+/// The PDOs of a view of an image.
+macro_rules! image_views {
+    ($name:ty, $reader:ty, $writer:ty, [$($read:ident $get:ident,)*], [$($at:literal $field:ident $set:ident,)*]) => {
+        impl Getters<$name> for $reader {
+            fn fields(&self) -> $name {
+                type Fields = $name;
+                Fields { $($read: self.$get().fields(),)* }
+            }
+        }
+
+        impl Setters<$name> for $writer {
+            fn set(&mut self, fields: &$name, at: usize) {
+                $(if at == $at || at == NONE {
+                    self.$set().set(&fields.$field, NONE);
+                })*
+            }
+        }
+    };
+}
+
+/// Checks a view. `$get` and `$set` are the view at a bit of data, or why there is none.
+macro_rules! view {
+    ($name:ty, $layout:expr, $bits:expr, |$data:ident, $bit:ident| $get:expr, $set:expr) => {{
+        let set = |$data: &mut [u8], $bit: usize, at: usize, from: &[u8]| {
+            let fields = <$name>::unpack(from).expect("as many bytes");
+            $set.map(|mut view| Setters::<$name>::set(&mut view, &fields, at)).map_err(|error| format!("{error:?}"))
+        };
+        let get = |$data: &mut [u8], $bit: usize| {
+            let fields = $get.map(|view| Getters::<$name>::fields(&view));
+            fields.map(|fields| fields.pack().to_vec()).map_err(|error| format!("{error:?}"))
+        };
+        view($layout, $bits, &set, &get);
+    }};
+}
+
+/// Sets the field of this number, or all of them, of the view at this bit of data as it is in other data.
+type Set<'s> = &'s dyn Fn(&mut [u8], usize, usize, &[u8]) -> Result<(), String>;
+
+/// Packs the fields of the view at this bit.
+type Get<'g> = &'g dyn Fn(&mut [u8], usize) -> Result<Vec<u8>, String>;
+
+/// A field that is set within an image has its bits there, and no others change; what is read is what stands there. In
+/// images that end with the view and in longer ones, from each of the first `bits` bits on.
+fn view(own: &Layout, bits: usize, set: Set<'_>, get: Get<'_>) {
+    let (title, mask, mut random) = (own.title, own.mask(), Random(SEED));
+    let (mut from, zeros) = (vec![0; own.len()], vec![0; own.len()]);
+    for (bit, behind) in (0..bits).flat_map(|bit| [(bit, 0), (bit, 9)]) {
+        let mut image = vec![0xFF; (bit + own.bits).div_ceil(8) + behind];
+        random.fill(&mut from);
+        for at in (0..own.fields.len()).chain([NONE]) {
+            let mut expected = vec![0xFF; image.len()];
+            let of_field = |field: &usize| at == NONE || at == *field;
+            for field in (0..own.fields.len()).filter(of_field) {
+                own.each_bit(field, |at, of| put(&mut expected, bit + at, of.is_some() && is_set(&from, at)));
+            }
+            image.fill(0xFF);
+            let outcome = set(&mut image, bit, at, &from);
+            assert!(outcome == Ok(()), "{title}: at bit {bit}: {outcome:?}");
+            assert!(
+                image == expected,
+                "{title}: {at} of {from:02X?} at bit {bit} is {image:02X?}, not {expected:02X?}"
+            );
+        }
+        random.fill(&mut image);
+        let mut read = vec![0; own.len()];
+        (0..own.bits).for_each(|at| put(&mut read, at, is_set(&image, bit + at)));
+        let (read, got) = (merged(&read, &mask, &zeros), get(&mut image, bit));
+        assert!(got.as_ref() == Ok(&read), "{title}: at bit {bit} of {image:02X?} is {got:02X?}, not {read:02X?}");
+        let short = image.len() - behind - 1;
+        let outcome = (set(&mut image[..short], bit, NONE, &from), get(&mut image[..short], bit));
+        assert!(matches!(outcome, (Err(_), Err(_))), "{title}: {short} bytes from bit {bit} on: {outcome:?}");
+    }
+}
+
+fn is_set(data: &[u8], bit: usize) -> bool {
+    data[bit / 8] >> (bit % 8) & 1 == 1
+}
+
 /// Checks a record. `$set` puts the bits of a value into a field.
 macro_rules! record {
     ($name:ty, $layout:expr, |$own:ident, $at:ident, $raw:ident| $set:expr) => {{
-        let layout = $layout;
+        let layout: &Layout = $layout;
         let decode = |data: &[u8]| <$name>::decode(data).unwrap_or_else(|error| panic!("{}: {error:?}", layout.title));
         let change = |data: &[u8], $at: usize, $raw: u64| {
             let mut $own = decode(data);
@@ -183,7 +297,7 @@ macro_rules! record {
         let default = (<$name>::DEFAULT_BYTES, <$name>::DEFAULT);
         assert_eq!(default.1.encode(), Ok(default.0), "{}: the default", layout.title);
         assert_eq!(format!("{:?}", decode(&default.0)), format!("{:?}", default.1), "{}: the default", layout.title);
-        record(&layout, &default.0, &change);
+        record(layout, &default.0, &change);
     }};
 }
 
