@@ -12,6 +12,8 @@ mod found;
 mod layouts;
 #[path = "packing/messages.rs"]
 mod messages;
+#[path = "packing/odd.rs"]
+mod odd;
 #[path = "packing/views.rs"]
 mod views;
 
@@ -19,9 +21,10 @@ use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Mutex;
 
+use found::Counts;
 use lexibus_codegen::backend::rust::emit_catalog;
 use lexibus_codegen::compile::{check, Options};
-use lexibus_codegen::ir::{Catalog, Format};
+use lexibus_codegen::ir::{Catalog, Device, Format};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 
@@ -43,27 +46,36 @@ struct Bindings {
     checks: Vec<String>,
 }
 
-/// The bindings of a file, device by device, as many files share devices. `seen` are those that there were before.
-fn bindings(source: Source, seen: &Mutex<HashSet<String>>, counts: &Mutex<found::Counts>) -> Vec<Bindings> {
-    let name = source.name().to_owned();
-    let compilation = check(source, &options());
-    let Some(catalog) = compilation.catalog.as_ref().filter(|_| compilation.is_usable()) else { return Vec::new() };
-    let own = |catalog: &Catalog| {
+impl Bindings {
+    /// The bindings of a catalogue; none where `seen` has them, or there is nothing to generate.
+    fn new(name: &str, catalog: &Catalog, seen: &Mutex<HashSet<String>>) -> Option<(Self, Counts)> {
         let text = emit_catalog(catalog, &options().rust)?;
         // Above the first empty line are the name of the file and its digest.
         let body = text.split_once("\n\n").map_or(text.as_str(), |(_, body)| body);
         let is_new = seen.lock().expect("what was seen").insert(body.to_owned());
-        let checks = || found::checks(&name, &text, catalog, &mut counts.lock().expect("the counts"));
-        is_new.then(|| Bindings { name: name.clone(), checks: checks(), text: found::needed(&text) })
-    };
-    if catalog.devices.len() <= 1 || compilation.format == Some(Format::Gsdml) {
-        return own(catalog).into_iter().collect();
+        is_new.then(|| {
+            let (checks, counts) = found::checks(name, &text, catalog);
+            (Bindings { name: name.to_owned(), checks, text: found::needed(&text) }, counts)
+        })
     }
-    let single = |device: usize| {
-        let (files, devices) = (catalog.files.clone(), vec![catalog.devices[device].clone()]);
-        own(&Catalog { files, devices, modules: catalog.modules.clone(), ..Catalog::default() })
+}
+
+/// The catalogues of a file, device by device, as many files share devices.
+fn catalogs(source: Source) -> Vec<Catalog> {
+    let compilation = check(source, &options());
+    let is_profinet = compilation.format == Some(Format::Gsdml);
+    let is_usable = compilation.is_usable();
+    let Some(mut catalog) = compilation.catalog.filter(|_| is_usable) else { return Vec::new() };
+    if catalog.devices.len() <= 1 || is_profinet {
+        return vec![catalog];
+    }
+    let devices = std::mem::take(&mut catalog.devices);
+    let (files, modules) = (catalog.files, catalog.modules);
+    let single = |device: Device| {
+        let (files, modules) = (files.clone(), modules.clone());
+        Catalog { files, devices: vec![device], modules, ..Catalog::default() }
     };
-    (0..catalog.devices.len()).filter_map(single).collect()
+    devices.into_iter().map(single).collect()
 }
 
 /// A program of some bindings: the modules, and a function for each type that was found in them.
@@ -95,20 +107,27 @@ impl Program {
 }
 
 /// Checks everything in `sources`, on all processors. Gives the number of types of each kind.
-fn run_all(sources: Vec<Source>) -> found::Counts {
-    let (all, seen, counts) = (Mutex::new(Vec::new()), Mutex::default(), Mutex::default());
+fn run_all(sources: Vec<Source>) -> Counts {
+    let (all, seen) = (Mutex::new(Vec::new()), Mutex::default());
     corpus_support::bindings::on_all_processors(sources, |source| {
-        let own = bindings(source, &seen, &counts);
-        all.lock().expect("the bindings").extend(own.into_iter().filter(|own| !own.checks.is_empty()));
+        let name = source.name().to_owned();
+        let own = catalogs(source).into_iter().filter_map(|catalog| Bindings::new(&name, &catalog, &seen));
+        let own: Vec<_> = own.filter(|(own, _)| !own.checks.is_empty()).collect();
+        all.lock().expect("the bindings").extend(own);
     });
-    let mut all = all.into_inner().expect("the bindings");
-    all.sort_by(|one, other| (&one.name, &one.text).cmp(&(&other.name, &other.text)));
-    let mut programs = vec![Program::default()];
-    for own in &all {
+    run(all.into_inner().expect("the bindings"))
+}
+
+/// Runs programs of all bindings, and adds up what they have.
+fn run(mut all: Vec<(Bindings, Counts)>) -> Counts {
+    all.sort_by(|(one, _), (other, _)| (&one.name, &one.text).cmp(&(&other.name, &other.text)));
+    let (mut programs, mut counts) = (vec![Program::default()], Counts::default());
+    for (own, of_own) in &all {
         if programs.last().is_some_and(|program| program.lines > MAX_LINES) {
             programs.push(Program::default());
         }
         programs.last_mut().expect("a program").add(own);
+        counts.add(of_own);
     }
     let failures = Mutex::new(Vec::new());
     corpus_support::bindings::on_all_processors(programs, |program| {
@@ -117,7 +136,7 @@ fn run_all(sources: Vec<Source>) -> found::Counts {
     });
     let failures = failures.into_inner().expect("the failures");
     assert!(failures.is_empty(), "{}", failures.join("\n\n"));
-    counts.into_inner().expect("the counts")
+    counts
 }
 
 #[test]
@@ -136,4 +155,11 @@ fn every_layout_of_the_dictionaries() {
     let counts = run_all(sources.into());
     eprintln!("{counts:?}");
     assert!(counts.process_data >= 37 && counts.messages >= 41, "{counts:?}");
+}
+
+#[test]
+fn layouts_that_no_shared_file_has() {
+    let bindings = Bindings::new("odd", &odd::catalog(), &Mutex::default());
+    let counts = run(bindings.into_iter().collect());
+    assert_eq!((counts.process_data, counts.views), (10, 10), "four PDOs and an image in each direction: {counts:?}");
 }

@@ -37,17 +37,23 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Adds what was found in `text`, which has to be as much as has the functions that it is found by.
-    fn add(&mut self, found: &[Found<'_>], text: &str, name: &str) {
+    /// Counts what was found in `text`, which has to be as much as has the functions that it is found by.
+    fn of(found: &[Found<'_>], text: &str, name: &str) -> Self {
         let of = |kind: Kind| found.iter().filter(|one| one.kind == kind).count();
         let lines = |part: &str| text.lines().filter(|line| line.contains(part)).count();
         let (process_data, records, messages) = (of(Kind::ProcessData), of(Kind::Record), of(Kind::Message));
         assert_eq!(process_data, lines("fn pack(&self) -> ["), "{name}");
         assert_eq!(records, lines("fn encode(&self) -> Result<["), "{name}");
         assert_eq!(messages, lines("rt::message::Request<'a> for "), "{name}");
-        self.process_data += process_data;
-        self.records += records;
-        self.messages += messages;
+        Counts { process_data, records, messages, ..Counts::default() }
+    }
+
+    pub fn add(&mut self, other: &Counts) {
+        self.process_data += other.process_data;
+        self.records += other.records;
+        self.messages += other.messages;
+        self.views += other.views;
+        self.fields += other.fields;
     }
 }
 
@@ -68,13 +74,13 @@ pub fn needed(text: &str) -> String {
 }
 
 /// The statements that check every type of the bindings of `catalog`, which are in the module `MODULE`.
-pub fn checks(name: &str, text: &str, catalog: &Catalog, counts: &mut Counts) -> Vec<String> {
+pub fn checks(name: &str, text: &str, catalog: &Catalog) -> (Vec<String>, Counts) {
     let (found, structs, messages, views) = (all(text), structs(text), Messages::new(text), Views::new(text));
-    counts.add(&found, text, name);
+    let mut counts = Counts::of(&found, text, name);
     let expected = layouts::all(catalog);
     let with_layout = found.iter().filter(|one| one.kind != Kind::Message).count();
     assert_eq!(with_layout, expected.len(), "{name}: types, and layouts");
-    let (mut expected, mut with_views) = (expected.iter(), 0);
+    let mut expected = expected.iter();
     let check = |one: &Found<'_>| {
         let path = one.path();
         let title = format!("{name}: {path}");
@@ -89,13 +95,12 @@ pub fn checks(name: &str, text: &str, catalog: &Catalog, counts: &mut Counts) ->
         assert_eq!(fields.len(), layout.fields(), "{title}: {fields:?}");
         counts.fields += fields.len();
         let view = views.check(&one.modules, one.name, fields).filter(|_| one.kind == Kind::ProcessData);
-        with_views += usize::from(view.is_some());
+        counts.views += usize::from(view.is_some());
         one.check(&title, layout, fields) + &view.unwrap_or_default()
     };
     let checks = found.iter().map(check).collect();
-    assert_eq!(with_views, views::count(text), "{name}: views");
-    counts.views += with_views;
-    checks
+    assert_eq!(counts.views, views::count(text), "{name}: views");
+    (checks, counts)
 }
 
 impl Found<'_> {
