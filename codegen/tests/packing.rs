@@ -154,7 +154,7 @@ fn every_layout_of_the_dictionaries() {
     let sources = names.map(|name| Source::read(&folder.join(name)).expect("a dictionary"));
     let counts = run_all(sources.into());
     eprintln!("{counts:?}");
-    assert!(counts.process_data >= 37 && counts.messages >= 41, "{counts:?}");
+    assert!(counts.process_data >= 37 && counts.messages >= 41 && counts.views >= 33, "{counts:?}");
 }
 
 #[test]

@@ -45,7 +45,7 @@ pub fn catalog() -> Catalog {
     let [two, three, twelve, signed] = [0, 1, 2, 3].map(|at| Type::Named(TypeId(at)));
     let (padding, text, bits) = (None, Type::VisibleString(None), Type::Opaque(None));
     let of = |ty: Type, bits: u32| (Some(ty), bits);
-    let short = [(padding, 1), of(three, 3), of(two, 2), of(Type::Boolean, 1), of(twelve, 12), of(Type::Integer(5), 5)];
+    let short = [(padding, 1), of(three, 3), of(two, 2), of(Type::Boolean, 1), of(twelve, 12), of(Type::Integer(6), 6)];
     let real = [(padding, 3), of(Type::Real32, 32), of(three, 3), of(signed, 8), of(text, 16)];
     let time = [of(three, 3), of(Type::TimeOfDay, 48), of(two, 2), (padding, 4), of(Type::Boolean, 1)];
     let long = [
