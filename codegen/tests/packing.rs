@@ -92,7 +92,7 @@ impl Program {
         let module = format!("m{}", self.names.len());
         self.text += &format!("#[allow(unused)]\nmod {module} {{\n{}\n}}\n", own.text);
         for (at, statements) in own.checks.iter().enumerate() {
-            let statements = statements.replace("MODULE", &module);
+            let statements = statements.replace("MODULE::", &format!("{module}::"));
             self.text += &format!("fn {module}_{at}() {{\n    {statements}\n}}\n");
             self.calls += &format!("    {module}_{at}();\n");
         }
