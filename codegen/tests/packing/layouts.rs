@@ -2,8 +2,8 @@
 //! that writes Rust.
 
 use lexibus_codegen::ir::{
-    Access, Binding, Catalog, Device, Format, Group, GroupKind, IoData, Item, Message, MessageField, Pdo, PdoEntry,
-    PdoEntryKind, ProcessData, Record, Shape, Submodule, Type, TypeDef,
+    Access, Binding, Catalog, Device, Format, Group, GroupKind, IoData, Message, MessageField, Pdo, PdoEntry,
+    PdoEntryKind, ProcessData, Record, Shape, Submodule, Type, TypeDef, Value,
 };
 
 /// Bits that stand together.
@@ -24,6 +24,8 @@ pub struct Layout {
     pub number: Option<(&'static str, u16)>,
     pub bits: u32,
     fields: Vec<Vec<Piece>>,
+    /// The bytes of a record by default.
+    default: Vec<u8>,
 }
 
 impl Layout {
@@ -36,7 +38,8 @@ impl Layout {
         let piece = |piece: &Piece| format!("({}, {}, {})", piece.at, piece.of.unwrap_or(u32::MAX), piece.bits);
         let field = |field: &Vec<Piece>| format!("&[{}]", field.iter().map(piece).collect::<Vec<_>>().join(", "));
         let fields = self.fields.iter().map(field).collect::<Vec<_>>().join(", ");
-        format!("Layout {{ title: {title:?}, bits: {}, fields: &[{fields}] }}", self.bits)
+        let (bits, default) = (self.bits, &self.default);
+        format!("Layout {{ title: {title:?}, bits: {bits}, fields: &[{fields}], default: &{default:?} }}")
     }
 }
 
@@ -84,6 +87,7 @@ fn of_pdos(data: &ProcessData, types: &[TypeDef]) -> Vec<Layout> {
         number: Some(("INDEX", pdo.mapping_index)),
         bits: pdo.bits(),
         fields: mapped(pdo).map(|entry| little_endian(entry, types)).collect(),
+        default: Vec::new(),
     };
     data.pdos.iter().filter(|pdo| has_struct(pdo)).map(layout).collect()
 }
@@ -114,7 +118,7 @@ fn images(device: &Device) -> Vec<Layout> {
             }
             bits += pdo.bits();
         }
-        Layout { is_record: false, number: Some(("SYNC_MANAGER", number.into())), bits, fields }
+        Layout { is_record: false, number: Some(("SYNC_MANAGER", number.into())), bits, fields, default: Vec::new() }
     };
     numbers.into_iter().map(image).filter(|own| own.fields() > 0).collect()
 }
@@ -157,21 +161,55 @@ fn io_data(data: &IoData, types: &[TypeDef]) -> Layout {
     let length = data.image.length;
     let entries = data.image.fields.iter().filter(|entry| entry.kind != PdoEntryKind::Padding);
     let fields = entries.filter_map(|entry| big_endian(base(types, entry.ty), (entry.bit_offset, entry.bits), length));
-    Layout { is_record: false, number: None, bits: 8 * length, fields: fields.collect() }
+    Layout { is_record: false, number: None, bits: 8 * length, fields: fields.collect(), default: Vec::new() }
 }
 
-/// The parameters that can be changed; all other bytes are constant.
+/// The parameters that can be changed. What the record is by default are its constants, and over them the values of all
+/// parameters.
 fn record(group: &Group, record: &Record, types: &[TypeDef]) -> Layout {
-    let field = |item: &Item| {
-        let (bit_offset, bits) = item.bindings.iter().find_map(|binding| match binding {
+    let (mut fields, mut default) = (Vec::new(), vec![0; record.length as usize]);
+    for (offset, constant) in &record.constants {
+        default.iter_mut().skip(*offset as usize).zip(constant).for_each(|(to, from)| *to = *from);
+    }
+    for item in &group.items {
+        let base = base(types, item.ty);
+        let place = item.bindings.iter().find_map(|binding| match binding {
             Binding::Record { bit_offset, bits, .. } => Some((*bit_offset, *bits)),
             _ => None,
-        })?;
-        big_endian(base(types, item.ty), (bit_offset, bits), record.length)
+        });
+        let Some(pieces) = place.and_then(|place| big_endian(base, place, record.length)) else { continue };
+        let value = item.default.as_ref().and_then(|value| bits(value, base));
+        put(&mut default, &pieces, &value.unwrap_or_default());
+        if item.access != Access::Constant {
+            fields.push(pieces);
+        }
+    }
+    Layout { is_record: true, number: Some(("INDEX", record.index)), bits: 8 * record.length, fields, default }
+}
+
+/// The bits of a value, the lowest first.
+fn bits(value: &Value, base: Type) -> Option<Vec<bool>> {
+    let bytes = match (value, base) {
+        // One byte a character.
+        (Value::Text(text), _) => text.chars().map(|letter| u8::try_from(letter).unwrap_or(b'?')).collect(),
+        (Value::Bytes(bytes), _) => bytes.clone(),
+        (_, Type::Real32) => (value.as_real()? as f32).to_le_bytes().to_vec(),
+        (_, Type::Real64) => value.as_real()?.to_le_bytes().to_vec(),
+        _ => value.as_int()?.to_le_bytes().to_vec(),
     };
-    let fields = group.items.iter().filter(|item| item.access != Access::Constant).filter_map(field);
-    let number = Some(("INDEX", record.index));
-    Layout { is_record: true, number, bits: 8 * record.length, fields: fields.collect() }
+    Some(bytes.iter().flat_map(|byte| (0..8).map(move |bit| byte >> bit & 1 == 1)).collect())
+}
+
+/// Puts in as many bits as the value has, and leaves the others as they are.
+fn put(data: &mut [u8], pieces: &[Piece], value: &[bool]) {
+    for piece in pieces {
+        for bit in 0..piece.bits {
+            let at = piece.at + bit;
+            let Some(value) = piece.of.and_then(|of| value.get((of + bit) as usize)) else { continue };
+            let byte = &mut data[(at / 8) as usize];
+            *byte = *byte & !(1 << (at % 8)) | u8::from(*value) << (at % 8);
+        }
+    }
 }
 
 /// The bits of a field of PROFINET; `None` where it isn't within the data, or nothing in Rust is like it.

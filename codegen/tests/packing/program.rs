@@ -68,6 +68,8 @@ struct Layout {
     bits: usize,
     /// The pieces of each field: the first bit within the data, the bit of the value that it is, and how many there are.
     fields: &'static [&'static [(u32, u32, u32)]],
+    /// The bytes of a record by default.
+    default: &'static [u8],
 }
 
 impl Layout {
@@ -295,6 +297,7 @@ macro_rules! record {
         };
         assert_eq!(<$name>::LEN, layout.len(), "{}", layout.title);
         let default = (<$name>::DEFAULT_BYTES, <$name>::DEFAULT);
+        assert_eq!(default.0[..], *layout.default, "{}: the default", layout.title);
         assert_eq!(default.1.encode(), Ok(default.0), "{}: the default", layout.title);
         assert_eq!(format!("{:?}", decode(&default.0)), format!("{:?}", default.1), "{}: the default", layout.title);
         record(layout, &default.0, &change);
