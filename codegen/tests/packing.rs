@@ -1,18 +1,30 @@
 //! What generated code packs, it unpacks as the same, and the other way round: process data, process images, records and
 //! messages of every file of the corpus and of every dictionary, on bits of any kind.
 //!
-//! The bindings become programs that are compiled and run; `packing/program.rs` is what such a program does with a type.
+//! The bindings become programs that are compiled and run; `packing/program.rs` is what such a program does with a type. Where bits
+//! have to be comes from the intermediate representation (`packing/layouts.rs`), and so does whether requests name a device.
 
 mod compile_support;
 mod corpus_support;
 #[path = "packing/found.rs"]
 mod found;
+#[path = "packing/layouts.rs"]
+mod layouts;
+#[path = "packing/messages.rs"]
+mod messages;
+#[path = "packing/odd.rs"]
+mod odd;
+#[path = "packing/views.rs"]
+mod views;
 
+use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Mutex;
 
-use found::Found;
+use found::Counts;
+use lexibus_codegen::backend::rust::emit_catalog;
 use lexibus_codegen::compile::{check, Options};
+use lexibus_codegen::ir::{Catalog, Device, Format};
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 
@@ -27,45 +39,95 @@ fn options() -> Options {
     Options { rust, ..Options::default() }
 }
 
-/// A program of some bindings: the modules, and a call for each type that was found in them.
+/// Bindings, and the statements that check each type of them.
+struct Bindings {
+    name: String,
+    text: String,
+    checks: Vec<String>,
+}
+
+impl Bindings {
+    /// The bindings of a catalogue; none where `seen` has them, or there is nothing to generate.
+    fn new(name: &str, catalog: &Catalog, seen: &Mutex<HashSet<String>>) -> Option<(Self, Counts)> {
+        let text = emit_catalog(catalog, &options().rust)?;
+        // Above the first empty line are the name of the file and its digest.
+        let body = text.split_once("\n\n").map_or(text.as_str(), |(_, body)| body);
+        let is_new = seen.lock().expect("what was seen").insert(body.to_owned());
+        is_new.then(|| {
+            let (checks, counts) = found::checks(name, &text, catalog);
+            (Bindings { name: name.to_owned(), checks, text: found::needed(&text) }, counts)
+        })
+    }
+}
+
+/// The catalogues of a file, device by device, as many files share devices.
+fn catalogs(source: Source) -> Vec<Catalog> {
+    let compilation = check(source, &options());
+    let is_profinet = compilation.format == Some(Format::Gsdml);
+    let is_usable = compilation.is_usable();
+    let Some(mut catalog) = compilation.catalog.filter(|_| is_usable) else { return Vec::new() };
+    if catalog.devices.len() <= 1 || is_profinet {
+        return vec![catalog];
+    }
+    let devices = std::mem::take(&mut catalog.devices);
+    let (files, modules) = (catalog.files, catalog.modules);
+    let single = |device: Device| {
+        let (files, modules) = (files.clone(), modules.clone());
+        Catalog { files, devices: vec![device], modules, ..Catalog::default() }
+    };
+    devices.into_iter().map(single).collect()
+}
+
+/// A program of some bindings: the modules, and a function for each type that was found in them.
 #[derive(Default)]
 struct Program {
-    modules: String,
+    text: String,
     calls: String,
     lines: usize,
     names: Vec<String>,
 }
 
 impl Program {
-    fn add(&mut self, name: &str, bindings: &str, found: &[Found]) {
+    fn add(&mut self, own: &Bindings) {
         let module = format!("m{}", self.names.len());
-        self.modules += &format!("#[allow(unused)]\nmod {module} {{\n{bindings}\n}}\n");
-        for one in found {
-            self.calls += &format!("    {}\n", one.call(&module, name));
+        self.text += &format!("#[allow(unused)]\nmod {module} {{\n{}\n}}\n", own.text);
+        for (at, statements) in own.checks.iter().enumerate() {
+            let statements = statements.replace("MODULE::", &format!("{module}::"));
+            self.text += &format!("fn {module}_{at}() {{\n    {statements}\n}}\n");
+            self.calls += &format!("    {module}_{at}();\n");
         }
-        self.lines += bindings.lines().count();
-        self.names.push(name.to_owned());
+        self.lines += own.text.lines().count();
+        self.names.push(own.name.clone());
     }
 
     fn run(&self) -> Result<(), String> {
         let main = format!("fn main() {{\n{}}}\n", self.calls);
-        compile_support::run(&self.names.join(", "), &format!("{CHECKS}\n{}\n{main}", self.modules))
+        compile_support::run(&self.names.join(", "), &format!("{CHECKS}\n{}\n{main}", self.text))
     }
 }
 
-/// Programs of all `bindings` (name and text), on all processors. Gives the number of types of each kind.
-fn run_all(bindings: Vec<(String, String)>) -> found::Counts {
-    let (mut programs, mut counts) = (vec![Program::default()], found::Counts::default());
-    for (name, text) in &bindings {
-        let found = found::all(text);
-        counts.add(&found, text, name);
-        if found.is_empty() {
-            continue;
-        }
+/// Checks everything in `sources`, on all processors. Gives the number of types of each kind.
+fn run_all(sources: Vec<Source>) -> Counts {
+    let (all, seen) = (Mutex::new(Vec::new()), Mutex::default());
+    corpus_support::bindings::on_all_processors(sources, |source| {
+        let name = source.name().to_owned();
+        let own = catalogs(source).into_iter().filter_map(|catalog| Bindings::new(&name, &catalog, &seen));
+        let own: Vec<_> = own.filter(|(own, _)| !own.checks.is_empty()).collect();
+        all.lock().expect("the bindings").extend(own);
+    });
+    run(all.into_inner().expect("the bindings"))
+}
+
+/// Runs programs of all bindings, and adds up what they have.
+fn run(mut all: Vec<(Bindings, Counts)>) -> Counts {
+    all.sort_by(|(one, _), (other, _)| (&one.name, &one.text).cmp(&(&other.name, &other.text)));
+    let (mut programs, mut counts) = (vec![Program::default()], Counts::default());
+    for (own, of_own) in &all {
         if programs.last().is_some_and(|program| program.lines > MAX_LINES) {
             programs.push(Program::default());
         }
-        programs.last_mut().expect("a program").add(name, &found::needed(text), &found);
+        programs.last_mut().expect("a program").add(own);
+        counts.add(of_own);
     }
     let failures = Mutex::new(Vec::new());
     corpus_support::bindings::on_all_processors(programs, |program| {
@@ -80,28 +142,24 @@ fn run_all(bindings: Vec<(String, String)>) -> found::Counts {
 #[test]
 fn every_layout_of_the_corpus() {
     let Some(files) = corpus_support::all_files() else { return };
-    let all = Mutex::new(Vec::new());
-    corpus_support::bindings::each(files, &options(), |name, text| {
-        all.lock().expect("the bindings").push((name.to_owned(), text.to_owned()));
-        Ok(())
-    });
-    let mut bindings = all.into_inner().expect("the bindings");
-    bindings.sort();
-    let counts = run_all(bindings);
+    let counts = run_all(files.into_iter().map(|file| Source::new(file.name.as_str(), file.bytes)).collect());
     eprintln!("{counts:?}");
-    assert!(counts.process_data > 3_000 && counts.records > 300, "{counts:?}");
+    assert!(counts.process_data > 3_000 && counts.records > 300 && counts.views > 2_500, "{counts:?}");
 }
 
 #[test]
 fn every_layout_of_the_dictionaries() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../dictionaries");
-    let mut bindings = Vec::new();
-    for name in ["demo-drive.eds", "aec-vector-step.toml", "kollmorgen-akd.toml", "hsd-sm137-sm140.toml", "eco.toml"] {
-        let source = Source::read(&folder.join(name)).expect("a dictionary");
-        let compilation = check(source, &options());
-        bindings.push((name.to_owned(), compilation.rust(&options().rust).expect("bindings")));
-    }
-    let counts = run_all(bindings);
+    let names = ["demo-drive.eds", "aec-vector-step.toml", "kollmorgen-akd.toml", "hsd-sm137-sm140.toml", "eco.toml"];
+    let sources = names.map(|name| Source::read(&folder.join(name)).expect("a dictionary"));
+    let counts = run_all(sources.into());
     eprintln!("{counts:?}");
-    assert!(counts.process_data >= 37 && counts.messages >= 41, "{counts:?}");
+    assert!(counts.process_data >= 37 && counts.messages >= 41 && counts.views >= 33, "{counts:?}");
+}
+
+#[test]
+fn layouts_that_no_shared_file_has() {
+    let bindings = Bindings::new("odd", &odd::catalog(), &Mutex::default());
+    let counts = run(bindings.into_iter().collect());
+    assert_eq!((counts.process_data, counts.views), (10, 10), "four PDOs and an image in each direction: {counts:?}");
 }

@@ -2,6 +2,11 @@
 
 use std::collections::HashMap;
 
+use crate::layouts::{self, Layout};
+use crate::messages::{bare, Messages};
+use crate::views::{self, Views};
+use lexibus_codegen::ir::Catalog;
+
 /// What a type is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -13,40 +18,11 @@ enum Kind {
     Message,
 }
 
-/// A type, by its path below the bindings.
-#[derive(Debug)]
-pub struct Found {
-    path: String,
+/// A type: the modules that it is in, below the bindings, and its name.
+struct Found<'t> {
+    modules: Vec<&'t str>,
+    name: &'t str,
     kind: Kind,
-    /// Of a message: an expression with random values for it, and one for its reply, where they consist of numbers.
-    values: [Option<String>; 2],
-    /// Of a message: the constant bytes of the request, and of its reply.
-    constants: [String; 2],
-}
-
-impl Found {
-    /// The call that checks it.
-    pub fn call(&self, module: &str, file: &str) -> String {
-        let name = format!("{module}::{}", self.path);
-        let title = format!("{file:?}, {:?}", self.path);
-        match self.kind {
-            Kind::ProcessData => format!("process_data!({title}, {name});"),
-            Kind::Record => format!("record!({title}, {name});"),
-            Kind::Message => {
-                let [request, reply] = &self.values;
-                let own = |value: &String| value.replace("MODULE", module);
-                let request = match request {
-                    Some(value) => format!("sent!(random, {name}, data, {})", own(value)),
-                    None => format!("overheard!(random, {name}, &[{}])", self.constants[0]),
-                };
-                let reply = match reply {
-                    Some(value) => format!("answered!(random, {name}, data, {})", own(value)),
-                    None => format!("overheard_reply!(random, {name}, data, &[{}])", self.constants[1]),
-                };
-                format!("message({title}, |random| {request}, |random, data| {reply});")
-            }
-        }
-    }
 }
 
 /// How many types of each kind there are.
@@ -55,20 +31,29 @@ pub struct Counts {
     pub process_data: usize,
     pub records: usize,
     pub messages: usize,
+    pub views: usize,
+    /// Fields of process data and records.
+    pub fields: usize,
 }
 
 impl Counts {
-    /// Adds what was found in `text`, which has to be as much as has the functions that it is found by.
-    pub fn add(&mut self, found: &[Found], text: &str, name: &str) {
+    /// Counts what was found in `text`, which has to be as much as has the functions that it is found by.
+    fn of(found: &[Found<'_>], text: &str, name: &str) -> Self {
         let of = |kind: Kind| found.iter().filter(|one| one.kind == kind).count();
         let lines = |part: &str| text.lines().filter(|line| line.contains(part)).count();
         let (process_data, records, messages) = (of(Kind::ProcessData), of(Kind::Record), of(Kind::Message));
         assert_eq!(process_data, lines("fn pack(&self) -> ["), "{name}");
         assert_eq!(records, lines("fn encode(&self) -> Result<["), "{name}");
         assert_eq!(messages, lines("rt::message::Request<'a> for "), "{name}");
-        self.process_data += process_data;
-        self.records += records;
-        self.messages += messages;
+        Counts { process_data, records, messages, ..Counts::default() }
+    }
+
+    pub fn add(&mut self, other: &Counts) {
+        self.process_data += other.process_data;
+        self.records += other.records;
+        self.messages += other.messages;
+        self.views += other.views;
+        self.fields += other.fields;
     }
 }
 
@@ -88,128 +73,132 @@ pub fn needed(text: &str) -> String {
     out
 }
 
-/// Every type of `text` that is packed and unpacked. The text is canonical: a step of four spaces is a level.
-pub fn all(text: &str) -> Vec<Found> {
-    let (mut found, structs, replies) = (Vec::new(), structs(text), replies(text));
-    let (constants, rules) = (constants(text), rules(text));
-    let mut modules: Vec<(usize, &str)> = Vec::new();
-    let mut owner = "";
-    for line in text.lines() {
-        let code = line.trim_start();
-        let level = line.len() - code.len();
-        if !code.is_empty() {
-            modules.retain(|(own, _)| *own < level);
+/// The statements that check every type of the bindings of `catalog`, which are in the module `MODULE`.
+pub fn checks(name: &str, text: &str, catalog: &Catalog) -> (Vec<String>, Counts) {
+    let (found, structs, messages, views) = (all(text), structs(text), Messages::new(text), Views::new(text));
+    let mut counts = Counts::of(&found, text, name);
+    let expected = layouts::all(catalog);
+    let with_layout = found.iter().filter(|one| one.kind != Kind::Message).count();
+    assert_eq!(with_layout, expected.len(), "{name}: types, and layouts");
+    let mut expected = expected.iter();
+    let check = |one: &Found<'_>| {
+        let path = one.path();
+        let title = format!("{name}: {path}");
+        if one.kind == Kind::Message {
+            let own = messages.title(one.name);
+            let has_node = layouts::has_node(catalog, own).unwrap_or_else(|| panic!("{title}: no message is {own:?}"));
+            return messages.call(&title, one.name, &format!("MODULE::{path}"), has_node);
         }
-        if let Some(name) = code.strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(" {")) {
-            modules.push((level, name));
+        let layout = expected.next().expect("as many layouts");
+        let fields = structs.get(&path).map(Vec::as_slice).unwrap_or_default();
+        assert_eq!(one.kind == Kind::Record, layout.is_record, "{title}");
+        assert_eq!(fields.len(), layout.fields(), "{title}: {fields:?}");
+        counts.fields += fields.len();
+        let view = views.check(&one.modules, one.name, fields).filter(|_| one.kind == Kind::ProcessData);
+        counts.views += usize::from(view.is_some());
+        one.check(&title, layout, fields) + &view.unwrap_or_default()
+    };
+    let checks = found.iter().map(check).collect();
+    assert_eq!(counts.views, views::count(text), "{name}: views");
+    (checks, counts)
+}
+
+impl Found<'_> {
+    fn path(&self) -> String {
+        self.modules.iter().chain([&self.name]).copied().collect::<Vec<_>>().join("::")
+    }
+
+    /// The statement that checks process data or a record.
+    fn check(&self, title: &str, layout: &Layout, fields: &[(&str, &str)]) -> String {
+        let name = format!("MODULE::{}", self.path());
+        let arm = |(at, (field, ty)): (usize, &(&str, &str))| format!("{at} => own.{field} = {}, ", self.value(ty));
+        let arms: String = fields.iter().enumerate().map(arm).collect();
+        let number = layout.number.map(|(constant, number)| match (constant, layout.is_record) {
+            ("INDEX", false) => format!("assert_eq!(<{name} as lexibus::Pdo>::INDEX, {number}, {title:?}); "),
+            _ => format!("assert_eq!({name}::{constant}, {number}, {title:?}); "),
+        });
+        let kind = if layout.is_record { "record" } else { "process_data" };
+        format!(
+            "{}let layout = &{}; {kind}!({name}, layout, |own, at, raw| match at {{ {arms}_ => {{}} }}); ",
+            number.unwrap_or_default(),
+            layout.literal(title),
+        )
+    }
+
+    /// A value of a field of type `ty`, of the bits of the number `raw`.
+    fn value(&self, ty: &str) -> String {
+        match ty {
+            "bool" => "raw & 1 != 0".to_owned(),
+            "u8" | "u16" | "u32" | "u64" | "i8" | "i16" | "i32" | "i64" => format!("raw as {ty}"),
+            "f32" => "f32::from_bits(raw as u32)".to_owned(),
+            "f64" => "f64::from_bits(raw)".to_owned(),
+            _ if ty.starts_with("[u8; ") => "bytes(raw)".to_owned(),
+            _ => match (ty.strip_prefix("rt::"), ty.strip_prefix("super::")) {
+                (Some(own), _) => format!("lexibus::{}::from_raw(raw)", bare(own)),
+                (None, Some(own)) => {
+                    let outer = &self.modules[..self.modules.len() - 1];
+                    let path = ["MODULE"].iter().chain(outer).chain([&own]).copied().collect::<Vec<_>>().join("::");
+                    match own.starts_with("pdo::") {
+                        true => format!("{path}::unpack(&filled(raw, {path}::LEN)).expect(\"a PDO\")"),
+                        false => format!("{path}::from_raw(raw as _)"),
+                    }
+                }
+                // The enumerations of PROFINET are those of the whole file.
+                (None, None) => format!("MODULE::{ty}::from_raw(raw as _)"),
+            },
         }
+    }
+}
+
+/// Every type of `text` that is packed and unpacked.
+fn all(text: &str) -> Vec<Found<'_>> {
+    let (mut found, mut owner) = (Vec::new(), "");
+    each_line(text, |modules, code| {
         if let Some(name) = code.strip_prefix("impl ").and_then(|rest| rest.strip_suffix(" {")) {
             owner = name;
         }
-        let message = code.strip_prefix("impl<'a> rt::message::Request<'a> for ");
-        let (name, kind) = match message {
+        let (name, kind) = match code.strip_prefix("impl<'a> rt::message::Request<'a> for ") {
             Some(message) => (bare(message), Kind::Message),
             None if code.contains("fn pack(&self) -> [") => (owner, Kind::ProcessData),
             None if code.contains("fn encode(&self) -> Result<[") => (owner, Kind::Record),
-            None => continue,
+            None => return,
         };
-        let of = [message.and(Some(name)), message.and(replies.get(name).copied())];
-        let values = of.map(|name| random(name?, &structs, rules.get(name?).copied()));
-        let constants =
-            of.map(|name| name.and_then(|name| constants.get(name)).copied().unwrap_or_default().to_owned());
-        let path = modules.iter().map(|(_, name)| *name).chain([name]).collect::<Vec<_>>().join("::");
-        found.push(Found { path, kind, values, constants });
-    }
+        found.push(Found { modules: modules.to_vec(), name, kind });
+    });
     found
 }
 
-/// The structs of `pub mod messages`, with the names and types of their fields.
-fn structs(text: &str) -> HashMap<&str, Vec<(&str, &str)>> {
-    let mut structs: HashMap<&str, Vec<(&str, &str)>> = HashMap::new();
-    let mut own = None;
-    for line in text.lines() {
-        if let Some(name) = line.strip_prefix("    pub struct ") {
-            own = Some(bare(name));
-            structs.insert(bare(name), Vec::new());
-        } else if line == "    }" {
+/// The names and types of the fields of all structs, by their paths.
+fn structs(text: &str) -> HashMap<String, Vec<(&str, &str)>> {
+    let (mut structs, mut own): (HashMap<String, Vec<_>>, _) = (HashMap::new(), None);
+    each_line(text, |modules, code| {
+        if let Some(name) = code.strip_prefix("pub struct ") {
+            let path = modules.iter().copied().chain([bare(name)]).collect::<Vec<_>>().join("::");
+            own = code.ends_with('{').then_some(path);
+        } else if code == "}" {
             own = None;
-        } else if let Some(field) = line.strip_prefix("        pub ").and_then(|field| field.strip_suffix(',')) {
-            let fields = own.and_then(|name| structs.get_mut(name));
-            fields.into_iter().for_each(|fields| fields.extend(field.split_once(": ")));
+        } else if let (Some(path), Some(field)) = (&own, code.strip_prefix("pub ")) {
+            let field = field.strip_suffix(',').and_then(|field| field.split_once(": "));
+            structs.entry(path.clone()).or_default().push(field.expect("a field on one line"));
         }
-    }
+    });
     structs
 }
 
-/// The type of the reply to each message.
-fn replies(text: &str) -> HashMap<&str, &str> {
-    let (mut replies, mut message) = (HashMap::new(), None);
-    for line in text.lines().map(str::trim_start) {
-        if line.starts_with("impl") {
-            message = line.split_once("rt::message::Message for ").map(|(_, name)| bare(name));
+/// Hands each line to `look`, with the modules that it is in. The text is canonical: a step of four spaces is a level.
+pub fn each_line<'t>(text: &'t str, mut look: impl FnMut(&[&'t str], &'t str)) {
+    let (mut modules, mut levels): (Vec<&str>, Vec<usize>) = (Vec::new(), Vec::new());
+    for line in text.lines() {
+        let code = line.trim_start();
+        let level = line.len() - code.len();
+        while !code.is_empty() && levels.last().is_some_and(|own| *own >= level) {
+            levels.pop();
+            modules.pop();
         }
-        if let (Some(message), Some(reply)) = (message, line.strip_prefix("type Reply<'r> = ")) {
-            replies.insert(message, bare(reply));
+        if let Some(name) = code.strip_prefix("pub mod ").and_then(|rest| rest.strip_suffix(" {")) {
+            levels.push(level);
+            modules.push(name);
         }
+        look(&modules, code);
     }
-    replies
-}
-
-/// The first constant bytes that each request and reply is read by.
-fn constants(text: &str) -> HashMap<&str, &str> {
-    let (mut constants, mut owner) = (HashMap::new(), None);
-    for line in text.lines().map(str::trim_start) {
-        if line.starts_with("impl") {
-            let read = line.split_once("rt::message::").and_then(|(_, line)| line.split_once("<'a> for "));
-            owner = read.map(|(_, name)| bare(name));
-        }
-        let constant = line.strip_prefix("from.constant(&[").and_then(|rest| rest.strip_suffix("])?;"));
-        if let (Some(name), Some(constant)) = (owner, constant) {
-            constants.entry(name).or_insert(constant);
-        }
-    }
-    constants
-}
-
-/// The rule by which each request reads its settings.
-fn rules(text: &str) -> HashMap<&str, &str> {
-    let (mut rules, mut owner) = (HashMap::new(), "");
-    for line in text.lines().map(str::trim_start) {
-        owner = line.strip_prefix("impl<'a> rt::message::Request<'a> for ").map_or(owner, bare);
-        if let Some((_, rule)) = line.split_once("rt::message::Settings::received(value_0, ") {
-            rules.insert(owner, bare(rule));
-        }
-    }
-    rules
-}
-
-/// A name without what stands behind it.
-fn bare(name: &str) -> &str {
-    let end = name.find(|letter: char| !letter.is_alphanumeric() && letter != '_').unwrap_or(name.len());
-    &name[..end]
-}
-
-/// An expression of random values for a message; `None` where it has a field that has a list.
-fn random(name: &str, structs: &HashMap<&str, Vec<(&str, &str)>>, rule: Option<&str>) -> Option<String> {
-    let value = |ty: &str| match ty {
-        "u8" | "u16" | "u32" | "u64" | "i8" | "i16" | "i32" | "i64" => Some(format!("random.number() as {ty}")),
-        "f32" => Some("f32::from_bits(random.next() as u32)".to_owned()),
-        "bool" => Some("random.next() & 1 != 0".to_owned()),
-        "rt::Parameter" => Some("lexibus::Parameter(random.number() as u32)".to_owned()),
-        "rt::message::Setting" => Some("random.setting(data)".to_owned()),
-        "rt::message::Settings<'a>" => {
-            let rule = format!("MODULE::messages::{}", rule?);
-            Some(format!("lexibus::message::Settings::sent(random.settings({rule}), {rule})"))
-        }
-        _ => match ty.strip_prefix("rt::message::List<'a, ") {
-            Some(entry) => {
-                let entry = random(bare(entry), structs, None)?;
-                Some(format!("lexibus::message::List::from(random.several(|random| {entry}))"))
-            }
-            None => ty.strip_prefix("super::").map(|ty| format!("MODULE::{ty}::from_raw(random.number() as _)")),
-        },
-    };
-    let fields: Option<Vec<String>> =
-        structs.get(name)?.iter().map(|(name, ty)| Some(format!("{name}: {}", value(ty)?))).collect();
-    Some(format!("MODULE::messages::{name} {{ {} }}", fields?.join(", ")))
 }

@@ -1,8 +1,7 @@
 use core::fmt::Debug;
 
 use lexibus::message::{Message, Reader, Reply, Request, Setting, SettingsRule, WriteError, Writer};
-use lexibus::profinet::NotAllowed;
-use lexibus::{LengthError, Parameter};
+use lexibus::Parameter;
 
 /// Random bits, the same in each run (xorshift).
 struct Random(u64);
@@ -57,20 +56,89 @@ const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
 /// Bytes of data, and what the fields that they are read as look like.
 type Packed = (Vec<u8>, String);
 
-/// Checks a PDO or a process image.
+/// Unpacks data, sets the field of this number, if there is one, by the bits of a value, and packs the fields.
+type Change<'c> = &'c dyn Fn(&[u8], usize, u64) -> Result<Packed, String>;
+
+/// The number of no field.
+const NONE: usize = usize::MAX;
+
+/// Where the bits of a type are.
+struct Layout {
+    title: &'static str,
+    bits: usize,
+    /// The pieces of each field: the first bit within the data, the bit of the value that it is, and how many there are.
+    fields: &'static [&'static [(u32, u32, u32)]],
+    /// The bytes of a record by default.
+    default: &'static [u8],
+}
+
+impl Layout {
+    fn len(&self) -> usize {
+        self.bits.div_ceil(8)
+    }
+
+    /// Hands each bit of a field to `look`: that of the data and that of the value, which reserved bits have not.
+    fn each_bit(&self, field: usize, mut look: impl FnMut(usize, Option<u32>)) {
+        for (at, of, bits) in self.fields[field] {
+            (0..*bits).for_each(|bit| look((at + bit) as usize, (*of != u32::MAX).then(|| of + bit)));
+        }
+    }
+
+    /// The bits that fields have.
+    fn mask(&self) -> Vec<u8> {
+        let mut mask = vec![0; self.len()];
+        for field in 0..self.fields.len() {
+            self.each_bit(field, |at, of| put(&mut mask, at, of.is_some()));
+        }
+        mask
+    }
+
+    /// `data` with the bits of a value in a field.
+    fn with(&self, mut data: Vec<u8>, field: usize, raw: u64) -> Vec<u8> {
+        self.each_bit(field, |at, of| put(&mut data, at, of.is_some_and(|of| raw >> (of % 64) & 1 == 1)));
+        data
+    }
+}
+
+fn put(data: &mut [u8], bit: usize, value: bool) {
+    data[bit / 8] = data[bit / 8] & !(1 << (bit % 8)) | u8::from(value) << (bit % 8);
+}
+
+/// `data` where `mask` is 1, `other` where it is 0.
+fn merged(data: &[u8], mask: &[u8], other: &[u8]) -> Vec<u8> {
+    let all = data.iter().zip(mask).zip(other);
+    all.map(|((data, mask), other)| data & mask | other & !mask).collect()
+}
+
+/// Bytes of the bits of `raw`, again and again.
+fn filled(raw: u64, len: usize) -> Vec<u8> {
+    raw.to_le_bytes().into_iter().cycle().take(len).collect()
+}
+
+fn bytes<const N: usize>(raw: u64) -> [u8; N] {
+    filled(raw, N).try_into().expect("as many bytes")
+}
+
+/// Checks a PDO or a process image. `$set` puts the bits of a value into a field.
 macro_rules! process_data {
-    ($file:expr, $path:expr, $name:ty) => {{
-        let unpack = |data: &[u8]| <$name>::unpack(data).map(|own| (own.pack().to_vec(), format!("{own:?}")));
-        process_data($file, $path, &unpack, <$name>::LEN);
+    ($name:ty, $layout:expr, |$own:ident, $at:ident, $raw:ident| $set:expr) => {{
+        let change = |data: &[u8], $at: usize, $raw: u64| {
+            let mut $own = <$name>::unpack(data).map_err(|error| format!("{error:?}"))?;
+            $set;
+            Ok(($own.pack().to_vec(), if $at == NONE { format!("{:?}", $own) } else { String::new() }))
+        };
+        assert_eq!(<$name>::LEN, $layout.len(), "{}", $layout.title);
+        process_data($layout, &change);
     }};
 }
 
-/// Bits that a layout has are the same after unpacking and packing; bits that it hasn't are 0. Too few bytes are an error.
-fn process_data(file: &str, path: &str, unpack: &dyn Fn(&[u8]) -> Result<Packed, LengthError>, len: usize) {
-    let unpacked = |data: &[u8]| unpack(data).unwrap_or_else(|error| panic!("{file}: {path}: {error:?}"));
+/// The bits of the fields are the same after unpacking and packing, all others are 0; the bits of a field that is set are
+/// where they belong, and no others change. Too few bytes are an error.
+fn process_data(own: &Layout, change: Change<'_>) {
+    let (title, mask, zeros) = (own.title, own.mask(), vec![0; own.len()]);
+    let changed = |data: &[u8], at, raw| change(data, at, raw).unwrap_or_else(|error| panic!("{title}: {error}"));
     let mut random = Random(SEED);
-    let mut data = vec![0xFF; len];
-    let covered = unpacked(&data).0;
+    let mut data = vec![0xFF; own.len()];
     for round in 0..24 {
         match round {
             0 => data.fill(0),
@@ -79,41 +147,198 @@ fn process_data(file: &str, path: &str, unpack: &dyn Fn(&[u8]) -> Result<Packed,
             3 => data.fill(0x7F),
             _ => random.fill(&mut data),
         }
-        let (packed, fields) = unpacked(&data);
-        let expected: Vec<u8> = data.iter().zip(&covered).map(|(data, covered)| data & covered).collect();
-        assert!(packed == expected, "{file}: {path}: {data:02X?} is packed as {packed:02X?}, not {expected:02X?}");
-        let again = unpacked(&packed);
-        assert!(again == (packed, fields), "{file}: {path}: {data:02X?} is {again:?} the second time");
+        let (packed, fields) = changed(&data, NONE, 0);
+        let expected = merged(&data, &mask, &zeros);
+        assert!(packed == expected, "{title}: {data:02X?} is packed as {packed:02X?}, not {expected:02X?}");
+        let again = changed(&packed, NONE, 0);
+        assert!(again == (packed, fields), "{title}: {data:02X?} is {again:?} the second time");
     }
-    if len > 0 {
-        assert!(unpack(&data[1..]).is_err(), "{file}: {path}: unpacks {} of {len} bytes", len - 1);
+    for at in 0..own.fields.len() {
+        for (fill, raw) in [(Some(0), !0), (Some(0xFF), 0), (None, random.next()), (None, random.next())] {
+            random.fill(&mut data);
+            fill.into_iter().for_each(|byte| data.fill(byte));
+            let (packed, _) = changed(&data, at, raw);
+            let expected = own.with(merged(&data, &mask, &zeros), at, raw);
+            assert!(
+                packed == expected,
+                "{title}: {raw:X} in {at} of {data:02X?} is {packed:02X?}, not {expected:02X?}"
+            );
+        }
+    }
+    if own.len() > 0 {
+        assert!(change(&data[1..], NONE, 0).is_err(), "{title}: unpacks {} of {} bytes", own.len() - 1, own.len());
     }
 }
 
-/// Checks a record.
-macro_rules! record {
-    ($file:expr, $path:expr, $name:ty) => {{
-        let decode = |data: &[u8]| {
-            let own = <$name>::decode(data).unwrap_or_else(|error| panic!("{}: {}: {error:?}", $file, $path));
-            own.encode().map(|bytes| (bytes.to_vec(), format!("{own:?}")))
+/// What the views of a PDO do within an image.
+trait Getters<T> {
+    /// All fields.
+    fn fields(&self) -> T;
+}
+
+trait Setters<T> {
+    /// Sets the field of this number, or all of them.
+    fn set(&mut self, fields: &T, at: usize);
+}
+
+/// The fields of a view.
+macro_rules! getters {
+    ($name:ty, $view:ty, |$own:ident| $fields:expr, [$($field:ident $getter:ident,)*]) => {
+        impl Getters<$name> for $view {
+            fn fields(&self) -> $name {
+                type Fields = $name;
+                let $own = self;
+                let view = $fields;
+                Fields { $($field: view.$getter(),)* }
+            }
+        }
+    };
+}
+
+macro_rules! setters {
+    ($name:ty, $view:ty, [$($at:literal $field:ident $setter:ident,)*]) => {
+        impl Setters<$name> for $view {
+            fn set(&mut self, fields: &$name, at: usize) {
+                $(if at == $at || at == NONE {
+                    self.$setter(fields.$field);
+                })*
+            }
+        }
+    };
+}
+
+/// The PDOs of a view of an image.
+macro_rules! image_views {
+    ($name:ty, $reader:ty, $writer:ty, [$($read:ident $get:ident,)*], [$($at:literal $field:ident $set:ident,)*]) => {
+        impl Getters<$name> for $reader {
+            fn fields(&self) -> $name {
+                type Fields = $name;
+                Fields { $($read: self.$get().fields(),)* }
+            }
+        }
+
+        impl Setters<$name> for $writer {
+            fn set(&mut self, fields: &$name, at: usize) {
+                $(if at == $at || at == NONE {
+                    self.$set().set(&fields.$field, NONE);
+                })*
+            }
+        }
+    };
+}
+
+/// Checks a view. `$get` and `$set` are the view at a bit of data, or why there is none.
+macro_rules! view {
+    ($name:ty, $layout:expr, $bits:expr, |$data:ident, $bit:ident| $get:expr, $set:expr) => {{
+        let set = |$data: &mut [u8], $bit: usize, at: usize, from: &[u8]| {
+            let fields = <$name>::unpack(from).expect("as many bytes");
+            $set.map(|mut view| Setters::<$name>::set(&mut view, &fields, at)).map_err(|error| format!("{error:?}"))
         };
-        let default = <$name>::DEFAULT.encode().map(|bytes| bytes.to_vec());
-        record($file, $path, default.unwrap_or(vec![0; <$name>::LEN]), &decode);
+        let get = |$data: &mut [u8], $bit: usize| {
+            let fields = $get.map(|view| Getters::<$name>::fields(&view));
+            fields.map(|fields| fields.pack().to_vec()).map_err(|error| format!("{error:?}"))
+        };
+        view($layout, $bits, &set, &get);
     }};
 }
 
-/// A record that may be written is read as what was written. From its default on, bit by bit, through all values that are
-/// allowed.
-fn record(file: &str, path: &str, mut data: Vec<u8>, decode: &dyn Fn(&[u8]) -> Result<Packed, NotAllowed>) {
-    let mut random = Random(SEED);
-    for _ in 0..data.len().min(64) * 4 {
-        let (mut next, at) = (data.clone(), random.next() as usize % data.len());
-        next[at] ^= if random.next() & 1 == 0 { 1 << (random.next() & 7) } else { random.next() as u8 };
-        let Ok((encoded, fields)) = decode(&next) else { continue };
-        let again = decode(&encoded).unwrap_or_else(|error| panic!("{file}: {path}: {error:?}"));
-        assert!(again == (encoded, fields), "{file}: {path}: {next:02X?} is {again:?} the second time");
-        data = again.0;
+/// Sets the field of this number, or all of them, of the view at this bit of data as it is in other data.
+type Set<'s> = &'s dyn Fn(&mut [u8], usize, usize, &[u8]) -> Result<(), String>;
+
+/// Packs the fields of the view at this bit.
+type Get<'g> = &'g dyn Fn(&mut [u8], usize) -> Result<Vec<u8>, String>;
+
+/// A field that is set within an image has its bits there, and no others change; what is read is what stands there. In
+/// images that end with the view and in longer ones, from each of the first `bits` bits on.
+fn view(own: &Layout, bits: usize, set: Set<'_>, get: Get<'_>) {
+    let (title, mask, mut random) = (own.title, own.mask(), Random(SEED));
+    let (mut from, zeros) = (vec![0; own.len()], vec![0; own.len()]);
+    for (bit, behind) in (0..bits).flat_map(|bit| [(bit, 0), (bit, 9)]) {
+        let mut image = vec![0xFF; (bit + own.bits).div_ceil(8) + behind];
+        random.fill(&mut from);
+        for at in (0..own.fields.len()).chain([NONE]) {
+            let mut expected = vec![0xFF; image.len()];
+            let of_field = |field: &usize| at == NONE || at == *field;
+            for field in (0..own.fields.len()).filter(of_field) {
+                own.each_bit(field, |at, of| put(&mut expected, bit + at, of.is_some() && is_set(&from, at)));
+            }
+            image.fill(0xFF);
+            let outcome = set(&mut image, bit, at, &from);
+            assert!(outcome == Ok(()), "{title}: at bit {bit}: {outcome:?}");
+            assert!(
+                image == expected,
+                "{title}: {at} of {from:02X?} at bit {bit} is {image:02X?}, not {expected:02X?}"
+            );
+        }
+        random.fill(&mut image);
+        let mut read = vec![0; own.len()];
+        (0..own.bits).for_each(|at| put(&mut read, at, is_set(&image, bit + at)));
+        let (read, got) = (merged(&read, &mask, &zeros), get(&mut image, bit));
+        assert!(got.as_ref() == Ok(&read), "{title}: at bit {bit} of {image:02X?} is {got:02X?}, not {read:02X?}");
+        let short = image.len() - behind - 1;
+        let outcome = (set(&mut image[..short], bit, NONE, &from), get(&mut image[..short], bit));
+        assert!(matches!(outcome, (Err(_), Err(_))), "{title}: {short} bytes from bit {bit} on: {outcome:?}");
     }
+}
+
+fn is_set(data: &[u8], bit: usize) -> bool {
+    data[bit / 8] >> (bit % 8) & 1 == 1
+}
+
+/// Checks a record. `$set` puts the bits of a value into a field.
+macro_rules! record {
+    ($name:ty, $layout:expr, |$own:ident, $at:ident, $raw:ident| $set:expr) => {{
+        let layout: &Layout = $layout;
+        let decode = |data: &[u8]| <$name>::decode(data).unwrap_or_else(|error| panic!("{}: {error:?}", layout.title));
+        let change = |data: &[u8], $at: usize, $raw: u64| {
+            let mut $own = decode(data);
+            $set;
+            $own.encode().map(|bytes| (bytes.to_vec(), format!("{:?}", $own))).map_err(|error| format!("{error:?}"))
+        };
+        assert_eq!(<$name>::LEN, layout.len(), "{}", layout.title);
+        let default = (<$name>::DEFAULT_BYTES, <$name>::DEFAULT);
+        assert_eq!(default.0[..], *layout.default, "{}: the default", layout.title);
+        assert_eq!(default.1.encode(), Ok(default.0), "{}: the default", layout.title);
+        assert_eq!(format!("{:?}", decode(&default.0)), format!("{:?}", default.1), "{}: the default", layout.title);
+        record(layout, &default.0, &change);
+    }};
+}
+
+/// So many values of a record are checked that it takes, and as many that have other fields than the one before.
+const ACCEPTED: usize = 64;
+
+/// The bits of the fields are the same after decoding and encoding, all others are those of `default`; the bits of a field
+/// that is set are where they belong. From the default on, change by change, through values that are allowed.
+fn record(own: &Layout, default: &[u8], change: Change<'_>) {
+    let (title, mask, mut random) = (own.title, own.mask(), Random(SEED));
+    let (mut data, mut accepted, mut moved) = (default.to_vec(), 0, 0);
+    for round in 0..1_000_000 {
+        let mut next = data.clone();
+        let (field, raw) = match own.fields.len() {
+            fields @ 1.. if round % 2 == 0 => (random.next() as usize % fields, random.number() as u64),
+            _ => (NONE, random.next()),
+        };
+        if field == NONE {
+            let at = random.next() as usize % next.len();
+            next[at] ^= if raw & 1 == 0 { 1 << (raw >> 1 & 7) } else { (raw >> 8) as u8 };
+        }
+        let Ok(packed) = change(&next, field, raw) else { continue };
+        let kept = merged(&next, &mask, default);
+        let expected = if field == NONE { kept } else { own.with(kept, field, raw) };
+        assert!(
+            packed.0 == expected,
+            "{title}: {raw:X} in {field} of {next:02X?} is {packed:02X?}, not {expected:02X?}"
+        );
+        let again = change(&packed.0, NONE, 0);
+        assert!(again.as_ref() == Ok(&packed), "{title}: {next:02X?} is {again:?} the second time");
+        accepted += 1;
+        moved += usize::from(packed.0 != data);
+        data = packed.0;
+        if accepted >= ACCEPTED && (moved >= ACCEPTED || own.fields.is_empty()) {
+            return;
+        }
+    }
+    panic!("{title}: only {accepted} values are allowed, {moved} of them others than before");
 }
 
 /// More data than any message has.
@@ -128,7 +353,7 @@ fn written(write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) -> Res
 
 /// Requests and replies that can be written are read as they were. `request` gives the data of one, `reply` checks one to
 /// these; none where a random value can't be sent.
-fn message(file: &str, path: &str, request: fn(&mut Random) -> Option<Vec<u8>>, reply: fn(&mut Random, &[u8]) -> bool) {
+fn message(title: &str, request: fn(&mut Random) -> Option<Vec<u8>>, reply: fn(&mut Random, &[u8]) -> bool) {
     let mut random = Random(SEED);
     let (mut requests, mut replies) = (0, 0);
     for _ in 0..1_000_000 {
@@ -139,7 +364,7 @@ fn message(file: &str, path: &str, request: fn(&mut Random) -> Option<Vec<u8>>, 
             return;
         }
     }
-    panic!("{file}: {path}: {requests} requests, {replies} replies");
+    panic!("{title}: {requests} requests, {replies} replies");
 }
 
 /// Whether two values are equal, or look so: as numbers that aren't any do.
@@ -149,14 +374,14 @@ fn is_same<T: PartialEq + Debug>(one: &T, other: &T) -> bool {
 
 /// The data of a request, which are read as it.
 macro_rules! sent {
-    ($random:ident, $message:ty, $none:ident, $value:expr) => {{
+    ($random:ident, $message:ty, $none:ident, $has_node:literal, $value:expr) => {{
         #[allow(unused)]
         let $none: &[u8] = &[];
         let (request, node) = ($value, u32::from($random.number() as u8));
         written(|to| request.write(node, to)).ok().inspect(|data| {
             let read = <$message>::parse(&mut Reader::new(data));
-            // A protocol without numbers of devices reads 0.
-            let node = if matches!(read, Some((0, _))) { 0 } else { node };
+            // A request without a number of the device reads 0.
+            let node = if $has_node { node } else { 0 };
             assert!(is_same(&read, &Some((node, request))), "{data:02X?} is read as {read:?}");
         })
     }};
