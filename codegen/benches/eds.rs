@@ -27,22 +27,4 @@ fn lex(bencher: Bencher<'_, '_>, size: usize) {
         .bench(|| Document::parse(divan::black_box(&text), FileId(0)).entry_count());
 }
 
-#[divan::bench(args = SIZES, max_time = 2)]
-fn read(bencher: Bencher<'_, '_>, size: usize) {
-    stages::read(bencher, "bench.eds", growing(size));
-}
-
-#[divan::bench(args = SIZES, max_time = 2)]
-fn passes(bencher: Bencher<'_, '_>, size: usize) {
-    stages::passes(bencher, "bench.eds", growing(size));
-}
-
-#[divan::bench(args = SIZES, max_time = 2)]
-fn check(bencher: Bencher<'_, '_>, size: usize) {
-    stages::check(bencher, "bench.eds", growing(size));
-}
-
-#[divan::bench(args = SIZES, max_time = 2)]
-fn emit(bencher: Bencher<'_, '_>, size: usize) {
-    stages::emit(bencher, "bench.eds", growing(size));
-}
+stages::measure!("bench.eds");

@@ -28,22 +28,4 @@ fn bare_events(bencher: Bencher<'_, '_>, size: usize) {
     bencher.counter(BytesCount::new(bytes.len())).bench(|| bare::events(divan::black_box(&bytes)));
 }
 
-#[divan::bench(args = SIZES, max_time = 2)]
-fn read(bencher: Bencher<'_, '_>, size: usize) {
-    stages::read(bencher, "bench.xml", growing(size));
-}
-
-#[divan::bench(args = SIZES, max_time = 2)]
-fn passes(bencher: Bencher<'_, '_>, size: usize) {
-    stages::passes(bencher, "bench.xml", growing(size));
-}
-
-#[divan::bench(args = SIZES, max_time = 2)]
-fn check(bencher: Bencher<'_, '_>, size: usize) {
-    stages::check(bencher, "bench.xml", growing(size));
-}
-
-#[divan::bench(args = SIZES, max_time = 2)]
-fn emit(bencher: Bencher<'_, '_>, size: usize) {
-    stages::emit(bencher, "bench.xml", growing(size));
-}
+stages::measure!("bench.xml");

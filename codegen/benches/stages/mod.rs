@@ -44,3 +44,29 @@ pub fn emit(bencher: Bencher<'_, '_>, name: &str, bytes: Vec<u8>) {
     let compilation = compile::check(Source::new(name, bytes), &Options::default());
     bencher.counter(count).bench(|| divan::black_box(&compilation).rust(&RustOptions::default()).expect("bindings"));
 }
+
+/// The measurements of a format, of files with this name that `growing` makes.
+macro_rules! measure {
+    ($name:literal) => {
+        #[divan::bench(args = stages::SIZES, max_time = 2)]
+        fn read(bencher: divan::Bencher<'_, '_>, size: usize) {
+            stages::read(bencher, $name, growing(size));
+        }
+
+        #[divan::bench(args = stages::SIZES, max_time = 2)]
+        fn passes(bencher: divan::Bencher<'_, '_>, size: usize) {
+            stages::passes(bencher, $name, growing(size));
+        }
+
+        #[divan::bench(args = stages::SIZES, max_time = 2)]
+        fn check(bencher: divan::Bencher<'_, '_>, size: usize) {
+            stages::check(bencher, $name, growing(size));
+        }
+
+        #[divan::bench(args = stages::SIZES, max_time = 2)]
+        fn emit(bencher: divan::Bencher<'_, '_>, size: usize) {
+            stages::emit(bencher, $name, growing(size));
+        }
+    };
+}
+pub(crate) use measure;

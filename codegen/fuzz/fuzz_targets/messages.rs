@@ -5,28 +5,31 @@ use lexibus::framing::Framing;
 use lexibus::message::{Reader, Reply, Request, WriteError, Writer};
 use lexibus_drives::hsd::messages::*;
 
-/// What `write` writes is what was read. A setting whose length isn't that of its parameter is read, for whoever looks for what is
-/// wrong on a line, and not written.
-fn same(name: &str, data: &[u8], write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) {
+/// What `write` writes is what was read, up to `known` bytes. A setting whose length isn't that of its parameter is read, for whoever
+/// looks for what is wrong on a line, and not written.
+fn same(name: &str, data: &[u8], known: usize, write: impl FnOnce(&mut Writer<'_>) -> Result<(), WriteError>) {
     let mut again = [0; 2 * MAX_DATA];
     let mut to = Writer::new(&mut again);
     match write(&mut to) {
         Err(WriteError::Length(_)) if name.contains("Par") => {}
         Err(error) => panic!("{name} was read, and isn't written: {error}"),
-        Ok(()) => assert_eq!(to.written(), data, "{name}"),
+        Ok(()) => {
+            assert_eq!(to.written().len(), data.len(), "{name}");
+            assert_eq!(to.written()[..known], data[..known], "{name}");
+        }
     }
 }
 
-/// A request that is read is the one that is written, and so is a reply.
+/// A request that is read is the one that is written, and so is a reply to it.
 fn request<'r, M: Request<'r>>(data: &'r [u8], answer: &'r [u8]) {
-    let mut from = Reader::new(data);
-    if let Some((node, request)) = M::parse(&mut from) {
-        same(M::NAME, data, |to| request.write(node, to));
-    }
-    if let Some(reply) = M::Reply::read(data, &mut Reader::new(answer)) {
-        same(M::NAME, answer, |to| reply.write(data, to));
-    }
     let _ = M::Refusal::read(data, &mut Reader::new(answer));
+    let reply = M::Reply::read(data, &mut Reader::new(answer));
+    let Some((node, request)) = M::parse(&mut Reader::new(data)) else { return };
+    same(M::NAME, data, data.len(), |to| request.write(node, to));
+    if let Some(reply) = reply {
+        // A reply may have the request's bytes once more, and anything in place of those that a short request lacks.
+        same(M::NAME, answer, data.len().min(answer.len()), |to| reply.write(data, to));
+    }
 }
 
 /// Each frame of a stream has data that make the same frame.
