@@ -12,13 +12,11 @@ if [[ -x target/python/bin/python ]]; then export LEXIBUS_PYTHON=${LEXIBUS_PYTHO
 cargo llvm-cov test --no-report --workspace --all-features --no-fail-fast -- \
     --skip compile_fail --skip generated_code_costs --skip what_is_not_used --skip both_programs
 
-report() { cargo llvm-cov report "$@"; }
-
 # What is emitted is a result of the compiler, not a part of it.
 crates=(lexibus lexibus-codegen lexibus-macros)
 printf '%-18s %8s %8s %8s\n' crate lines missed covered
 for crate in "${crates[@]}"; do
-    read -r lines missed covered < <(report -p "$crate" --summary-only 2>/dev/null | awk '$1 == "TOTAL" { print $8, $9, $10 }')
+    read -r lines missed covered < <(cargo llvm-cov report -p "$crate" --summary-only 2>/dev/null | awk '$1 == "TOTAL" { print $8, $9, $10 }')
     printf '%-18s %8s %8s %8s\n' "$crate" "$lines" "$missed" "$covered"
 done
-if [[ -n ${1:-} ]]; then report $(printf -- '-p %s ' "${crates[@]}") --json --output-path "$1"; fi
+if [[ -n ${1:-} ]]; then cargo llvm-cov report $(printf -- '-p %s ' "${crates[@]}") --json --output-path "$1"; fi

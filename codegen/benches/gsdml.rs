@@ -8,7 +8,6 @@ mod bare;
 mod inputs;
 mod stages;
 
-use divan::counter::BytesCount;
 use divan::Bencher;
 use inputs::{growing, gsdml, DRIVE};
 use stages::SIZES;
@@ -24,8 +23,7 @@ fn main() {
 
 #[divan::bench(args = SIZES, max_time = 2)]
 fn bare_events(bencher: Bencher<'_, '_>, size: usize) {
-    let bytes = growing(size);
-    bencher.counter(BytesCount::new(bytes.len())).bench(|| bare::events(divan::black_box(&bytes)));
+    bare::measure(bencher, growing(size));
 }
 
 stages::measure!("bench.xml");

@@ -8,6 +8,15 @@ fn codes(compilation: &Compilation) -> Vec<&'static str> {
     compilation.diagnostics.list().iter().map(|found| found.code.id).collect()
 }
 
+fn checked(name: &str, text: String) -> Compilation {
+    check(Source::new(name, text.into_bytes()), &Options::default())
+}
+
+/// How many findings have this code.
+fn count(compilation: &Compilation, code: &str) -> usize {
+    codes(compilation).iter().filter(|own| **own == code).count()
+}
+
 fn items(compilation: &Compilation) -> usize {
     let devices = compilation.catalog.iter().flat_map(|catalog| &catalog.devices);
     devices.flat_map(|device| &device.groups).map(|group| group.items.len()).sum()
@@ -26,24 +35,15 @@ fn rows(count: u32) -> Compilation {
             limits::MAX_REPEAT
         );
     }
-    check(Source::new("rows.toml", table.into_bytes()), &Options::default())
+    checked("rows.toml", table)
 }
 
 #[test]
 fn rows_that_stand_for_many_items() {
     let full = limits::MAX_DERIVED_ITEMS / limits::MAX_REPEAT as usize;
     let compilation = rows(full as u32 + 50);
-    assert_eq!(codes(&compilation).iter().filter(|code| **code == "IO003").count(), 1);
+    assert_eq!(count(&compilation, "IO003"), 1);
     assert_eq!(items(&compilation), full * limits::MAX_REPEAT as usize + 50);
-}
-
-fn checked(name: &str, text: String) -> Compilation {
-    check(Source::new(name, text.into_bytes()), &Options::default())
-}
-
-/// How many findings have this code.
-fn count(compilation: &Compilation, code: &str) -> usize {
-    codes(compilation).iter().filter(|own| **own == code).count()
 }
 
 #[test]
@@ -154,8 +154,7 @@ fn files_that_are_too_large() {
 
 /// The EDS that has these lines, and as many bytes more as any has.
 fn eds(lines: &str) -> Compilation {
-    let text = format!("[FileInfo]\nFileName=a\n{lines}");
-    check(Source::new("a.eds", text.into_bytes()), &Options::default())
+    checked("a.eds", format!("[FileInfo]\nFileName=a\n{lines}"))
 }
 
 #[test]
@@ -168,7 +167,7 @@ fn names_of_sections_that_are_copied_to_each_entry() {
     let most = eds(&section(200, 1_000));
     assert_eq!((bytes(&most), codes(&most).contains(&"IO003")), (202 * 1_000, false));
     let beyond = eds(&section(4_000, 1_000));
-    assert_eq!(codes(&beyond).iter().filter(|code| **code == "IO003").count(), 1);
+    assert_eq!(count(&beyond, "IO003"), 1);
     let length = beyond.sources[0].text().len();
     assert!(bytes(&beyond) <= (limits::MAX_COPIES_PER_BYTE + 1) * length, "{} of {length}", bytes(&beyond));
 }
@@ -183,7 +182,7 @@ fn texts_of_compact_sub_objects() {
     let most = eds(&(comments.clone() + &object(0x2000, 2_000)));
     assert_eq!((items(&most), codes(&most).contains(&"IO003")), (255, false));
     let beyond = eds(&(comments + &object(0x2000, 5_000) + &object(0x2001, 5_000)));
-    assert_eq!(codes(&beyond).iter().filter(|code| **code == "IO003").count(), 1);
+    assert_eq!(count(&beyond, "IO003"), 1);
     assert!(items(&beyond) <= 255 + 1, "{}", items(&beyond));
     // What has sections of its own stays, in order.
     let described = "[2000sub1]\nParameterName=B\nDataType=5\nAccessType=ro\n";

@@ -4,37 +4,39 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use divan::counter::BytesCount;
+use divan::Bencher;
 use lexibus_codegen::compile::{self, Compilation, Options};
 use lexibus_codegen::source::Source;
-use quick_xml::events::Event;
+use quick_xml::events::{BytesStart, Event};
 use quick_xml::Reader;
 
 /// All events of a file up to its end or an error, and where each ends.
-pub fn events(bytes: &[u8]) -> usize {
-    let mut reader = Reader::from_reader(bytes);
-    let mut sum = 0;
-    loop {
-        match reader.read_event() {
-            Ok(Event::Eof) | Err(_) => return sum,
-            Ok(event) => sum += reader.buffer_position() as usize + event.len(),
-        }
-    }
+fn events(bytes: &[u8]) -> usize {
+    walk(bytes, |_| 0)
 }
 
 /// The same, and the attributes of every tag, undecoded.
 fn attributes(bytes: &[u8]) -> usize {
+    walk(bytes, |tag| tag.attributes().flatten().map(|attribute| attribute.value.len()).sum())
+}
+
+fn walk(bytes: &[u8], of_tag: impl Fn(&BytesStart<'_>) -> usize) -> usize {
     let mut reader = Reader::from_reader(bytes);
     let mut sum = 0;
     loop {
         match reader.read_event() {
             Ok(Event::Eof) | Err(_) => return sum,
-            Ok(Event::Start(tag) | Event::Empty(tag)) => {
-                sum += tag.attributes().flatten().map(|attribute| attribute.value.len()).sum::<usize>();
-                sum += reader.buffer_position() as usize;
-            }
-            Ok(event) => sum += reader.buffer_position() as usize + event.len(),
+            Ok(Event::Start(tag) | Event::Empty(tag)) => sum += of_tag(&tag) + tag.len(),
+            Ok(event) => sum += event.len(),
         }
+        sum += reader.buffer_position() as usize;
     }
+}
+
+/// Measures the bare loop.
+pub fn measure(bencher: Bencher<'_, '_>, bytes: Vec<u8>) {
+    bencher.counter(BytesCount::new(bytes.len())).bench(|| events(divan::black_box(&bytes)));
 }
 
 /// Prints how long it takes from the bytes of all files to checked IR, beside both loops.

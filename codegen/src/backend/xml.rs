@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::fmt::Display;
 
+use compact_str::CompactString;
 use quick_xml::escape::escape;
 
 /// A file in the making. Every element that is opened has to be closed.
@@ -14,7 +15,7 @@ pub(super) struct Xml {
     /// Attributes that were left out: what they are called is no name, or their element has one of that name.
     pub(super) unnamed: usize,
     /// The names of attributes that the element which was opened last has.
-    given: Vec<String>,
+    given: Vec<CompactString>,
 }
 
 /// An element that isn't closed yet.
@@ -54,7 +55,7 @@ impl Xml {
             self.unnamed += 1;
             return;
         }
-        self.given.push(name.to_owned());
+        self.given.push(name.into());
         let value = self.allowed(value.to_string());
         self.text.push(' ');
         self.text += name;

@@ -421,15 +421,16 @@ impl Context<'_, '_> {
         let code = self.code(entry);
         let getter = names_unique::escaped(name);
         let (text, place) = (literal::string(name), hexadecimal(mask(entry.bits.into()) << entry.offset));
+        let plain = || FieldDebug::Plain(format!("(«{text}¦ {place}»)"));
         let debug = match entry.meaning {
             BitMeaning::Flag { inverted: true } if entry.bits == 1 => {
                 FieldDebug::Call(format!("inverted(«bits¦ {text}¦ {place}»)"))
             }
-            BitMeaning::Flag { .. } if entry.bits == 1 => FieldDebug::Plain(format!("(«{text}¦ {place}»)")),
+            BitMeaning::Flag { .. } if entry.bits == 1 => plain(),
             _ if code.is_named || entry.bits < 2 => {
                 FieldDebug::Call(format!("field(«bits¦ {text}¦ {place}¦ &self.{getter}()»)"))
             }
-            _ => FieldDebug::Plain(format!("(«{text}¦ {place}»)")),
+            _ => plain(),
         };
         let title = format!("[`{name}`](Self::{name})");
         let (docs, Code { ty, get, set, is_named }) = (self.docs(entry), code);

@@ -124,8 +124,12 @@ impl<'o> Applied<'o> {
     /// Holds the names that rows and definitions gave against the items of the place to which they were applied.
     fn resolve(&mut self, reader: &mut Reader<'_, '_>, groups: &mut Vec<Group>, types: &mut Vec<TypeDef>) {
         let mut place = Device { groups: std::mem::take(groups), types: std::mem::take(types), ..Device::default() };
-        resolve(reader, &self.rows, &place);
+        self.resolve_in(reader, &place);
         (*groups, *types) = (std::mem::take(&mut place.groups), std::mem::take(&mut place.types));
+    }
+
+    fn resolve_in(&mut self, reader: &mut Reader<'_, '_>, device: &Device) {
+        resolve(reader, &self.rows, device);
         self.rows.references.clear();
         self.rows.definitions.mentioned.clear();
     }
@@ -177,9 +181,7 @@ impl<'o> Applied<'o> {
             let list = super::super::at::OneOrMany(vec![doubt.value.clone()]);
             device.doubts.extend(reader.doubts([Some(&list), None], reader.origin(doubt), None));
         }
-        resolve(reader, &self.rows, device);
-        self.rows.references.clear();
-        self.rows.definitions.mentioned.clear();
+        self.resolve_in(reader, device);
     }
 
     /// The number of modules and submodules that it was applied to.

@@ -88,8 +88,8 @@ impl<'p> Completion<'p> {
     /// their own.
     fn state_type(&self, machine: &StateMachine, types: &[TypeDef]) -> Option<CompactString> {
         let name = machine.state_type.as_ref()?;
-        let shape = |types: &'_ [TypeDef]| types.iter().find(|own| own.name == *name).map(|own| own.shape.clone());
-        (shape(&self.patch().types)? == shape(types)?).then(|| name.clone())
+        let [own, of_device] = [&self.patch().types, types].map(|types| types.iter().find(|own| own.name == *name));
+        (own?.shape == of_device?.shape).then(|| name.clone())
     }
 
     /// Completes the objects of a module.
