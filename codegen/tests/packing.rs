@@ -21,10 +21,11 @@ use std::collections::HashSet;
 use std::path::Path;
 use std::sync::Mutex;
 
+use corpus_support::bindings::{body, catalogs, on_all_processors};
 use found::Counts;
 use lexibus_codegen::backend::rust::emit_catalog;
 use lexibus_codegen::compile::{check, Options};
-use lexibus_codegen::ir::{Catalog, Device, Format};
+use lexibus_codegen::ir::Catalog;
 use lexibus_codegen::source::Source;
 use lexibus_codegen::{Presence, RustOptions};
 
@@ -50,32 +51,12 @@ impl Bindings {
     /// The bindings of a catalogue; none where `seen` has them, or there is nothing to generate.
     fn new(name: &str, catalog: &Catalog, seen: &Mutex<HashSet<String>>) -> Option<(Self, Counts)> {
         let text = emit_catalog(catalog, &options().rust)?;
-        // Above the first empty line are the name of the file and its digest.
-        let body = text.split_once("\n\n").map_or(text.as_str(), |(_, body)| body);
-        let is_new = seen.lock().expect("what was seen").insert(body.to_owned());
+        let is_new = seen.lock().expect("what was seen").insert(body(&text).to_owned());
         is_new.then(|| {
             let (checks, counts) = found::checks(name, &text, catalog);
             (Bindings { name: name.to_owned(), checks, text: found::needed(&text) }, counts)
         })
     }
-}
-
-/// The catalogues of a file, device by device, as many files share devices.
-fn catalogs(source: Source) -> Vec<Catalog> {
-    let compilation = check(source, &options());
-    let is_profinet = compilation.format == Some(Format::Gsdml);
-    let is_usable = compilation.is_usable();
-    let Some(mut catalog) = compilation.catalog.filter(|_| is_usable) else { return Vec::new() };
-    if catalog.devices.len() <= 1 || is_profinet {
-        return vec![catalog];
-    }
-    let devices = std::mem::take(&mut catalog.devices);
-    let (files, modules) = (catalog.files, catalog.modules);
-    let single = |device: Device| {
-        let (files, modules) = (files.clone(), modules.clone());
-        Catalog { files, devices: vec![device], modules, ..Catalog::default() }
-    };
-    devices.into_iter().map(single).collect()
 }
 
 /// A program of some bindings: the modules, and a function for each type that was found in them.
@@ -109,9 +90,10 @@ impl Program {
 /// Checks everything in `sources`, on all processors. Gives the number of types of each kind.
 fn run_all(sources: Vec<Source>) -> Counts {
     let (all, seen) = (Mutex::new(Vec::new()), Mutex::default());
-    corpus_support::bindings::on_all_processors(sources, |source| {
+    on_all_processors(sources, |source| {
         let name = source.name().to_owned();
-        let own = catalogs(source).into_iter().filter_map(|catalog| Bindings::new(&name, &catalog, &seen));
+        let compilation = check(source, &options());
+        let own = catalogs(&compilation).filter_map(|catalog| Bindings::new(&name, &catalog, &seen));
         let own: Vec<_> = own.filter(|(own, _)| !own.checks.is_empty()).collect();
         all.lock().expect("the bindings").extend(own);
     });
@@ -130,7 +112,7 @@ fn run(mut all: Vec<(Bindings, Counts)>) -> Counts {
         counts.add(of_own);
     }
     let failures = Mutex::new(Vec::new());
-    corpus_support::bindings::on_all_processors(programs, |program| {
+    on_all_processors(programs, |program| {
         let outcome = program.run();
         failures.lock().expect("the failures").extend(outcome.err());
     });

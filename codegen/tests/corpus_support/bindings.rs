@@ -1,5 +1,6 @@
 //! The bindings of every device of the corpus, each different one once.
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 use std::sync::Mutex;
 
@@ -11,22 +12,23 @@ use lexibus_codegen::source::Source;
 use super::File;
 
 /// The text below the header, which names the file and its digest.
-fn body(text: &str) -> &str {
+pub fn body(text: &str) -> &str {
     text.split_once("\n\n").map_or(text, |(_, body)| body)
 }
 
-/// Bindings of a file, device by device: many files share devices, and one device a time needs little memory.
-fn texts(compilation: &Compilation, options: &Options) -> Vec<String> {
-    let Some(catalog) = compilation.catalog.as_ref().filter(|_| compilation.is_usable()) else { return Vec::new() };
+/// What a file describes, device by device: many files share devices, and one device a time needs little memory.
+pub fn catalogs(compilation: &Compilation) -> Box<dyn Iterator<Item = Cow<'_, Catalog>> + '_> {
+    let Some(catalog) = compilation.catalog.as_ref().filter(|_| compilation.is_usable()) else {
+        return Box::new(std::iter::empty());
+    };
     if catalog.devices.len() <= 1 || compilation.format == Some(Format::Gsdml) {
-        return compilation.rust(&options.rust).into_iter().collect();
+        return Box::new(std::iter::once(Cow::Borrowed(catalog)));
     }
-    let single = |device: &Device| {
+    Box::new(catalog.devices.iter().map(|device: &Device| {
         let (files, devices) = (catalog.files.clone(), vec![device.clone()]);
         let modules = catalog.modules.clone();
-        rust::emit_catalog(&Catalog { files, devices, modules, ..Catalog::default() }, &options.rust)
-    };
-    catalog.devices.iter().filter_map(single).collect()
+        Cow::Owned(Catalog { files, devices, modules, ..Catalog::default() })
+    }))
 }
 
 /// Hands the bindings of all `files` to `test`, on all processors, and gives the number of different ones.
@@ -38,7 +40,8 @@ pub fn each(files: Vec<File>, options: &Options, test: impl Fn(&str, &str) -> Re
     let (seen, failures) = (Mutex::new(HashSet::new()), Mutex::new(Vec::new()));
     on_all_processors(files, |File { name, bytes }| {
         let compilation = check(Source::new(name.as_str(), bytes), options);
-        let texts = texts(&compilation, options);
+        let texts = catalogs(&compilation).filter_map(|catalog| rust::emit_catalog(&catalog, &options.rust));
+        let texts: Vec<String> = texts.collect();
         let nothing_to_say = texts.is_empty() && !compilation.diagnostics.has_errors();
         assert!(!nothing_to_say || is_silent(&compilation), "{name}: rejected in silence");
         for text in texts {
