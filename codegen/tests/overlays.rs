@@ -283,6 +283,32 @@ fn names_within_a_module_are_those_of_its_items() {
     assert_eq!(doubts, [0, 1], "the device that takes the module has its doubts");
 }
 
+#[test]
+fn an_overlay_for_a_module_has_doubts_and_no_behaviour() {
+    let esi = ESI.replace("DICT", DICTIONARY);
+    let applied = |more: &str| {
+        let text = rows("0x2000 = { unit = \"V\", scale = 1 }\n").replacen("why =", "for = { module = \"M\" }\nwhy =", 1);
+        apply_to("x.xml", &esi, &format!("{text}{more}"))
+    };
+    let doubtful = applied("[[doubts]]\nsays = \"V and mV\"\nchose = \"V\"\nwhy = \"the scale\"\n");
+    assert_eq!(findings(&doubtful), []);
+    let devices = &doubtful.catalog.as_ref().expect("a catalogue").devices;
+    let doubts: Vec<usize> = devices.iter().map(|device| device.doubts.len()).collect();
+    assert_eq!(doubts, [0, 1], "the device that takes the module has its doubts");
+    let behaviour = [
+        ("[axes]\ncount = 2\n", ""),
+        ("[codes.Faults]\nrows = { 1 = \"Short\" }\n", "Faults"),
+        ("[machines.Main]\nstatus = \"0x2000\"\ncontrol = \"0x2000\"\nstates = { Off = { mask = 1, value = 0 } }\n", "Main"),
+        ("[procedures.Home]\ndoc = \"It goes home.\"\n", "Home"),
+    ];
+    for (table, name) in behaviour {
+        let found = findings(&applied(table));
+        assert_eq!(found.len(), 1, "{table}: {found:?}");
+        assert_eq!(found[0].0, "TAB004", "{table}");
+        assert!(found[0].1.contains(name), "{table}: {found:?}");
+    }
+}
+
 /// A device access point that takes the submodules `S` and `T`.
 fn access_point(name: &str, number: u32) -> String {
     format!(

@@ -53,7 +53,10 @@ impl<'o> Applied<'o> {
         let everything = AppliesTable::default();
         let applies = self.overlay.head.value.applies.as_ref().unwrap_or(&everything);
         let count = match &applies.module {
-            Some(pattern) => self.modules(reader, catalog, applies, &pattern.to_lowercase()),
+            Some(pattern) => {
+                self.behaviour_of_module(reader);
+                self.modules(reader, catalog, applies, &pattern.to_lowercase())
+            }
             None => self.devices(reader, catalog, applies),
         };
         for (span, code) in std::mem::take(&mut self.rows.allowed) {
@@ -177,11 +180,31 @@ impl<'o> Applied<'o> {
             device.procedures.retain(|own| own.name != name.value);
             machines::procedure(reader, name, table, device, &mut self.rows.references);
         }
-        for doubt in &patch.doubts {
-            let list = super::super::at::OneOrMany(vec![doubt.value.clone()]);
-            device.doubts.extend(reader.doubts([Some(&list), None], reader.origin(doubt), None));
-        }
+        self.own_doubts(reader, &mut device.doubts);
         self.resolve_in(reader, device);
+    }
+
+    /// The doubts of the overlay as a whole.
+    fn own_doubts(&self, reader: &mut Reader<'_, '_>, kept: &mut Doubts) {
+        for doubt in &self.overlay.patch.doubts {
+            let list = super::super::at::OneOrMany(vec![doubt.value.clone()]);
+            kept.extend(reader.doubts([Some(&list), None], reader.origin(doubt), None));
+        }
+    }
+
+    /// Tells of what an overlay for modules says and only a device has.
+    fn behaviour_of_module(&self, reader: &mut Reader<'_, '_>) {
+        let patch = &self.overlay.patch;
+        let axes = patch.axes.iter().map(|axes| ("axes", reader.span(axes)));
+        let codes = patch.codes.iter().map(|(name, _)| ("codes", reader.span(name)));
+        let machines = patch.machines.iter().map(|(name, _)| ("machines", reader.span(name)));
+        let procedures = patch.procedures.iter().map(|(name, _)| ("procedures", reader.span(name)));
+        let all: Vec<_> = axes.chain(codes).chain(machines).chain(procedures).collect();
+        for (key, span) in all {
+            let message = format!("a module has no `{key}`: they belong to the device that takes it");
+            let found = Diagnostic::new(&codes::TABLE_VALUE, span, message);
+            reader.diagnostics.push(found.help("put them into an overlay whose `for` has no `module`"));
+        }
     }
 
     /// The number of modules and submodules that it was applied to.
@@ -223,6 +246,9 @@ impl<'o> Applied<'o> {
                     self.shared(reader, &submodule.name, elsewhere.submodules.get(&SubmoduleId(place as u32)));
                 }
             }
+        }
+        if count > 0 {
+            self.own_doubts(reader, &mut doubts);
         }
         // A module has no place for doubts: the devices that take it do, or all where none does.
         let takes = |device: &Device| device.modules.iter().any(|own| chosen(&wanted, own.module.0 as usize));
