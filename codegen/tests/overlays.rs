@@ -287,7 +287,8 @@ fn names_within_a_module_are_those_of_its_items() {
 fn an_overlay_for_a_module_has_doubts_and_no_behaviour() {
     let esi = ESI.replace("DICT", DICTIONARY);
     let applied = |more: &str| {
-        let text = rows("0x2000 = { unit = \"V\", scale = 1 }\n").replacen("why =", "for = { module = \"M\" }\nwhy =", 1);
+        let text =
+            rows("0x2000 = { unit = \"V\", scale = 1 }\n").replacen("why =", "for = { module = \"M\" }\nwhy =", 1);
         apply_to("x.xml", &esi, &format!("{text}{more}"))
     };
     let doubtful = applied("[[doubts]]\nsays = \"V and mV\"\nchose = \"V\"\nwhy = \"the scale\"\n");
@@ -298,7 +299,10 @@ fn an_overlay_for_a_module_has_doubts_and_no_behaviour() {
     let behaviour = [
         ("[axes]\ncount = 2\n", ""),
         ("[codes.Faults]\nrows = { 1 = \"Short\" }\n", "Faults"),
-        ("[machines.Main]\nstatus = \"0x2000\"\ncontrol = \"0x2000\"\nstates = { Off = { mask = 1, value = 0 } }\n", "Main"),
+        (
+            "[machines.Main]\nstatus = \"0x2000\"\ncontrol = \"0x2000\"\nstates = { Off = { mask = 1, value = 0 } }\n",
+            "Main",
+        ),
         ("[procedures.Home]\ndoc = \"It goes home.\"\n", "Home"),
     ];
     for (table, name) in behaviour {

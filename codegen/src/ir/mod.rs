@@ -30,6 +30,7 @@ mod message;
 mod module;
 mod process_data;
 mod profinet;
+mod real;
 mod shared;
 mod types;
 mod value;

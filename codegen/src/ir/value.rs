@@ -16,7 +16,7 @@ pub enum Value {
     /// An integer of any width and sign.
     Int(i128),
     /// A real number; also the value of an integer type's limit where the source gives a fraction.
-    Real(f64),
+    Real(#[serde(with = "super::real")] f64),
     /// A text.
     Text(CompactString),
     /// An octet string.
