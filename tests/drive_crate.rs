@@ -30,8 +30,8 @@ fn a_users_crate_compiles_and_its_tests_pass() {
     assert!(out.contains("5 passed"), "{out}");
 }
 
-/// A crate whose only content is a `dictionary!` over `eds`.
-fn macro_crate(name: &str, eds: &str, options: &str) -> PathBuf {
+/// A crate that has these files, and the runtime with all that the macro may ask of it.
+fn crate_of(name: &str, files: &[(&str, &str)]) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(folder.join("src")).expect("a folder for temporary files");
@@ -42,10 +42,16 @@ fn macro_crate(name: &str, eds: &str, options: &str) -> PathBuf {
         root()
     );
     std::fs::write(folder.join("Cargo.toml"), manifest).expect("a manifest");
-    std::fs::write(folder.join("valve.eds"), eds).expect("a description");
-    let code = format!("lexibus::dictionary! {{\n    pub mod valve = \"valve.eds\" {{ {options} }}\n}}\n");
-    std::fs::write(folder.join("src/lib.rs"), code).expect("a crate root");
+    for (name, text) in files {
+        std::fs::write(folder.join(name), text).expect("a temporary file");
+    }
     folder
+}
+
+/// A crate whose only content is a `dictionary!` over `eds`.
+fn macro_crate(name: &str, eds: &str, options: &str) -> PathBuf {
+    let code = format!("lexibus::dictionary! {{\n    pub mod valve = \"valve.eds\" {{ {options} }}\n}}\n");
+    crate_of(name, &[("valve.eds", eds), ("src/lib.rs", &code)])
 }
 
 const VALVE: &str = "[DeviceInfo]\nProductName=Valve\n[2000]\nParameterName=Opening\nDataType=0x0005\nAccessType=rw\n\
@@ -88,10 +94,63 @@ const SENSOR: &str = "[DeviceInfo]\nProductName=Sensor\nGranularity=1\nNrOfRXPDO
     [2001]\nParameterName=Bits\nDataType=5\nAccessType=ro\nPDOMapping=1\n\
     [2002]\nParameterName=Time\nDataType=0x0C\nAccessType=ro\nPDOMapping=1\n";
 
+/// A submodule with 40 octets, single bits, an enumeration, a time and a record.
+const THING: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<ISO15745Profile xmlns="http://www.profibus.com/GSDML/2003/11/DeviceProfile"><ProfileBody>
+<DeviceIdentity VendorID="0x1" DeviceID="0x2"><InfoText TextId="T"/><VendorName Value="Example"/></DeviceIdentity>
+<DeviceFunction><Family MainFamily="I/O" ProductFamily="Example"/></DeviceFunction>
+<ApplicationProcess><DeviceAccessPointList>
+<DeviceAccessPointItem ID="D" PNIO_Version="V2.35" PhysicalSlots="0" FixedInSlots="0" ModuleIdentNumber="0x1"
+ MinDeviceInterval="32" DNS_CompatibleName="example"><ModuleInfo><Name TextId="T"/><InfoText TextId="T"/></ModuleInfo>
+<VirtualSubmoduleList><VirtualSubmoduleItem ID="S" SubmoduleIdentNumber="0x1"><IOData>
+<Input><DataItem DataType="OctetString" Length="40" TextId="T"/>
+<DataItem DataType="TimeOfDay with date indication" TextId="T"/></Input>
+<Output><DataItem DataType="Unsigned8" UseAsBits="true" TextId="T"><BitDataItem BitOffset="3" TextId="T"/></DataItem>
+<DataItem DataType="Float64" TextId="T"/></Output></IOData>
+<RecordDataList><ParameterRecordDataItem Index="1" Length="50"><Name TextId="T"/>
+<Ref ID="R" ValueItemTarget="V" DataType="BitArea" ByteOffset="0" BitLength="3" DefaultValue="0" TextId="T"/>
+<Ref ID="Q" DataType="VisibleString" Length="40" ByteOffset="1" DefaultValue="name" TextId="T"/>
+</ParameterRecordDataItem></RecordDataList><ModuleInfo><Name TextId="T"/><InfoText TextId="T"/></ModuleInfo>
+</VirtualSubmoduleItem></VirtualSubmoduleList></DeviceAccessPointItem></DeviceAccessPointList>
+<ValueList><ValueItem ID="V"><Assignments><Assign TextId="T" Content="0"/></Assignments></ValueItem></ValueList>
+<ExternalTextList><PrimaryLanguage><Text TextId="T" Value="Thing"/></PrimaryLanguage></ExternalTextList>
+</ApplicationProcess></ProfileBody></ISO15745Profile>
+"#;
+
+/// A message with a text of 40 bytes, and one that repeats such texts.
+const NAMES: &str = "lexibus = 1\n[device]\nname = \"Sign\"\nvendor = \"Example\"\n\
+    [[messages]]\nname = \"Name\"\nrequest = [{ bytes = [1] }, { field = \"text\", type = \"str(40)\" }]\nreply = [{ bytes = [1] }]\n\
+    [[messages]]\nname = \"Names\"\nrequest = [{ bytes = [2] }]\n\
+    reply = [{ bytes = [2] }, { repeat = { max = 2, fields = [{ field = \"text\", type = \"str(40)\" }] } }]\n";
+
+const TRAITS: &str = "lexibus::dictionary! {
+    pub mod sensor = \"sensor.eds\" { serde: true, defmt: true, allow: \"warnings\" }
+}
+lexibus::dictionary! {
+    pub mod thing = \"thing.gsdml.xml\" { serde: true, defmt: true, allow: \"warnings\" }
+}
+lexibus::dictionary! {
+    pub mod sign = \"sign.toml\" { serde: true, defmt: true, allow: \"warnings\" }
+}
+use thing::submodules::thing::{Inputs, Outputs, ThingRecord};
+fn both<T: serde::Serialize + for<'d> serde::Deserialize<'d> + defmt::Format>() {}
+/// Structs have the traits, long byte strings in them or not.
+pub fn all() {
+    both::<sensor::pdo::TxPdo1>();
+    both::<sensor::pdo::TxPdo2>();
+    both::<Inputs>();
+    both::<Outputs>();
+    both::<ThingRecord>();
+    both::<thing::values::V>();
+    both::<sign::messages::Name>();
+    both::<sign::messages::NamesReplyEntry>();
+}
+";
+
 #[test]
 fn traits_of_other_crates_reach_every_generated_type() {
-    let folder = macro_crate("macro-traits", SENSOR, "serde: true, defmt: true, allow: \"warnings\"");
-    let output = cargo(&folder, &["check", "--quiet"]);
+    let files = [("sensor.eds", SENSOR), ("thing.gsdml.xml", THING), ("sign.toml", NAMES), ("src/lib.rs", TRAITS)];
+    let output = cargo(&crate_of("macro-traits", &files), &["check", "--quiet"]);
     assert!(output.status.success(), "{}", text(&output.stderr));
 }
 

@@ -53,7 +53,7 @@ impl Default for RustOptions {
 }
 
 /// Traits of `serde` end at arrays of this length.
-pub(in crate::backend::rust) const SERDE_ARRAY: u32 = 32;
+const SERDE_ARRAY: u32 = 32;
 
 impl RustOptions {
     /// What tells `serde` how to handle a field of so many bytes, where its own traits don't.

@@ -5,7 +5,6 @@ use super::steps::number;
 use crate::backend::rust::docs;
 use crate::backend::rust::field_type::{field_type, FieldType};
 use crate::backend::rust::links::Here;
-use crate::backend::rust::options::SERDE_ARRAY;
 use crate::backend::rust::quantity;
 use crate::backend::rust::scope::Scope;
 use crate::backend::rust::value_type::{native, ValueType};
@@ -22,6 +21,8 @@ pub(in crate::backend::rust) struct Field {
     pub name: String,
     pub docs: Vec<String>,
     pub ty: String,
+    /// What tells `serde` how to handle it.
+    pub attribute: Option<String>,
     /// The name of the constant with its scale, and the type of that.
     pub scale: Option<(String, String)>,
     position: usize,
@@ -72,6 +73,7 @@ fn field(scope: &Scope<'_>, step: &Step<'_>, name: String, position: usize, entr
         name: name.clone(),
         docs: vec![docs.to_owned()],
         ty: ty.to_owned(),
+        attribute: None,
         scale: None,
         position,
         kind,
@@ -154,7 +156,7 @@ fn typed(scope: &Scope<'_>, value: &MessageValue, bits: u32, name: String, posit
     };
     let quantity = quantity::of(scope, item).filter(|_| !ty.contains("::"));
     let scale = quantity.map(|own| (constant(&name), own.path));
-    Field { docs: documentation(scope, item, base), ty, scale, position, kind, name }
+    Field { docs: documentation(scope, item, base), ty, attribute: None, scale, position, kind, name }
 }
 
 /// The check of a value; `None` where all numbers of the type are allowed.
@@ -221,9 +223,12 @@ impl Field {
         self.ty.contains("'a")
     }
 
-    /// Whether `serde` has no form for it.
-    pub(super) fn is_long(&self) -> bool {
-        matches!(self.kind, Kind::Text { length } if length > SERDE_ARRAY)
+    /// The number of bytes, of a text.
+    pub(super) fn text_length(&self) -> Option<u32> {
+        match self.kind {
+            Kind::Text { length } => Some(length),
+            _ => None,
+        }
     }
 
     /// Whether limits of it may resemble a mathematical constant, which clippy would point out.

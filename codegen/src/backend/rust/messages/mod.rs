@@ -250,9 +250,8 @@ impl Maker<'_, '_> {
     }
 
     fn data(&self, steps: &[Step<'_>], name: &str, entry: &str) -> DataModel {
-        let fields = field::fields(self.scope, steps, entry);
+        let (fields, borrows) = self.fields(steps, entry);
         let code = steps::statements(steps, &fields, self.rules);
-        let borrows = fields.iter().any(Field::borrows);
         let entry = steps.iter().find_map(|step| match step {
             Step::List { steps, length, .. } => Some(self.entry(steps, *length, name, entry)),
             _ => None,
@@ -260,7 +259,7 @@ impl Maker<'_, '_> {
         DataModel {
             name: name.to_owned(),
             docs: Vec::new(),
-            derives: self.derives(borrows || fields.iter().any(Field::is_long)),
+            derives: self.derives(borrows),
             borrows,
             fields,
             code,
@@ -270,23 +269,34 @@ impl Maker<'_, '_> {
     }
 
     fn entry(&self, steps: &[Step<'_>], length: u32, owner: &str, name: &str) -> EntryModel {
-        let fields = field::fields(self.scope, steps, "");
+        let (fields, borrows) = self.fields(steps, "");
         let mut code = steps::statements(steps, &fields, self.rules);
         // What follows is another one.
         code.read.pop();
         EntryModel {
             name: name.to_owned(),
             title: format!("What is repeated in {}.", links::beside(owner)),
-            derives: self.derives(fields.iter().any(Field::is_long)),
+            derives: self.derives(borrows),
             length,
             fields,
             code,
         }
     }
 
-    /// Lists have neither a form for `serde` nor for `defmt`, and long texts none for `serde`.
-    fn derives(&self, is_plain: bool) -> Vec<String> {
-        if !is_plain {
+    /// The fields of a struct, and whether one borrows from the data.
+    fn fields(&self, steps: &[Step<'_>], entry: &str) -> (Vec<Field>, bool) {
+        let mut fields = field::fields(self.scope, steps, entry);
+        let borrows = fields.iter().any(Field::borrows);
+        // A struct that borrows is nothing for `serde`, and then nobody reads the attribute.
+        for field in fields.iter_mut().filter(|_| !borrows) {
+            field.attribute = field.text_length().and_then(|length| self.options.octets_attribute(length));
+        }
+        (fields, borrows)
+    }
+
+    /// What borrows from the data, such as a list, has neither a form for `serde` nor for `defmt`.
+    fn derives(&self, borrows: bool) -> Vec<String> {
+        if !borrows {
             return self.options.derives(true);
         }
         let plain =
