@@ -367,6 +367,104 @@ fn parameters_are_stored() {
     assert_eq!(drive.client().device().bytes(Object::new(0x1010, 1)), Ok([1, 0, 0, 0].as_slice()));
 }
 
+/// An object of a device that no description has.
+fn object(index: u16, sub_index: u8, data_type: DataType) -> Entry {
+    Entry {
+        object: Some(Object::new(index, sub_index)),
+        register: None,
+        name: "",
+        data_type,
+        access: AccessRights::ReadWrite,
+        flags: Flags::NONE,
+        initial: lexibus::RawInitial::Unknown,
+        low: Bound::Unlimited,
+        high: Bound::Unlimited,
+        unit: "",
+    }
+}
+
+#[test]
+fn parameters_are_restored_by_groups() {
+    const ALL: [u16; 3] = [0x1005, 0x2000, 0x6000];
+    let mut entries: Vec<Entry> = ALL.map(|index| object(index, 0, DataType::Unsigned8)).into();
+    for command in [0x1010, 0x1011] {
+        entries.extend((1..=4).map(|group| object(command, group, DataType::Unsigned32)));
+    }
+    // Sub-index, and which of them it is about (CiA 301 7.5.2.14).
+    for (group, restored) in [(1, &ALL[..]), (2, &ALL[..1]), (3, &ALL[2..]), (4, &ALL[1..2])] {
+        let mut device = Device::new(&entries);
+        ALL.iter().for_each(|index| device.set_bytes(Object::new(*index, 0), &[7]).unwrap());
+        let mut client = device.client::<CanOpen>();
+        client.write(Object::new(0x1010, 1), b"save").unwrap();
+        assert_eq!(client.write(Object::new(0x1011, group), b"LOAD"), abort(AbortCode::CANNOT_STORE));
+        client.write(Object::new(0x1011, group), b"load").unwrap();
+        let before = ALL.map(|index| device.bytes(Object::new(index, 0)).unwrap()[0]);
+        assert_eq!(before, [7; 3], "values come back at the next power-on");
+        device.power_cycle();
+        for index in ALL {
+            let expected = if restored.contains(&index) { 0 } else { 7 };
+            assert_eq!(device.bytes(Object::new(index, 0)), Ok([expected].as_slice()), "{group}: {index:#X}");
+        }
+    }
+}
+
+#[test]
+fn errors_are_forgotten_by_a_zero() {
+    let mut entries = [object(0x1003, 0, DataType::Unsigned8), object(0x1003, 1, DataType::Unsigned32)];
+    entries[0].initial = lexibus::RawInitial::Bytes(&[1]);
+    let mut device = Device::new(&entries);
+    let count = Object::new(0x1003, 0);
+    assert_eq!(device.bytes(count), Ok([0].as_slice()), "what a description gives is the room");
+    device.emit_emergency(0x8110, 0x11, [0; 5]);
+    assert_eq!(device.bytes(count), Ok([1].as_slice()));
+    let mut client = device.client::<CanOpen>();
+    assert_eq!(client.write(count, &[1]), abort(AbortCode::INVALID_VALUE));
+    client.write(count, &[0]).unwrap();
+    assert_eq!(device.bytes(count), Ok([0].as_slice()));
+    assert_eq!(device.bytes(Object::new(0x1003, 1)), Ok([0; 4].as_slice()));
+}
+
+#[test]
+fn process_images_of_ethercat() {
+    let word = |index, sub_index| object(index, sub_index, DataType::Unsigned16);
+    let mapping = |index, sub_index| object(index, sub_index, DataType::Unsigned32);
+    let mut entries = vec![word(0x2000, 0), object(0x2001, 0, DataType::Unsigned8)];
+    for assignment in [0x1C12, 0x1C13] {
+        entries.extend([object(assignment, 0, DataType::Unsigned8), word(assignment, 1), word(assignment, 2)]);
+    }
+    for pdo in [0x1600, 0x1601] {
+        entries.extend([object(pdo, 0, DataType::Unsigned8), mapping(pdo, 1), mapping(pdo, 2)]);
+    }
+    let mut device = Device::new(&entries);
+    let mut set = |index, sub_index, bytes: &[u8]| device.set_bytes(Object::new(index, sub_index), bytes).unwrap();
+    // A word, and behind a gap of 8 bits a byte, in two PDOs.
+    for (index, mapped) in [(0x1600, [0x2000_0010_u32, 0x0000_0008]), (0x1601, [0x2001_0008, 0])] {
+        set(index, 0, &[if index == 0x1600 { 2 } else { 1 }]);
+        set(index, 1, &mapped[0].to_le_bytes());
+        set(index, 2, &mapped[1].to_le_bytes());
+    }
+    for assignment in [0x1C12, 0x1C13] {
+        set(assignment, 0, &[2]);
+        set(assignment, 1, &[0x00, 0x16]);
+        set(assignment, 2, &[0x01, 0x16]);
+    }
+    assert_eq!(device.receive_image(0x1C12, &[0x34, 0x12, 0xFF, 0x56]), Ok(()));
+    assert_eq!(device.bytes(Object::new(0x2000, 0)), Ok([0x34, 0x12].as_slice()));
+    assert_eq!(device.bytes(Object::new(0x2001, 0)), Ok([0x56].as_slice()));
+    assert_eq!(device.transmit_image(0x1C13), Ok(vec![0x34, 0x12, 0, 0x56]));
+    assert_eq!(device.receive_image(0x1C12, &[0; 3]), Err(AbortCode::TOO_SHORT));
+    assert_eq!(device.transmit_image(0x1C14), Err(AbortCode::NO_OBJECT));
+    // What the device refuses keeps its value; the rest is taken.
+    device.on_any_write(|_, entry| match entry.object {
+        Some(Object { index: 0x2000, .. }) => Err(AbortCode::INVALID_VALUE),
+        _ => Ok(()),
+    });
+    assert_eq!(device.receive_image(0x1C12, &[1, 1, 1, 1]), Err(AbortCode::INVALID_VALUE));
+    assert_eq!(device.transmit_image(0x1C13), Ok(vec![0x34, 0x12, 0, 1]));
+    device.set_bytes(Object::new(0x1601, 1), &0x2002_0008_u32.to_le_bytes()).unwrap();
+    assert_eq!(device.transmit_image(0x1C13), Err(AbortCode::NO_OBJECT), "an object that is mapped and doesn't exist");
+}
+
 #[test]
 fn values_after_power_on() {
     let mut device = demo();

@@ -5,7 +5,7 @@ use crate::bus::Object;
 use crate::emergency::Emergency;
 
 /// The list of errors (CiA 301 7.5.2.4).
-const HISTORY: u16 = 0x1003;
+pub(super) const ERRORS: u16 = 0x1003;
 
 impl Device {
     /// The device has an error: it goes into the error register (0x1001) and to the top of the list of errors (0x1003), as
@@ -25,16 +25,16 @@ impl Device {
 
     /// Puts an error to the top of the list. Older ones go down, and the oldest falls off where the list is full.
     fn remember(&mut self, code: u16, vendor: [u8; 5]) {
-        let room = self.slots.objects(HISTORY, HISTORY).map(|object| object.sub_index).max().unwrap_or(0);
-        let length = self.slots.number(HISTORY, 0).map_or(0, |length| length.min(room.into()) as u8);
+        let room = self.slots.objects(ERRORS, ERRORS).map(|object| object.sub_index).max().unwrap_or(0);
+        let length = self.slots.number(ERRORS, 0).map_or(0, |length| length.min(room.into()) as u8);
         let mut newer = [code.to_le_bytes(), [vendor[0], vendor[1]]].concat();
         let filled = length.saturating_add(1).min(room);
         for sub_index in 1..=filled {
-            let object = Object::new(HISTORY, sub_index);
+            let object = Object::new(ERRORS, sub_index);
             let older = self.bytes(object).map(<[u8]>::to_vec).unwrap_or_default();
             let _ = self.set_bytes(object, &newer);
             newer = older;
         }
-        let _ = self.set_bytes(Object::new(HISTORY, 0), &[filled]);
+        let _ = self.set_bytes(Object::new(ERRORS, 0), &[filled]);
     }
 }

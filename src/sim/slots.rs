@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::vec::Vec;
 
+use super::emergency::ERRORS;
 use super::values;
 use crate::abort::AbortCode;
 use crate::axes::Axes;
@@ -78,15 +79,17 @@ impl Slots {
     }
 
     /// What sub-index 0 holds of an object with further ones whose description doesn't give it: how many of a mapping
-    /// are given by the description, no error of 0x1003, and else the highest sub-index.
+    /// are given by the description, and else the highest sub-index. The list of errors (CiA 301 7.5.2.4) is empty, whatever
+    /// the description gives: that is for how many it has room (`CompactSubObj` of CiA 306).
     fn count(&self, entry: &Entry) -> Option<Vec<u8>> {
-        let is_unknown = entry.initial == RawInitial::Unknown && entry.data_type == DataType::Unsigned8;
-        let object = entry.object.filter(|object| is_unknown && object.sub_index == 0)?;
+        let is_count = |object: &Object| object.sub_index == 0 && entry.data_type == DataType::Unsigned8;
+        let is_meant = |object: &Object| object.index == ERRORS || entry.initial == RawInitial::Unknown;
+        let object = entry.object.filter(|object| is_count(object) && is_meant(object))?;
         let subs = self.objects.range(Object::new(object.index, 1)..=Object::new(object.index, u8::MAX));
         let is_mapping = matches!(object.index, 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C12..=0x1C2F);
         let is_given = |at: usize| matches!(self.list[at].entry.initial, RawInitial::Bytes(bytes) if bytes != [0; 4]);
         let last = match object.index {
-            0x1003 => Some(0),
+            ERRORS => Some(0),
             _ if is_mapping => subs.take_while(|(_, at)| is_given(**at)).last().map(|(object, _)| object.sub_index),
             _ => subs.last().map(|(object, _)| object.sub_index),
         };

@@ -1,6 +1,7 @@
 //! Parameters that outlive power-off, and the list of errors: objects to which a write is a command.
 
 use super::device::Device;
+use super::emergency::ERRORS;
 use crate::abort::AbortCode;
 use crate::bus::Object;
 use crate::table::Entry;
@@ -9,8 +10,6 @@ use crate::table::Entry;
 const STORE: u16 = 0x1010;
 /// Restores those of the description (CiA 301 7.5.2.14).
 const RESTORE: u16 = 0x1011;
-/// The list of errors (CiA 301 7.5.2.4).
-const ERRORS: u16 = 0x1003;
 
 /// Whether sub-index `group` of 0x1010 or 0x1011 means an object: 1 all, 2 those of communication, 3 those of the
 /// application, and the others those of the vendor.
