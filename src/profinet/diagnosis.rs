@@ -320,6 +320,53 @@ mod tests {
     }
 
     #[test]
+    fn every_bit_of_properties_means_something() {
+        for word in 0..=u16::MAX {
+            let own = ChannelProperties(word);
+            let maintenance = match own.maintenance() {
+                Maintenance::Fault => 0,
+                Maintenance::Required => 1,
+                Maintenance::Demanded => 2,
+                Maintenance::Qualified => 3,
+            };
+            let specifier = match own.specifier() {
+                ChannelSpecifier::AllDisappear => 0,
+                ChannelSpecifier::Appears => 1,
+                ChannelSpecifier::Disappears => 2,
+                ChannelSpecifier::DisappearsOthersRemain => 3,
+            };
+            let direction = match own.direction() {
+                ChannelDirection::Manufacturer => 0,
+                ChannelDirection::Input => 1,
+                ChannelDirection::Output => 2,
+                ChannelDirection::Both => 3,
+                ChannelDirection::Reserved(other) => u16::from(other),
+            };
+            let high = u16::from(own.is_accumulative()) | maintenance << 1 | specifier << 3 | direction << 5;
+            assert_eq!(high, word >> 8);
+            let bits = [None, Some(1), Some(2), Some(4), Some(8), Some(16), Some(32), Some(64)];
+            assert_eq!(own.bits(), bits.get(usize::from(word & 0xFF)).copied().flatten());
+        }
+    }
+
+    #[test]
+    fn structures_and_their_lengths() {
+        let lengths = [0x7FFF, 0x8000, 0x8001, 0x8002, 0x8003, 0xFFFF]
+            .map(|identifier| UserStructure::from_identifier(identifier).channel_len());
+        assert_eq!(lengths, [None, Some(6), None, Some(12), Some(16), None]);
+        let own = ChannelDiagnosis::decode(UserStructure::Manufacturer(1), &[0; 32]);
+        assert_eq!(own.count(), 0);
+    }
+
+    #[test]
+    fn errors_of_a_profile_come_before_those_of_all() {
+        static OWN: [ChannelError; 2] =
+            [ChannelError::new(0x10, "Supply", "", &[]), ChannelError::of_profile(0x3A00, 0x10, "Drive", "", &[])];
+        let name = |api| ChannelError::find(&OWN, api, 0x10).map(|error| error.name);
+        assert_eq!([name(0), name(0x3A00), name(0x5000)], [Some("Supply"), Some("Drive"), Some("Supply")]);
+    }
+
+    #[test]
     fn extended_and_qualified_diagnosis() {
         let data = [0x80, 0x00, 0xF7, 0x00, 0x80, 0x02, 0x00, 0x03, 1, 2, 3, 4, 5, 6, 7, 8];
         let extended = ExtendedDiagnosis { error_type: 3, add_value: 0x0102_0304, qualifier: None };

@@ -76,11 +76,23 @@ mod tests {
         CanFrame::new(id, &[]).expect("a frame")
     }
 
-    /// A controller with frames that wait in it, each of an identifier.
-    struct Fifo(std::collections::VecDeque<u16>);
+    type Transmitted = nb::Result<Option<Raw>, embedded_can::ErrorKind>;
 
-    #[derive(Clone, Debug)]
+    /// A controller with frames that wait in it, each of an identifier, and what becomes of those that are sent.
+    #[derive(Default)]
+    struct Fifo {
+        waiting: std::collections::VecDeque<u16>,
+        answers: std::collections::VecDeque<Transmitted>,
+        sent: std::vec::Vec<Raw>,
+        is_broken: bool,
+    }
+
+    #[derive(Clone, Debug, PartialEq)]
     struct Raw(embedded_can::Id);
+
+    fn raw(id: u16) -> Raw {
+        Raw(embedded_can::StandardId::new(id).expect("an identifier").into())
+    }
 
     impl embedded_can::Frame for Raw {
         fn new(id: impl Into<embedded_can::Id>, _: &[u8]) -> Option<Self> {
@@ -116,14 +128,54 @@ mod tests {
         type Frame = Raw;
         type Error = embedded_can::ErrorKind;
 
-        fn transmit(&mut self, _: &Raw) -> nb::Result<Option<Raw>, Self::Error> {
-            Err(nb::Error::WouldBlock)
+        fn transmit(&mut self, frame: &Raw) -> Transmitted {
+            let answer = self.answers.pop_front().unwrap_or(Err(nb::Error::WouldBlock));
+            if answer.is_ok() {
+                self.sent.push(frame.clone());
+            }
+            answer
         }
 
         fn receive(&mut self) -> nb::Result<Raw, Self::Error> {
-            let id = self.0.pop_front().ok_or(nb::Error::WouldBlock)?;
-            Ok(Raw(embedded_can::StandardId::new(id).ok_or(nb::Error::WouldBlock)?.into()))
+            if self.is_broken {
+                return Err(nb::Error::Other(embedded_can::ErrorKind::Overrun));
+            }
+            self.waiting.pop_front().map(raw).ok_or(nb::Error::WouldBlock)
         }
+    }
+
+    /// Sends frame 1 for 5 ms while the controller answers so: the result, and the frames that it took.
+    fn sent(
+        answers: impl IntoIterator<Item = Transmitted>,
+    ) -> (Result<bool, embedded_can::ErrorKind>, std::vec::Vec<Raw>) {
+        let fifo = Fifo { answers: answers.into_iter().collect(), ..Fifo::default() };
+        let mut time = 0;
+        let clock = || {
+            time += 1;
+            Duration::from_millis(time)
+        };
+        let mut port = Polled::new(fifo, clock);
+        (port.send(&frame(1), Duration::from_millis(5)), port.into_inner().sent)
+    }
+
+    #[test]
+    fn frames_are_sent_as_soon_as_there_is_room() {
+        let busy = || Err(nb::Error::WouldBlock);
+        assert_eq!(sent([Ok(None)]), (Ok(true), [raw(1)].into()));
+        assert_eq!(sent([busy(), busy(), Ok(None)]), (Ok(true), [raw(1)].into()));
+        assert_eq!(sent([]), (Ok(false), [].into()));
+        // One of lower priority makes room, and follows.
+        assert_eq!(sent([Ok(Some(raw(7))), busy(), Ok(None)]), (Ok(true), [raw(1), raw(7)].into()));
+        assert_eq!(sent([Ok(Some(raw(7)))]), (Ok(true), [raw(1)].into()));
+        let alone = embedded_can::ErrorKind::Acknowledge;
+        assert_eq!(sent([Err(nb::Error::Other(alone))]), (Err(alone), [].into()));
+    }
+
+    #[test]
+    fn a_broken_controller_is_told() {
+        let mut port = Polled::new(Fifo { is_broken: true, ..Fifo::default() }, || Duration::ZERO);
+        let overrun = embedded_can::ErrorKind::Overrun;
+        assert_eq!(port.receive(Duration::ZERO, &mut |_| true), Err(overrun));
     }
 
     #[test]
@@ -133,7 +185,7 @@ mod tests {
             time += 1;
             Duration::from_millis(time)
         };
-        let mut port = Polled::new(Fifo((1..=100).collect()), clock);
+        let mut port = Polled::new(Fifo { waiting: (1..=100).collect(), ..Fifo::default() }, clock);
         assert_eq!(port.receive(Duration::ZERO, &mut |frame| frame.id() == 90), Ok(Some(frame(90))));
         assert_eq!(port.receive(Duration::from_millis(100), &mut |frame| frame.id() == 1), Ok(None));
         assert_eq!(port.send(&frame(1), Duration::from_millis(5)), Ok(false));
