@@ -5,7 +5,7 @@ use super::values;
 use crate::abort::AbortCode;
 use crate::bus::Object;
 use crate::flags::Flags;
-use crate::pdo::{from_bytes, MappedEntry};
+use crate::pdo::{from_bytes, is_restricted, MappedEntry};
 
 /// A mapping can be written only while its sub-index 0 is 0 (ETG.1000.6).
 const COUNT_NOT_ZERO: AbortCode = AbortCode(0x0601_0003);
@@ -19,11 +19,6 @@ const IDENTIFIER: u64 = 0x3FFF_FFFF;
 
 /// The most bits that a frame of CAN carries.
 const FRAME_BITS: u32 = 64;
-
-/// Whether a PDO must not have this CAN-ID (CiA 301 7.3.5).
-fn is_restricted(id: u64) -> bool {
-    matches!(id, 0..=0x7F | 0x101..=0x180 | 0x581..=0x5FF | 0x601..=0x67F | 0x6E0..=0x6FF | 0x701..)
-}
 
 fn require(condition: bool, code: AbortCode) -> Result<(), AbortCode> {
     if condition {
@@ -57,7 +52,7 @@ impl Device {
                 let old = self.slots.number(object.index, 1).unwrap_or(UNUSED);
                 let is_same = (old ^ value) & IDENTIFIER == 0;
                 // Frames of this crate have 11 bits.
-                let is_possible = value & EXTENDED == 0 && !is_restricted(value & IDENTIFIER);
+                let is_possible = value & EXTENDED == 0 && !is_restricted((value & IDENTIFIER) as u32);
                 require(is_possible && (is_same || !is_used), AbortCode::INVALID_VALUE)
             }
             2 => {

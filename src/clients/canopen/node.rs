@@ -8,7 +8,7 @@ use super::port::{AsyncCanPort, CanPort};
 use crate::emergency::Emergency;
 use crate::error::{Error, LengthError, OutOfRange};
 use crate::node_id::NodeId;
-use crate::pdo::CobId;
+use crate::pdo::{is_restricted, CobId};
 
 /// How long an answer may take where nothing else is said.
 pub const TIMEOUT: Duration = Duration::from_millis(500);
@@ -22,14 +22,12 @@ pub struct Node<P> {
     port: P,
     id: NodeId,
     timeout: Duration,
-    /// Whether the last SDO transfer was given up, so that its answer may come yet.
-    pub(super) is_unfinished: bool,
 }
 
 impl<P> Node<P> {
     /// The node `id` behind `port`. An answer may take [`TIMEOUT`].
     pub const fn new(port: P, id: NodeId) -> Self {
-        Self { port, id, timeout: TIMEOUT, is_unfinished: false }
+        Self { port, id, timeout: TIMEOUT }
     }
 
     /// The same with another time for each answer, and for the bus to become free.
@@ -72,12 +70,12 @@ fn state_of(frame: &CanFrame, id: NodeId) -> Option<NmtState> {
     NmtState::of(frame).filter(|(node, _)| *node == id).map(|(_, state)| state)
 }
 
-/// The identifier of a PDO of `node`, of 11 bits.
+/// The identifier of a PDO of `node`, of 11 bits. A PDO that has none by default says 0, which would be a command of NMT to all
+/// nodes: such identifiers are never a PDO's.
 fn identifier<E>(cob_id: CobId, node: NodeId) -> Result<u16, Error<E>> {
-    const BITS: u32 = 0x7FF;
     // Bit 31 says that the PDO is off by default, which its configuration changes; bit 30 that no remote request is answered.
     let id = cob_id.resolve(node) & 0x3FFF_FFFF;
-    u16::try_from(id).ok().filter(|_| id <= BITS).ok_or(Error::OutOfRange(OutOfRange))
+    u16::try_from(id).ok().filter(|_| !is_restricted(id)).ok_or(Error::OutOfRange(OutOfRange))
 }
 
 fn pdo<E>(cob_id: CobId, node: NodeId, data: &[u8]) -> Result<CanFrame, Error<E>> {
@@ -153,8 +151,8 @@ impl<P: CanPort> Node<P> {
     ///
     /// # Errors
     ///
-    /// Those of [`send`](Self::send); [`Error::OutOfRange`] where `cob_id` has more than 11 bits, [`Error::Length`] where
-    /// there are more than 8 bytes.
+    /// Those of [`send`](Self::send); [`Error::OutOfRange`] where `cob_id` names no CAN-ID of 11 bits that a PDO may have
+    /// (CiA 301 7.3.5), [`Error::Length`] where there are more than 8 bytes.
     pub fn send_pdo(&mut self, cob_id: CobId, data: &[u8]) -> Result<(), Error<P::Error>> {
         let frame = pdo(cob_id, self.id, data)?;
         self.send(&frame)

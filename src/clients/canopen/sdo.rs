@@ -21,6 +21,12 @@ struct Transfer {
     /// How many bytes there is room for, and of an upload in segments, how many these have brought.
     room: usize,
     received: Option<usize>,
+    /// Whether the answer has all of the value and no length.
+    is_unsized: bool,
+    /// What the answer asks for.
+    next: Option<SdoFrame>,
+    /// How many more frames that have nothing to do with it are passed over.
+    strangers: usize,
     outcome: Option<Outcome>,
 }
 
@@ -37,7 +43,22 @@ impl Transfer {
     fn new(node: NodeId, object: Object, room: usize) -> Self {
         // The times are those of the port.
         let client = SdoClient::new(SdoConfig { timeout: u64::MAX });
-        Self { client, answers: SdoFrame::tsdo_id(node.get()), object, room, received: None, outcome: None }
+        Self {
+            client,
+            answers: SdoFrame::tsdo_id(node.get()),
+            object,
+            room,
+            received: None,
+            is_unsized: false,
+            next: None,
+            strangers: BACKLOG,
+            outcome: None,
+        }
+    }
+
+    /// Whether a frame may be an answer: a message of SDO has eight bytes (CiA 301 7.2.4.3).
+    fn is_answer(answers: u16) -> impl FnMut(&CanFrame) -> bool {
+        move |frame| frame.id() == answers && frame.data().len() == 8
     }
 
     fn upload<E>(node: NodeId, object: Object, room: usize) -> Result<Self, Error<E>> {
@@ -60,27 +81,50 @@ impl Transfer {
 
     /// The next frame to be sent.
     fn request(&mut self) -> Option<CanFrame> {
-        self.client.poll_transmit().and_then(|frame| CanFrame::new(frame.cob_id, &frame.data))
+        let frame = self.next.take().or_else(|| self.client.poll_transmit())?;
+        CanFrame::new(frame.cob_id, &frame.data)
+    }
+
+    /// Gives the transfer up, and tells the node why.
+    fn give_up(&mut self, code: SdoAbortCode, outcome: Outcome) {
+        self.client.abort(code);
+        self.outcome = Some(outcome);
     }
 
     /// Takes an answer, or `None` where none came.
     fn answer(&mut self, frame: Option<CanFrame>) {
-        let Some(frame) = frame else {
-            self.client.abort(SdoAbortCode::ProtocolTimeout);
-            self.outcome = Some(Outcome::Late);
-            return;
-        };
-        if let Some(length) = self.too_long(&frame.padded()) {
-            self.client.abort(SdoAbortCode::OutOfMemory);
-            self.outcome = Some(Outcome::TooLong(length));
-            return;
+        let Some(frame) = frame else { return self.give_up(SdoAbortCode::ProtocolTimeout, Outcome::Late) };
+        let data = frame.padded();
+        if let Some(length) = self.too_long(&data) {
+            return self.give_up(SdoAbortCode::OutOfMemory, Outcome::TooLong(length));
         }
-        self.outcome = match self.client.handle_frame(SdoFrame::new(self.answers, frame.padded()), 0) {
+        if self.is_empty_segment(&data) {
+            return self.give_up(SdoAbortCode::DataTypeLengthMismatch, Outcome::Unexpected);
+        }
+        self.is_unsized = self.received.is_none() && data[0] & 0xE3 == 0x42;
+        self.outcome = match self.client.handle_frame(SdoFrame::new(self.answers, data), 0) {
             Ok(Some(outcome)) => Some(Outcome::Done(outcome)),
             Ok(None) => None,
             Err(SdoError::ServerAborted(code)) => Some(Outcome::Refused(AbortCode(u32::from(code)))),
             Err(_) => Some(Outcome::Unexpected),
         };
+        self.next = self.client.poll_transmit();
+        if self.outcome.is_none() && self.next.is_none() {
+            self.pass_over();
+        }
+    }
+
+    /// Passes over an answer to somebody else. Each has its own time, so that there must not be too many.
+    fn pass_over(&mut self) {
+        self.strangers -= 1;
+        if self.strangers == 0 {
+            self.give_up(SdoAbortCode::ProtocolTimeout, Outcome::Late);
+        }
+    }
+
+    /// Whether this is a segment that brings nothing and isn't the last one: there could be any number.
+    const fn is_empty_segment(&self, data: &[u8; 8]) -> bool {
+        self.received.is_some() && data[0] & 0xEF == 0x0E
     }
 
     /// How many bytes an upload has that has more than there is room for: by the length that the device announces, or by its
@@ -108,10 +152,16 @@ impl Transfer {
         Some(length).filter(|length| *length > self.room)
     }
 
+    /// What tells the node that nobody listens any more, because of the interface.
+    fn broken(&mut self) -> Option<CanFrame> {
+        self.client.abort(SdoAbortCode::General);
+        self.request()
+    }
+
     /// The end, once it is reached.
-    fn end<E>(&mut self) -> Option<Result<SdoOutcome, Error<E>>> {
+    fn end<E>(&mut self) -> Option<Result<Done, Error<E>>> {
         Some(match self.outcome.take()? {
-            Outcome::Done(outcome) => Ok(outcome),
+            Outcome::Done(outcome) => Ok(Done { outcome, is_unsized: self.is_unsized }),
             Outcome::Refused(code) => Err(Error::Abort(code)),
             Outcome::Unexpected => Err(Error::UnexpectedReply),
             Outcome::TooLong(length) => Err(Error::Length(LengthError::new(self.room, length))),
@@ -120,32 +170,47 @@ impl Transfer {
     }
 }
 
-/// Puts what was uploaded to the start of `buffer`, and gives its length.
-fn uploaded<E>(outcome: SdoOutcome, buffer: &mut [u8]) -> Result<usize, Error<E>> {
-    let SdoOutcome::UploadCompleted(data) = outcome else { return Err(Error::UnexpectedReply) };
-    buffer.iter_mut().zip(&data).for_each(|(to, from)| *to = *from);
-    Ok(data.len())
+/// A transfer that was done.
+struct Done {
+    outcome: SdoOutcome,
+    is_unsized: bool,
+}
+
+impl Done {
+    /// Puts what was uploaded to the start of `buffer`, and gives its length: where none was sent, there are as many bytes as
+    /// asked for.
+    fn uploaded<E>(&self, buffer: &mut [u8]) -> Result<usize, Error<E>> {
+        let SdoOutcome::UploadCompleted(data) = &self.outcome else { return Err(Error::UnexpectedReply) };
+        buffer.iter_mut().zip(data).for_each(|(to, from)| *to = *from);
+        Ok(if self.is_unsized { data.len().min(buffer.len()) } else { data.len() })
+    }
 }
 
 impl<P: CanPort> Node<P> {
-    fn run(&mut self, mut transfer: Transfer) -> Result<SdoOutcome, Error<P::Error>> {
-        let (answers, timeout) = (transfer.answers, self.timeout());
-        let mut of_node = |frame: &CanFrame| frame.id() == answers;
-        let mut old = if self.is_unfinished { BACKLOG } else { 0 };
+    fn run(&mut self, mut transfer: Transfer) -> Result<Done, Error<P::Error>> {
+        let (mut of_node, timeout) = (Transfer::is_answer(transfer.answers), self.timeout());
+        // Answers to requests that were given up may have come late.
+        let mut old = BACKLOG;
         while old > 0 && self.port().receive(Duration::ZERO, &mut of_node).map_err(Error::Client)?.is_some() {
             old -= 1;
         }
-        self.is_unfinished = true;
         loop {
             while let Some(frame) = transfer.request() {
                 self.send(&frame)?;
             }
             if let Some(end) = transfer.end() {
-                self.is_unfinished = !matches!(end, Ok(_) | Err(Error::Abort(_)));
                 return end;
             }
-            let answer = self.port().receive(timeout, &mut of_node);
-            transfer.answer(answer.map_err(Error::Client)?);
+            match self.port().receive(timeout, &mut of_node) {
+                Ok(answer) => transfer.answer(answer),
+                Err(error) => {
+                    // The node needn't wait for the rest. Whether that reaches it doesn't matter to the caller.
+                    if let Some(abort) = transfer.broken() {
+                        let _ = self.send(&abort);
+                    }
+                    return Err(Error::Client(error));
+                }
+            }
         }
     }
 }
@@ -155,8 +220,7 @@ impl<P: CanPort> Client for Node<P> {
     type Error = P::Error;
 
     fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Error<P::Error>> {
-        let outcome = self.run(Transfer::upload(self.id(), address, buffer.len())?)?;
-        uploaded(outcome, buffer)
+        self.run(Transfer::upload(self.id(), address, buffer.len())?)?.uploaded(buffer)
     }
 
     fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<P::Error>> {
@@ -165,24 +229,28 @@ impl<P: CanPort> Client for Node<P> {
 }
 
 impl<P: AsyncCanPort> Node<P> {
-    async fn run_async(&mut self, mut transfer: Transfer) -> Result<SdoOutcome, Error<P::Error>> {
-        let (answers, timeout) = (transfer.answers, self.timeout());
-        let mut of_node = |frame: &CanFrame| frame.id() == answers;
-        let mut old = if self.is_unfinished { BACKLOG } else { 0 };
+    async fn run_async(&mut self, mut transfer: Transfer) -> Result<Done, Error<P::Error>> {
+        let (mut of_node, timeout) = (Transfer::is_answer(transfer.answers), self.timeout());
+        let mut old = BACKLOG;
         while old > 0 && self.port().receive(Duration::ZERO, &mut of_node).await.map_err(Error::Client)?.is_some() {
             old -= 1;
         }
-        self.is_unfinished = true;
         loop {
             while let Some(frame) = transfer.request() {
                 self.send_async(&frame).await?;
             }
             if let Some(end) = transfer.end() {
-                self.is_unfinished = !matches!(end, Ok(_) | Err(Error::Abort(_)));
                 return end;
             }
-            let answer = self.port().receive(timeout, &mut of_node).await;
-            transfer.answer(answer.map_err(Error::Client)?);
+            match self.port().receive(timeout, &mut of_node).await {
+                Ok(answer) => transfer.answer(answer),
+                Err(error) => {
+                    if let Some(abort) = transfer.broken() {
+                        let _ = self.send_async(&abort).await;
+                    }
+                    return Err(Error::Client(error));
+                }
+            }
         }
     }
 }
@@ -192,8 +260,7 @@ impl<P: AsyncCanPort> AsyncClient for Node<P> {
     type Error = P::Error;
 
     async fn read(&mut self, address: Object, buffer: &mut [u8]) -> Result<usize, Error<P::Error>> {
-        let outcome = self.run_async(Transfer::upload(self.id(), address, buffer.len())?).await?;
-        uploaded(outcome, buffer)
+        self.run_async(Transfer::upload(self.id(), address, buffer.len())?).await?.uploaded(buffer)
     }
 
     async fn write(&mut self, address: Object, data: &[u8]) -> Result<(), Error<P::Error>> {

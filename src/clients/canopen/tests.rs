@@ -154,20 +154,15 @@ fn late_answers_are_not_those_of_the_next_transfer() {
 
 #[test]
 fn nobody_says_how_much_is_allocated() {
-    let mut node = node();
-    node.port().is_silent = true;
     let mut buffer = [0; 8];
     // Four gigabytes are announced.
-    node.port().answers.extend(CanFrame::new(0x585, &[0x41, 0x02, 0x20, 0, 0xFF, 0xFF, 0xFF, 0xFF]));
+    let mut node = scripted([&[&[0x41, 0x02, 0x20, 0, 0xFF, 0xFF, 0xFF, 0xFF]]]);
     let too_long = Err(Error::Length(LengthError::new(8, u32::MAX as usize)));
     assert_eq!(Client::read(&mut node, Object::new(0x2002, 0), &mut buffer), too_long);
     // No length, and segments without end.
-    let mut node = self::node();
-    node.port().is_silent = true;
-    node.port().answers.extend(CanFrame::new(0x585, &[0x40, 0x02, 0x20, 0, 0, 0, 0, 0]));
-    for toggle in [0x00, 0x10, 0x00, 0x10] {
-        node.port().answers.extend(CanFrame::new(0x585, &[toggle, 1, 2, 3, 4, 5, 6, 7]));
-    }
+    let begin = [0x40, 0x02, 0x20, 0, 0, 0, 0, 0];
+    let [even, odd] = [0x00, 0x10].map(|toggle| [toggle, 1, 2, 3, 4, 5, 6, 7]);
+    let mut node = scripted([&[&begin], &[&even], &[&odd], &[&even], &[&odd]]);
     let endless = Client::read(&mut node, Object::new(0x2002, 0), &mut buffer);
     assert_eq!(endless, Err(Error::Length(LengthError::new(8, 14))));
 }
@@ -180,6 +175,103 @@ fn answers_to_nobody_are_passed_over() {
     node.port().answers.extend(CanFrame::new(0x585, &[0x00, 1, 2, 3, 4, 5, 6, 7]));
     node.port().answers.extend(CanFrame::new(0x585, &[0x4B, 0x01, 0x20, 0, 9, 9, 0, 0]));
     assert_eq!(SPEED.at(&mut node).read(), Ok(7));
+}
+
+/// A node that answers the requests one after the other with these frames, whatever they are.
+#[derive(Default)]
+struct Script {
+    answers: VecDeque<Vec<Vec<u8>>>,
+    waiting: VecDeque<CanFrame>,
+    sent: Vec<Vec<u8>>,
+    is_broken: bool,
+}
+
+impl CanPort for Script {
+    type Error = &'static str;
+
+    fn send(&mut self, frame: &CanFrame, _: Duration) -> Result<bool, Self::Error> {
+        self.sent.push(frame.data().into());
+        let answers = self.answers.pop_front().unwrap_or_default();
+        self.waiting.extend(answers.iter().filter_map(|data| CanFrame::new(0x585, data)));
+        Ok(true)
+    }
+
+    fn receive(
+        &mut self,
+        patience: Duration,
+        wanted: &mut dyn FnMut(&CanFrame) -> bool,
+    ) -> Result<Option<CanFrame>, Self::Error> {
+        let next = std::iter::from_fn(|| self.waiting.pop_front()).find(|frame| wanted(frame));
+        match next {
+            None if self.is_broken && !patience.is_zero() => Err("the bus is off"),
+            next => Ok(next),
+        }
+    }
+}
+
+fn scripted<const N: usize>(answers: [&[&[u8]]; N]) -> Node<Script> {
+    let answers = answers.map(|frames| frames.iter().map(|frame| frame.to_vec()).collect());
+    Node::new(Script { answers: answers.into(), ..Script::default() }, NodeId::new(NODE).expect("a node-ID"))
+}
+
+/// The answer to an upload of a number of 16 bits.
+fn number(index: u16, value: u8) -> [u8; 8] {
+    let [low, high] = index.to_le_bytes();
+    [0x4B, low, high, 0, value, 0, 0, 0]
+}
+
+#[test]
+fn reads_are_in_step_again_after_a_late_answer() {
+    let (one, two, three) = (number(0x2000, 1), number(0x2000, 2), number(0x2000, 3));
+    // The request, the abort for want of an answer, and then both answers at once.
+    let mut node = scripted([&[], &[], &[&one, &two], &[&three]]);
+    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
+    assert_eq!(SPEED.at(&mut node).read(), Ok(1), "nothing tells it from the answer to this request");
+    assert_eq!(SPEED.at(&mut node).read(), Ok(3));
+}
+
+#[test]
+fn answers_to_others_dont_go_on_for_ever() {
+    let other = number(0x2001, 9);
+    let own = number(0x2000, 7);
+    let mut few = std::vec![&other[..]; 200];
+    few.push(&own);
+    assert_eq!(SPEED.at(&mut scripted([&few])).read(), Ok(7));
+    let many = std::vec![&other[..]; 1000];
+    let mut node = scripted([&many]);
+    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout));
+    assert_eq!(node.port().sent[1][0], 0x80, "it is aborted");
+    // Segments that bring nothing.
+    let begin = [0x41, 0x02, 0x20, 0, 0, 0, 0, 0];
+    let mut node = scripted([&[&begin], &[&[0x0E, 0, 0, 0, 0, 0, 0, 0]], &[&[0x1E, 0, 0, 0, 0, 0, 0, 0]]]);
+    assert_eq!(Client::read(&mut node, Object::new(0x2002, 0), &mut [0; 8]), Err(Error::UnexpectedReply));
+    assert_eq!(node.port().sent.last().map(|data| data[0]), Some(0x80));
+}
+
+#[test]
+fn values_without_a_length_have_the_length_of_their_type() {
+    let answer = [0x42, 0x00, 0x20, 0, 0x37, 0x02, 0, 0];
+    assert_eq!(SPEED.at(&mut scripted([&[&answer]])).read(), Ok(0x237));
+    let mut byte = [0];
+    assert_eq!(Client::read(&mut scripted([&[&answer]]), Object::new(0x2000, 0), &mut byte), Ok(1));
+    let mut double = [0; 8];
+    assert_eq!(Client::read(&mut scripted([&[&answer]]), Object::new(0x2000, 0), &mut double), Ok(4));
+}
+
+#[test]
+fn messages_of_less_than_eight_bytes_are_none() {
+    let mut node = scripted([&[&[0x4B, 0x00, 0x20, 0]]]);
+    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Timeout), "a zero that nobody sent");
+    let mut node = scripted([&[&[0x4B, 0x00, 0x20, 0], &number(0x2000, 7)]]);
+    assert_eq!(SPEED.at(&mut node).read(), Ok(7));
+}
+
+#[test]
+fn a_transfer_is_aborted_where_the_interface_fails() {
+    let mut node = scripted([]);
+    node.port().is_broken = true;
+    assert_eq!(SPEED.at(&mut node).read(), Err(Error::Client("the bus is off")));
+    assert_eq!(node.port().sent[1], [0x80, 0x00, 0x20, 0, 0, 0, 0, 8]);
 }
 
 #[test]
@@ -251,6 +343,11 @@ fn pdos_have_the_identifiers_of_the_node() {
     assert_eq!(node.send_pdo(CobId::from_node(0x200), &[1, 2]), Ok(()));
     // Off by default, until it is configured.
     assert_eq!(node.send_pdo(CobId::from_node(0xC000_0200), &[]), Ok(()));
+    // No identifier, SDOs, heartbeats, and 29 bits.
+    for wrong in [CobId::fixed(0x8000_0000), CobId::from_node(0x8000_0000), CobId::fixed(0), CobId::fixed(0x605)] {
+        assert_eq!(node.send_pdo(wrong, &[0x80, 0]), Err(Error::OutOfRange(OutOfRange)));
+        assert_eq!(node.receive_pdo(wrong, Duration::ZERO), Err(Error::OutOfRange(OutOfRange)));
+    }
     assert_eq!(node.send_pdo(CobId::fixed(0x2000_0800), &[]), Err(Error::OutOfRange(OutOfRange)));
     assert_eq!(node.send_pdo(CobId::fixed(0x205), &[0; 9]), Err(Error::Length(LengthError::new(8, 9))));
 }
